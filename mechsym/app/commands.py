@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from mechsym.app.answers import Plotted
-from mechsym.app.told import pretty, told
+from mechsym.app.told import KNOWN, pretty, told
 from mechsym.cases import Case
 from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import COMMANDS, lacking
@@ -20,6 +20,7 @@ from mechsym.mechanisms.record import listing
 from mechsym.page import Finding
 from mechsym.quantities import record
 from mechsym.quantities.display import heading, stem_and_unit
+from mechsym.quantities.words import key_words
 
 _TABS = ("hinge", "simulate", "forces", "cycle", "size", "codesign")
 _MOST_ROWS = 400  # more than any command says of a case of ours
@@ -138,14 +139,15 @@ def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
     goes_on = {i for i in moving if named[i][1] == "rad" and max(columns[i]) - min(columns[i]) > _TURNS}
     moving.sort(key=lambda i: (named[i][0] not in _FIRST, i in goes_on))
     x_name, x = _axis(*named[place], columns[place])
-    shown = ((named[i][0], *_axis(*named[i], columns[i])) for i in moving[:_MOST_CURVES])
+    shown = ((key_words(named[i][0], KNOWN), *_axis(*named[i], columns[i])) for i in moving[:_MOST_CURVES])
     return tuple(Plotted(name=name, chart=name, x_name=x_name, y_name=y_name, x=x, y=y) for name, y_name, y in shown)
 
 
 def _axis(name: str, unit: str, values: tuple[float, ...]) -> tuple[str, tuple[float, ...]]:
     """Name and values of an axis in the unit in which people are shown them [unit]."""
     title, shown = heading(name, list(values), unit=None if unit == "-" else unit)
-    return pretty(title), tuple(shown)
+    stem, bracket, rest = title.partition(" [")
+    return pretty(key_words(stem, KNOWN) + bracket + rest), tuple(shown)
 
 
 def _head(head: str) -> tuple[str, str]:

@@ -72,9 +72,9 @@ def bars(answer: Answer) -> str:
 
 def run_table(found: Run, pinned: Run | None = None) -> str:
     """What a command said."""
-    state = {0: "done", 1: "done: infeasible, or a check failed", 2: "refused", 3: "done, with doubts"}
+    state = {0: "done", 1: "done: what is asked is not met", 2: "refused: see why", 3: "done, with doubts"}
     words = f"<p>{html.escape(found.words)}</p>" if found.words else ""
-    said = f"<p class='mechsym-note'>{state.get(found.status, 'failed')}</p>"
+    said = f"<p class='mechsym-note'>{state.get(found.status, 'failed: it ended before it was done')}</p>"
     return findings(found.findings) + said + words + table(found.rows, pinned.rows if pinned else ())
 
 

@@ -69,13 +69,14 @@ class HingePanel(Panel):
         self.one = asyncio.Lock()
         self.answer: Answer | None = None
         self.pinned: Answer | None = None
-        self.verdict = ui.label("designing the hinge ..").classes("text-lg").props('data-verdict="1"')
-        self.first = ui.html("", sanitize=False).props('data-findings="1"')
-        self.doubts = ui.label().classes("text-orange-9 whitespace-pre-line")
-        with ui.element("div").classes("w-full grid gap-6 grid-cols-1 lg:grid-cols-2"):
+        with ui.element("div").classes("w-full grid gap-6 grid-cols-1 lg:grid-cols-2 items-start"):
             self.stage = ui.html("", sanitize=False).classes("w-full")
-            self.rows = ui.html("", sanitize=False)
-        self.bars = ui.html("", sanitize=False)
+            with ui.column().classes("gap-2"):
+                self.verdict = ui.label("designing the hinge ..").classes("text-lg").props('data-verdict="1"')
+                self.first = ui.html("", sanitize=False).props('data-findings="1"')
+                self.doubts = ui.label().classes("text-orange-9 whitespace-pre-line")
+                self.bars = ui.html("", sanitize=False)
+        self.rows = ui.html("", sanitize=False)
         self.charts = ui.element("div").classes("w-full grid gap-2 grid-cols-1 sm:grid-cols-2 xl:grid-cols-3")
 
     async def show(self, values: Mapping[str, float], newest: Callable[[], bool]) -> None:

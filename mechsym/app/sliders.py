@@ -11,12 +11,14 @@ from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 from mechsym.quantities.records import Field, Record
+from mechsym.quantities.words import key_words
 
 _REACH = 2.0  # times a value, and its inverse, are as far as its slider goes
 _STEPS = 200
 #: how far the slider of a zero goes by its unit; else as far as the largest value of its section with that unit, or 1
 _FROM_ZERO = {"Pa": 2e5, "m/s^2": 20.0}
 _HALVINGS = 8
+_SYMBOL = 4  # letters: a longer name is no symbol
 
 
 @record
@@ -94,7 +96,10 @@ def _slider(case: Case, key: str, field: Field, value: float, reach: float) -> S
         low, high = float(math.ceil(low)), float(math.floor(high))
     low, high = _reached(case, key, value, low, whole), _reached(case, key, value, high, whole)
     step = 1.0 if whole else (high - low) / _STEPS or 1e-9
-    return Slider(key=key, label=field.name, about=meta.get("about", ""), unit=meta["unit"], value=value, low=low,
+    name, about = field.name, str(meta.get("about", "")).partition(";")[0].partition(":")[0]
+    symbol = f"{about}, {name}" if len(name) <= _SYMBOL and "_" not in name else about
+    label = symbol if about else key_words(name)
+    return Slider(key=key, label=label, about=meta.get("about", ""), unit=meta["unit"], value=value, low=low,
                   high=high, step=step)  # fmt: skip
 
 

@@ -6,12 +6,15 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from mechsym.cycle.columns import UNITS, WORDS
 from mechsym.files import Json
 from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in, without_unit
+from mechsym.quantities.words import key_words
 
 Rows = list[tuple[str, str]]
 
-_SILENT = ("files", "written", "units", "final_state")  # of a folder that is gone; beside their values; ends of curves
+# of a folder that is gone; beside their values; ends of curves; at the head of the page
+_SILENT = ("files", "written", "units", "final_state", "case", "mechanism")
 _MOST = 8  # entries of a list that are told
 _ORDERS = 4  # orders of a harmonic analysis that are told
 _NAMES = {"component", "quantity"}
@@ -23,11 +26,20 @@ _BARE = dict.fromkeys(("N", "N*m", "J"), 1e-9) | dict.fromkeys(("kg*m", "rad", "
 _ROUNDING = 1e-9  # of the largest number of one unit in a group
 _FREQUENCIES = ("natural", "natural_bare", "natural_frequencies")  # told in Hz
 _PLAIN = ("tolerance", "knock")  # pure numbers that are no ratios
+#: Words of results without the unit that ends their names
+KNOWN = {without_unit(name, UNITS[name]): words for name, words in WORDS.items()}
 Units = Mapping[str, str]  # of numbers by their paths
 
 
 def told(found: Json | list[Json], units: Units) -> Rows:
     """Rows of what a command said; units: of its numbers by path, `speeds.phi.mean`."""
+    rows = _told(found, units)
+    worded = {name: key_words(name, KNOWN) for name, _ in rows}
+    often = Counter(worded.values())
+    return [(worded[name] if often[worded[name]] == 1 else key_words(name), text) for name, text in rows]
+
+
+def _told(found: Json | list[Json], units: Units) -> Rows:
     if isinstance(found, list):
         return _checks(found, units)
     rows = [
@@ -119,7 +131,7 @@ def _checks(found: Sequence[Json], units: Units) -> Rows:
     if not all(isinstance(row, Mapping) and row.keys() >= _NAMES for row in found):
         return _rows("", list(found), units)
     order = sorted(found, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
-    return [(f"{r['component']}: {r['quantity']}", _beside(r)) for r in order]
+    return [(f"{key_words(r['component'])}: {r['quantity']}", _beside(r)) for r in order]
 
 
 def _beside(row: Json) -> str:
@@ -176,14 +188,14 @@ def _entry(prefix: str, found: object, units: Units) -> Rows:
     flat = isinstance(found, Mapping) and not any(isinstance(v, (Mapping, list)) for v in found.values())
     if not flat or len(rows) < 2:
         return rows
-    return [(prefix, "; ".join(f"{name.rpartition('.')[2]} {value}" for name, value in rows))]
+    return [(prefix, "; ".join(f"{key_words(name.rpartition('.')[2], KNOWN)} {value}" for name, value in rows))]
 
 
 def _as_one(found: Mapping[str, Any], unit: str) -> str:
     """A value with its confidence, or a limit with what one more of it would give."""
     if "limit" in found:
         per = "" if found["unit"] in (None, "-") else f" per {pretty(found['unit'])}"
-        return f"{found['limit']}, multiplier {figure(found['multiplier'])}{per}"
+        return f"{key_words(found['limit'])}, multiplier {figure(found['multiplier'])}{per}"
     return f"{_text(found['value'], unit)} \u00b1 {_text(found['confidence'], unit)}"
 
 

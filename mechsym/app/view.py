@@ -115,9 +115,9 @@ class Page:
 
     def _slider(self, knob: Slider) -> None:
         ui, value = self.ui, self.values.get(knob.key, knob.value)
-        self.rows[knob.key] = ui.row().classes("w-full items-center no-wrap gap-2")
+        self.rows[knob.key] = ui.row().classes("w-full items-center gap-x-2 gap-y-0")
         with self.rows[knob.key]:
-            ui.label(knob.label).classes("w-28 text-sm break-words").props["title"] = knob.about or knob.key
+            ui.label(knob.label).classes("w-full text-xs break-words").props["title"] = knob.key
             moved = ui.slider(min=min(knob.low, value), max=max(knob.high, value), step=knob.step, value=value)
             moved.classes("grow").props(f'data-key="{knob.key}" aria-label="{knob.key}"')
             shown = ui.label(told_value(knob, value)).classes(
@@ -170,7 +170,7 @@ class Page:
         told: dict[str, list[str]] = {}
         for key in here:
             if key in still:
-                told.setdefault(still[key], []).append(key)
+                told.setdefault(still[key], []).append(self.knobs[key].label)
         left_out = "; ".join(f"{', '.join(keys)} ({why})" for why, keys in told.items())
         self.still.text = f"not here: {left_out}" if left_out else ""
 
@@ -266,7 +266,7 @@ _STYLE = """<style>
 .mechsym-sliders { position: sticky; z-index: 2; overflow-y: auto; flex-wrap: nowrap; }
 @media (min-width: 768px) { .mechsym-sliders { top: 0; max-height: 100vh; } }
 @media (max-width: 767px) {
-  .mechsym-sliders { bottom: 0; max-height: 40vh; background: #fff; border-top: 1px solid #888; }
+  .mechsym-sliders { bottom: 0; max-height: 26vh; background: #fff; border-top: 1px solid #888; }
   .body--dark .mechsym-sliders { background: #121212; } }
 .body--dark .q-tab-panels { background: transparent; }
 .mechsym-note { opacity: .7; }

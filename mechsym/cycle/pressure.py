@@ -36,7 +36,7 @@ class Pressure:
     kinks: tuple[float, ...]  #: Crank angles in [0, period) where p is not smooth [rad]
     #: ndarray of crank angles, any real [rad], to absolute pressure of the same shape [Pa]
     absolute: Callable[[Scalar], Scalar]
-    p_max: float = quantity("Pa", card="p_max")  #: Absolute
+    p_max: float = quantity("Pa", card="largest pressure")  #: Absolute
     phi_p_max: float = quantity("rad")  #: Crank angle of the peak, in (-period/2, period/2]
     mean_indicated: float = quantity("Pa", card="IMEP net")  #: Net over the period
     #: Highest mean temperature of the gas; None where its mass is not known

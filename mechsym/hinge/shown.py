@@ -90,6 +90,18 @@ def _dimensions(design: Design, guide: Verdict) -> list[Card]:
     ]  # fmt: skip
 
 
+def _speeds_words(design: Design) -> str:
+    """What the picture of the speeds shows: the largest ripples with the hinge and without."""
+    told = []
+    for how, hinged in (("with the hinge", True), ("without", False)):
+        runs = [t for t in design.trials if (t.name not in ("without", "flywheel")) == hinged]
+        known = [(t.speed_ripple, t.about) for t in runs if t.speed_ripple is not None]
+        told += [
+            f"{how} it ripples by {ratio_text(ripple, 2)} at most ({about})" for ripple, about in sorted(known)[-1:]
+        ]
+    return ", ".join(["Crank speed over the design speed", *told]).replace(", ", ": ", 1) + "."
+
+
 def pictures(design: Design) -> tuple[Picture, ...]:
     """The figures that there is something to draw for."""
     gas = design.machine.gas
@@ -97,7 +109,7 @@ def pictures(design: Design) -> tuple[Picture, ...]:
         Picture(name="torque", draw=lambda: plots.torque(design),
                 see="Hinge torque on the crank with its parts, and below its work, which comes back after a period."),
         Picture(name="speeds", draw=lambda: plots.speeds(design),
-                see="Crank speed over the design speed: flat with the hinge, a wave without."),
+                see=_speeds_words(design)),
     ]  # fmt: skip
     if gas is not None:
         see = f"Pressure of the cycle {gas.pressure.kind} with its events; the gas torque follows from it."

@@ -11,6 +11,7 @@ import numpy as np
 from mechsym.errors import MissingExtra
 from mechsym.quantities import record
 from mechsym.quantities.display import column_text, heading, shown_in, stem_and_unit, without_unit
+from mechsym.quantities.words import key_words
 
 if TYPE_CHECKING:
     import pandas
@@ -51,7 +52,8 @@ def grid(
     shown = [["–" if text == "-" else text for text in column_text(values)] for _, values in headed]
     cells = [tuple(column[i] for column in shown) for i in range(len(rows))]
     number = tuple(any(isinstance(v, (int, float)) for v in values) for _, values in headed)
-    names = tuple(name.replace("_", " ") for name, _ in headed)
+    named = (name.partition(" [") for name, _ in headed)
+    names = tuple(key_words(stem) + bracket + unit for stem, bracket, unit in named)
     return Grid(title=title, headings=names, rows=tuple(cells), numbers=number)
 
 

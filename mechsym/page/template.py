@@ -6,11 +6,15 @@ from typing import TYPE_CHECKING
 
 import mechsym
 from mechsym.quantities.display import figure, quantity_text, ratio_text
+from mechsym.quantities.words import key_words
 from mechsym.style import significant
 
 if TYPE_CHECKING:
     import jinja2
 
+_KEYED = re.compile(r"[A-Za-z][\w.]*(?= ?=)")  # a key before its value
+_NAMED = re.compile(r"(?<![\w./\\])[A-Za-z]\w*_\w+(?![\w(/]|\.[a-z])")  # a key, no file
+_SYMBOL = 3  # letters before its index
 _TIMES = re.compile(r"(?<=[a-zA-Z])\*(?=[a-zA-Z])")
 
 
@@ -37,8 +41,10 @@ def _environment() -> "jinja2.Environment":
     )
     made.globals["version"] = mechsym.__version__
     made.filters |= {
-        "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "pretty": pretty,
-        "quantity": lambda value, unit, digits=5: pretty(quantity_text(value, unit, digits)),
+        "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "plain": pretty,
+        "pretty": typeset,
+        "words": key_words, "places": lambda text: _KEYED.sub(lambda found: key_words(found[0]), str(text)),
+        "quantity": lambda value, unit, digits=5: typeset(quantity_text(value, unit, digits)),
     }  # fmt: skip
     return made
 
@@ -48,6 +54,18 @@ def _percent(share: float | None, digits: int = 3) -> str:
     if share is None:
         return "–"
     return "0 %" if abs(share) < 1e-9 else f"{figure(100 * share, digits)} %"
+
+
+def typeset(text: object) -> str:
+    """Text of a page: units as a book sets them, symbols with their index, other keys as what is typed."""
+    from markupsafe import Markup, escape
+
+    return Markup(_NAMED.sub(_set, str(escape(pretty(text)))))  # noqa: S704 escaped before
+
+
+def _set(found: re.Match[str]) -> str:
+    base, _, index = found[0].partition("_")
+    return f"{base}<sub>{index.replace('_', ' ')}</sub>" if len(base) <= _SYMBOL else f"<code>{found[0]}</code>"
 
 
 def pretty(text: object) -> str:

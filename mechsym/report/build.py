@@ -82,13 +82,17 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
     """
     shown, number = [], 0
     for place, one in enumerate(reports, 1):
-        parts, told = [], list[str]()
+        parts, told, scenes = [], list[str](), _turning(one)
+        seen = {"mechanism", "elastic_hinge"} if scenes else set()  # they turn at the head
+        # the diagram of the gas once, with its events where it has them
+        shown_of = (p for made in one.parts if made.view for p in made.view.pictures)
+        of_gas = dict(zip(("indicator",), (p for p in shown_of if p.name == "pressure"), strict=False))
         for found in one.parts:
             if found.state in (LEFT_OUT, REFUSED) or found.view is None:
                 continue
             figures = []
-            for picture in found.view.pictures:
-                number += 1
+            for picture in (of_gas.get(drawn.name, drawn) for drawn in found.view.pictures if drawn.name not in seen):
+                number, seen = number + 1, seen | {picture.name}
                 drawn = picture.draw()
                 width, height = drawn.get_size_inches()
                 figures.append({"number": number, "see": picture.see, "svg": svg(drawn, str(number)),
@@ -96,15 +100,8 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
             facts = [fact for fact in found.facts if fact not in told]
             told += facts
             parts.append({"part": found, "facts": facts, "figures": figures, "id": f"{found.name}-{place}"})
-        shown.append(
-            {
-                "report": one,
-                "scenes": _turning(one),
-                "answer": answer(one.case, one.parts),
-                "parts": parts,
-                "id": f"case-{place}",
-            }
-        )
+        first = answer(one.case, one.parts)
+        shown.append({"report": one, "scenes": scenes, "answer": first, "parts": parts, "id": f"case-{place}"})
     return page(
         "report.html", shown=shown, rows=side_by_side([(r.case.name, r.parts) for r in reports]), title=_title(reports),
         block=[_block(one, date) for one in reports], many=len(reports) > 1,

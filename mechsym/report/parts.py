@@ -39,6 +39,7 @@ from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
 from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in
 from mechsym.quantities.results import tell, units_of
+from mechsym.quantities.words import key_words
 from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
 from mechsym.sizing.shown import tightest
 from mechsym.torsion import train
@@ -106,7 +107,7 @@ def _extremes(row: Json) -> list[str]:
 
 _MODEL, _CLOSED = "the cycle is a model: ", "the closed period only, gas exchange at constant pressure"
 _ASSUMES = "what it assumes stands with its figure"
-_FIRST = ("speed", "brake power", "BMEP", "BSFC", "indicated power", "power", "p_max", "IMEP net", "COV of net IMEP",
+_FIRST = ("speed", "brake power", "BMEP", "BSFC", "indicated power", "power", "IMEP net", "COV of net IMEP",
           "CA50", "largest pressure", "rate of rise")  # fmt: skip
 _HINGE = (
     "the ripple is that of an ideal hinge at one speed and one load; friction, heat and a lost combustion stand beside "
@@ -256,8 +257,9 @@ def _forces(case: Case) -> ReportPart:
 def _size(case: Case) -> ReportPart:
     printed = roles_of(case.mechanism).rules == "slider crank" and "part_crosshead" in case.sections
     found = check_printed(case) if printed else size(case)
-    sizes = [_sized(row) for row in found.rows if row["limit"] is None]
-    checks = [_sized(row) | {"": "" if row["holds"] else "BELOW"} for row in found.rows if row["limit"] is not None]
+    rows = [{**row, "component": key_words(row["component"])} for row in found.rows]
+    sizes = [_sized(row) for row in rows if row["limit"] is None]
+    checks = [_sized(row) | {"": "" if row["holds"] else "BELOW"} for row in rows if row["limit"] is not None]
     tight = [_tight(row) for row in tightest(found)[:3]]
     bad = bool(found.failing) or not found.converged
     state = f"{len(found.failing)} of {len(checks)} safety factors are too low" if found.failing else \
@@ -269,7 +271,7 @@ def _size(case: Case) -> ReportPart:
         grids=(grid("Sizes", sizes, ["component", "quantity", "value", "unit", "note"]), grid("Checks", checks, shown)),
         limits=tuple(tight), numbers=found.rows,
         silent=("sizes follow standards; no finite elements",) if checks else (),
-        decide=tuple(f"{c.component}: {c.quantity} is below the wanted factor" for c in found.failing),
+        decide=tuple(f"{key_words(c.component)}: {c.quantity} is below the wanted factor" for c in found.failing),
     )  # fmt: skip
 
 
@@ -287,7 +289,7 @@ def _tight(row: Json) -> str:
     shown = _sized(row)
     value, limit = (figure(shown[key], 4) for key in ("value", "limit"))
     beside = f"{value} beside a limit of {limit} {shown['unit']}, " if shown["unit"] else ""
-    return f"{row['component']}, {row['quantity']}: {beside}{factor}"
+    return f"{key_words(row['component'])}, {row['quantity']}: {beside}{factor}"
 
 
 def _simulate(case: Case) -> ReportPart:

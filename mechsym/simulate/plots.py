@@ -39,7 +39,7 @@ def speed(result: Result, coordinate: str, period: Radian, wanted: RadPerSecond,
     if high - low < _LEAST * wanted * factor:  # round-off is no ripple
         whole.set_ylim(np.array([-0.5, 0.5]) * _LEAST * wanted * factor + (low + high) / 2)
     whole.set(xlabel="time [s]", ylabel=f"speed [{unit}]")
-    of = f"the {words}, {coordinate}" if words else coordinate
+    of = f"the {words}" if words else coordinate.replace("_", " ")
     heading(whole, f"speed of {of}{'' if result.end in _PLANNED else f', ended by {result.end}'}")
     legend(whole, width=5.0)
     keep = t >= last_period(result, coordinate, period)

@@ -6,6 +6,7 @@ from mechsym.files import Json
 from mechsym.page import Card, Finding, Picture, View, shows
 from mechsym.page.finding import NOT_MET
 from mechsym.quantities.display import figure
+from mechsym.quantities.words import key_words
 from mechsym.sizing.result import Sizing
 from mechsym.sizing.rows import COLUMNS
 
@@ -21,7 +22,7 @@ def sizing_view(found: Sizing) -> View:
         cards = [Card(name="sizes", value="loads only", about="no rule sizes its parts")]
     for row in tightest(found)[:3]:
         wanted = f"factor; wanted {figure(row['wanted'])}"
-        cards.append(Card(name=f"{row['component']}, {row['quantity']}", about=wanted,
+        cards.append(Card(name=f"{key_words(row['component'])}, {row['quantity']}", about=wanted,
                           value=figure(row["safety_factor"], 4), mark="" if row["holds"] else "no"))  # fmt: skip
     drawn: tuple[Picture, ...] = ()
     if found.stock is not None:
@@ -34,9 +35,9 @@ def sizing_view(found: Sizing) -> View:
 
 def _too_low(found: Sizing) -> list[Finding]:
     """Each check that does not hold."""
-    factors = ((row, f"{figure(row.safety_factor, 3)}, wanted {figure(row.wanted, 3)}") for row in found.failing)
+    factors = ((row, f"factor {figure(row.safety_factor, 3)}, wanted {figure(row.wanted, 3)}") for row in found.failing)
     return [
-        Finding(rank=NOT_MET, words=f"{row.component}, {row.quantity}: factor {said}", value=row.safety_factor)
+        Finding(rank=NOT_MET, words=f"{key_words(row.component)}, {row.quantity}: {said}", value=row.safety_factor)
         for row, said in factors
     ]
 

@@ -48,7 +48,9 @@ def svg(figure: "Figure", name: str = "") -> str:
     head, _, rest = text.partition(">")
     shows, about = escape(title(figure)), escape(_description(figure))
     words = f'<title id="{own}-t">{shows}</title>\n <desc id="{own}-d">{about}</desc>'
-    named = f'{head} class="picture" role="img" aria-labelledby="{own}-t {own}-d">'
+    stand = " ".join(f"{x:g}" for x in columns(figure))
+    split = f' data-columns="{stand}"' if stand else ""
+    named = f'{head} class="picture"{split} role="img" aria-labelledby="{own}-t {own}-d">'
     return f"{named}\n {words}\n <style>{_sheet(rest)}</style>{rest}"
 
 
@@ -75,6 +77,24 @@ def _sheet(text: str) -> str:
     )
     rules = f".picture *{{stroke-linejoin:round;stroke-linecap:butt}}.picture text{{fill:{INK}}}"
     return f"{rules}@media screen and (prefers-color-scheme:dark){{.picture text{{fill:{DARK[INK]}}}{dark}}}"
+
+
+def columns(figure: "Figure") -> list[float]:
+    """Where a picture that is laid out may be cut so that its columns of panels stand below each other [pt].
+
+    Empty where it has one column, or words that go over all of them.
+    """
+    shown = [axis for axis in figure.axes if axis.get_visible()]
+    if figure.get_suptitle() or figure.legends or any(axis.get_label() == "<colorbar>" for axis in shown):
+        return []
+    places = [axis.get_position() for axis in shown]
+    starts = sorted({round(place.x0, 2) for place in places})
+    wide, cuts = 72 * figure.get_size_inches()[0], []
+    for start in starts[1:]:
+        ends = [place.x1 for place in places if place.x0 < start - 0.01]
+        if max(ends) < start:  # what names the axis stands at the left of its panel
+            cuts.append(wide * min(max(ends) + 0.008, (max(ends) + start) / 2))
+    return [0.0, *cuts, wide] if cuts else []
 
 
 def _panels(figure: "Figure") -> Iterator["Axes"]:

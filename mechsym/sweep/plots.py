@@ -4,15 +4,21 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import XAxis, YAxis
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
+from mechsym.cycle.columns import WORDS
 from mechsym.quantities.display import without_unit
+from mechsym.quantities.words import key_words
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
 from mechsym.style.palette import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
 
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own
+_COUNTS = 12  # steps of a count that is drawn with whole numbers
+_TRUTHS = ("feasible", "met", "kept", "holds", "converged", "proven")  # 1 is yes
 _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
 
@@ -63,7 +69,21 @@ def _panels(result: Sweep, shown: Mapping[str, object], rows: int = 1) -> tuple[
 
 
 def _label(name: str, unit: str) -> str:
-    return f"{name} [{unit}]" if unit else name
+    words = key_words(name, WORDS)
+    return f"{words} [{unit}]" if unit else words
+
+
+def _places(axis: XAxis | YAxis, name: str, values: np.ndarray) -> None:
+    """Whole numbers at an axis of counts, `no` and `yes` at one of truth."""
+    there = values[np.isfinite(values)]
+    if _truth(name, values):
+        axis.set_ticks([0, 1], ["no", "yes"])
+    elif np.all(there == np.round(there)) and there.size and float(np.ptp(there)) < _COUNTS:
+        axis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
+
+
+def _truth(name: str, values: np.ndarray) -> bool:
+    return name.rpartition(".")[2] in _TRUTHS and set(values[np.isfinite(values)].tolist()) <= {0.0, 1.0}
 
 
 def _scaled(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
@@ -71,7 +91,9 @@ def _scaled(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     if unit in ("", "-"):
         return np.where(np.abs(values) < _ROUND_OFF, 0.0, values), _label(name, unit)
     factor, word = axis_unit(unit, values)
-    return values * factor, _label(without_unit(name, unit), word)  # speed_rpm in rad/s is no speed_rpm
+    return values * factor, _label(
+        name if name in WORDS else without_unit(name, unit), word
+    )  # speed_rpm in rad/s is no speed_rpm
 
 
 def _slice(result: Sweep, free: list[int], column: np.ndarray) -> np.ndarray:
@@ -93,8 +115,12 @@ def _title(result: Sweep, free: list[int]) -> str:
     return "; ".join(part for part in parts if part)
 
 
-def _value(axis: Axis, value: object) -> str:
-    return f"{axis.key} = {value}" if isinstance(value, str) else f"{axis.key} = {value:.4g} {axis.unit}".rstrip(" -")
+def _value(axis: Axis, value: float | str) -> str:
+    name = key_words(axis.key, WORDS)
+    if isinstance(value, str):
+        return f"{name} = {value}"
+    factor, unit = axis_unit(axis.unit, value) if axis.unit not in ("", "-") else (1.0, "")
+    return f"{key_words(without_unit(axis.key, axis.unit), WORDS)} = {value * factor:.4g} {unit}".rstrip()
 
 
 def _ticks(axis: Axes, along: Axis) -> tuple[np.ndarray, str]:
@@ -103,7 +129,7 @@ def _ticks(axis: Axes, along: Axis) -> tuple[np.ndarray, str]:
         return _scaled(along.key, np.array(along.values), along.unit)
     places = np.arange(len(along.values))
     axis.set_xticks(places, [str(v) for v in along.values])
-    return places, along.key
+    return places, key_words(along.key, WORDS)
 
 
 def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int | None]) -> Figure:
@@ -131,6 +157,7 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
             axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_xlabel(across)
         axis.set_ylabel(told)
+        _places(axis.yaxis, name, column)
     if other is not None:
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=8, frameon=False)
@@ -148,8 +175,12 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
         axis.set_facecolor(NOTHING)
         axis.grid(False)
         if np.isfinite(values).any():
-            filled = axis.contourf(x, y, np.ma.masked_invalid(values), levels=12, cmap="viridis")
-            figure.colorbar(filled, ax=axis)
+            truth = _truth(name, column)
+            levels = [-0.5, 0.5, 1.5] if truth else 12
+            filled = axis.contourf(x, y, np.ma.masked_invalid(values), levels=levels, cmap="viridis")
+            bar = figure.colorbar(filled, ax=axis)
+            if truth:
+                bar.set_ticks([0, 1], labels=["no", "yes"])
         if _changes_sign(values):
             # where a margin ends
             axis.contour(x, y, np.ma.masked_invalid(values), levels=[0], colors=PAPER, linestyles="--")
@@ -180,6 +211,7 @@ def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
         upper.set_title(f"{y.mean():.5g} ± {y.std():.2g}", fontsize=9)
         upper.set_xlabel(told)
         upper.set_ylabel("samples [-]")
+        _places(upper.xaxis, name, column)
         i = int(np.argmax([_rank_correlation(values[there], y) for values in inputs]))
         x, across = _scaled(result.axes[i].key, inputs[i][there], result.axes[i].unit)
         lower.plot(x, y, ".", color=BLUE, markersize=3)

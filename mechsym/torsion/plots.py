@@ -90,8 +90,8 @@ def twist(result: Result, shafts: int) -> "Figure":
     name = "Speed of both ends of the shaft and its twist, over time and in the last two turns"
     figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
     ends_of = pairs(result, shafts)
-    ends = {n: result.columns[f"{n}d"] for n in (ends_of[0][0], ends_of[-1][1])}
-    twists = {f"{a} - {b}": result.columns[a] - result.columns[b] for a, b in ends_of}
+    ends = {"free end": result.columns[f"{ends_of[0][0]}d"], "flywheel": result.columns[f"{ends_of[-1][1]}d"]}
+    twists = {f"{a} - {b}".replace("_", " "): result.columns[a] - result.columns[b] for a, b in ends_of}
     last = result.columns[ends_of[0][0]] >= result.columns[ends_of[0][0]][-1] - 4 * np.pi
     for row, (curves, si, label) in enumerate(((ends, "rad/s", "speed"), (twists, "rad", "twist"))):
         whole, zoomed = axes[2 * row : 2 * row + 2]

@@ -62,7 +62,7 @@ def run_view(run: FinishedRun) -> View:
         Card(name="speed ripple", value=ripple, about=f"of a transient, {where}" if unsettled else where,
              mark="open" if unsettled else ""),
     ]  # fmt: skip
-    cards += [card(ShaftSection, "twist_peak", s.twist_peak, "peak", s.section) for s in run.twist]
+    cards += [card(ShaftSection, "twist_peak", s.twist_peak, "peak", s.section.replace("-", " to ")) for s in run.twist]
     curves = {"t": run.result.t, **run.result.columns}
     return View(title="Run in time", cards=tuple(cards), pictures=_run_pictures(run),
                 columns=lambda: Columns(curves, {"t": "s", **run.result.units}),

@@ -26,15 +26,17 @@ def test_numbers_stand_in_units_of_people():
              "twist[0].twist_peak": "rad", "speed_rpm": "rpm"}  # fmt: skip
     given = {"speed_rpm": 89.0, "t_end": 2.0, "speeds": {"phi": {"mean": 9.42477796}}, "p_max_mpa": [7.4],
              "vibration": {"natural": [62.831853, 125.663706]}, "twist": [{"of": "a", "twist_peak": 0.1}]}  # fmt: skip
-    assert rows(given, units) == {"speed": "89 rpm", "t_end": "2 s", "speeds.phi.mean": "90 rpm", "p_max": "7.4 MPa",
-                           "vibration.natural": "10, 20 Hz", "twist[0]": "of a; twist_peak 5.7296 deg"}  # fmt: skip
+    assert rows(given, units) == {"speed": "89 rpm", "end of the run": "2 s", "speeds, phi, mean": "90 rpm",
+                           "largest pressure": "7.4 MPa",
+                           "vibration, natural frequency": "10, 20 Hz",
+                           "twist 1": "of a; largest twist 5.7296 deg"}  # fmt: skip
 
 
 def test_round_off_is_named_or_zero():
     given = {"energy": {"work": {"gas": 1.1e6, "hinge": -1.9e-5}}, "power_residual": 3e-16, "tolerance": 1e-10}
     units = {"energy.work.gas": "J", "energy.work.hinge": "J", "tolerance": "-", "power_residual": "-"}
-    shown = {"power_residual": "0", "tolerance": "1e-10"}
-    assert rows(given, units) == shown | {"energy.work.gas": "1100 kJ", "energy.work.hinge": "0 J"}
+    shown = {"power left over": "0", "tolerance": "1e-10"}
+    assert rows(given, units) == shown | {"energy, work, gas": "1100 kJ", "energy, work, hinge": "0 J"}
 
 
 def test_what_belongs_together_stands_in_one_row():
@@ -43,8 +45,8 @@ def test_what_belongs_together_stands_in_one_row():
              "angle_of_max_deg": {"F": 12.5}, "torque_orders": orders, "facts": ["one", "two"],
              "wiebe": {"start": {"value": 0.1, "confidence": 0.01}}}  # fmt: skip
     assert told(given, {"max.F": "N", "wiebe.start.value": "rad", "torque_orders.amplitude": "N*m"}) == [
-        ("facts", "one"), ("facts", "two"), ("F", "-0.01 to 2 kN, largest at 12.5 deg"),
-        ("torque_orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe.start", "5.7296 deg ± 0.57296 deg"),
+        ("assumed", "one"), ("assumed", "two"), ("gas force F", "-0.01 to 2 kN, largest at 12.5 deg"),
+        ("torque orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe, start", "5.7296 deg ± 0.57296 deg"),
     ]  # fmt: skip
 
 
@@ -52,7 +54,7 @@ def test_what_swings_is_drawn_before_an_angle_that_goes_on(tmp_path):
     lines = ["t [s],phi [rad],work [J],psi [rad]", "0,0,5,0.1", "1,50,2500,-0.2", "2,100,7000,0.1"]
     (tmp_path / "series.csv").write_text("\n".join(lines), encoding="utf-8")
     found = commands._curves(tmp_path / "series.csv", "t")
-    assert [c.y_name for c in found] == ["work [kJ]", "psi [deg]", "phi [deg]"]
+    assert [c.y_name for c in found] == ["work [kJ]", "rod angle psi [deg]", "phi [deg]"]
     assert found[0].y == pytest.approx((0.005, 2.5, 7.0)) and found[0].x_name == "t [s]"
 
 
@@ -80,13 +82,13 @@ PAIRS = [(t, n) for n in cases.names() for t in commands.tabs(cases.load(n)) if 
 @pytest.mark.parametrize(("tab", "name"), PAIRS)
 def test_the_unit_of_every_number_is_known(tab, name):
     answer = json.loads(CliRunner().invoke(mechsym, [tab, name, "--json", "--with-units"]).stdout)
-    found = {k: v for k, v in answer["value"].items() if k not in ("doubts", "accepted", "min", "max")}
+    found = {k: v for k, v in answer["value"].items() if k not in ("doubts", "accepted", "headline", "min", "max")}
     assert [path for path in numbers("", found) if not unit_of(path, answer["units"])[1]] == []
 
 
 def test_two_units_of_one_name_are_told_apart():
     units = {"heat_in_j": "J", "heat_in_kw": "kW"}
-    assert rows({"heat_in_j": 353.8, "heat_in_kw": 3.54}, units) == {"heat_in_j": "353.8 J", "heat_in_kw": "3.54 kW"}
+    assert rows({"heat_in_j": 353.8, "heat_in_kw": 3.54}, units) == {"heat in j": "353.8 J", "heat in kw": "3.54 kW"}
 
 
 def test_what_only_rounds_is_no_number():
@@ -94,10 +96,11 @@ def test_what_only_rounds_is_no_number():
     given = {"shaking": {"counterweight": weight}, "rodless": {"resultant_off_crank_deg": 8.4e-15}}
     units = {"shaking.counterweight.unbalance": "kg*m", "shaking.counterweight.rms_before": "N"}
     units["rodless.resultant_off_crank_deg"] = "deg"
-    none = {"shaking.counterweight.unbalance": "0 kg m", "shaking.counterweight.rms_before": "0 N"}
-    assert rows(given, units) == none | {"rodless.resultant_off_crank": "0 deg"}
+    none = {"shaking, counterweight, unbalance": "0 kg m"}
+    none["shaking, counterweight, before, root mean square"] = "0 N"
+    assert rows(given, units) == none | {"rodless, resultant off crank": "0 deg"}
     assert rows({"verified": {"energy_residual": [6.6e-14, -2.3e-13]}}, {"verified.energy_residual": "-"}) == {
-        "verified.energy_residual": "0 at most"
+        "verified, energy left over": "0 at most"
     }
     assert rows({"findings": ["carries 70.21 N*m of it"]}) == {"findings": "carries 70.21 N m of it"}
 
@@ -107,7 +110,9 @@ def test_torque_and_pressure_are_drawn_first_in_units_of_people(tmp_path):
              "0,1e5,0,0,0,1,300,2000", "1,2e6,1,1,1,2,400,-3000"]  # fmt: skip
     (tmp_path / "cycle.csv").write_text("\n".join(lines), encoding="utf-8")
     found = commands._curves(tmp_path / "cycle.csv", "phi")
-    assert [c.y_name for c in found][:3] == ["p [MPa]", "torque [kN m]", "x [mm]"] and found[0].x_name == "phi [deg]"
+    assert [c.y_name for c in found][:3] == ["pressure p [MPa]", "torque [kN m]", "travel x [mm]"] and found[
+        0
+    ].x_name == "phi [deg]"
 
 
 def test_grey_text_can_be_read_on_both_papers():

@@ -19,7 +19,7 @@ from mechsym.jobs.optimise import optimise
 from mechsym.jobs.run import loop, run, startup
 from mechsym.jobs.size import size
 from mechsym.page import Card, Picture, ResultTable, Shown, ShownFigures, View, grid, page, shows
-from mechsym.page.template import _environment, pretty
+from mechsym.page.template import _environment, typeset
 from mechsym.quantities import record
 from mechsym.quantities.display import choose
 from mechsym.quantities.results import Columns
@@ -71,7 +71,7 @@ def test_every_result_of_a_job_shows_itself(name):
     assert len(repr(found)) < 500 and "\n" not in repr(found)
     text = found._repr_html_()
     assert found.view.cards and all(
-        card.value and pretty(card.name) in text for card in found.view.cards if "'" not in card.name
+        card.value and str(typeset(card.name)) in text for card in found.view.cards if "'" not in card.name
     )
     table = found.table()
     assert len(table) and len(repr(table)) < 500 and "<table>" in table._repr_html_()

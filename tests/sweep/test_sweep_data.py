@@ -18,8 +18,10 @@ from pictures import faults
 from mechsym import interrupts
 from mechsym.cli import main
 from mechsym.cli.sweep import sweep as command
+from mechsym.cycle.columns import WORDS
 from mechsym.errors import MissingExtra
-from mechsym.quantities.display import choose
+from mechsym.quantities.display import choose, without_unit
+from mechsym.quantities.words import key_words
 from mechsym.style import svg
 from mechsym.sweep import Plan, columns, dataset, failures, main_results, sweep, write_netcdf, write_table
 from mechsym.sweep import plots as plots_sweep
@@ -155,13 +157,17 @@ PICTURES = {
 }
 
 
+def words(name, unit):
+    return key_words(name if name in WORDS else without_unit(name, unit), WORDS)
+
+
 @pytest.mark.parametrize("plan", PICTURES.values(), ids=PICTURES)
 def test_pictures(plan):
     result = sweep(plan)
     figure = plots_sweep.picture(result)
     drawn = [axis for axis in figure.axes if axis.get_visible() and axis.has_data()]
     labels = " ".join(axis.get_ylabel() + axis.get_title() + axis.get_xlabel() for axis in drawn)
-    shown = [name for name in main_results(result) if name in labels]
+    shown = [name for name in main_results(result) if words(name, result.units[name]) in labels]
     assert shown == list(plan.show) or len(shown) >= 2
     assert len(svg(figure)) > 5000
     assert ("failed" in figure.get_suptitle()) == bool(failures(result))
@@ -175,7 +181,7 @@ def test_axes_of_a_sweep_are_in_the_units_that_were_chosen():
         torque, pressure = (axis for axis in plots_sweep.picture(result).axes if axis.get_visible())
     finally:
         choose(None)
-    assert [a.get_ylabel() for a in (torque, pressure)] == ["torque_avg [kN m]", "p_max [bar]"]
+    assert [a.get_ylabel() for a in (torque, pressure)] == ["indicated torque [kN m]", "largest pressure [bar]"]
     assert torque.get_xlabel() == "speed [rad/s]"
     assert torque.lines[0].get_xdata() == pytest.approx(np.array([2000, 4000]) * np.pi / 30)
     assert torque.lines[0].get_ydata() == pytest.approx(columns(result)["torque_avg"] / 1e3)
@@ -194,7 +200,7 @@ def test_a_map_may_be_empty_where_it_is_cut():
 def test_words_are_colours():
     figure = plots_sweep.picture(sweep(PICTURES["words and numbers"]))
     assert figure.axes[0].get_xlabel() == "c1 [N m s/rad]"
-    assert [t.get_text() for t in figure.legends[0].get_texts()][0] == "simulation.backend = native"
+    assert [t.get_text() for t in figure.legends[0].get_texts()][0] == "simulation, integrator = native"
 
 
 def test_pictures_of_nothing():
