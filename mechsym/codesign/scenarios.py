@@ -19,7 +19,6 @@ from mechsym.quantities import quantity, record
 from mechsym.quantities.display import per_cent, quantity_text
 from mechsym.quantities.units import Inertia, Scalar
 
-_GOVERNED = 20  # turns after which a governor has answered
 _SETTLE = 20.0  # turns after which a start or a coast has told what there is to tell
 
 

@@ -245,26 +245,3 @@ def _labels(tape: Tape) -> list[set[int]]:
             below = {i}
         labels.append(below)
     return [{root(c) for c in found} for found in labels]
-
-
-def _second(tape: Tape, values: list[int]) -> Tape:
-    place = {node: len(tape.inputs) + k for k, node in enumerate(values)}
-    nodes: list[Node] = []
-    number: dict[int, int] = {}
-    for i, (op, args) in enumerate(tape.nodes):
-        if i in place:
-            op, args = "input", (place[i],)
-        elif op not in ("input", "constant"):
-            if any(a not in number for a in args):
-                continue  # inside the first stage
-            args = tuple(number[a] for a in args)
-        number[i] = len(nodes)
-        nodes.append((op, args))
-    nodes, results = prune(nodes, [number[r] for r in tape.results])
-    return dataclasses.replace(
-        tape,
-        name=f"{tape.name}_second",
-        inputs=(*tape.inputs, *(f"v{k}" for k in range(len(values)))),
-        nodes=tuple(nodes),
-        results=tuple(results),
-    )

@@ -206,11 +206,6 @@ def speeds_over(result: Result, coordinates: tuple[str, ...], since: Second) -> 
     return dict(zip(coordinates, speeds(motion, times), strict=True))
 
 
-def _interpolated(result: Result, coordinates: tuple[str, ...]) -> Callable[[np.ndarray], dict[str, np.ndarray]]:
-    names = [n for c in coordinates for n in (c, f"{c}d")]
-    return lambda t: {n: np.interp(t, result.t, result.columns[n]) for n in names}
-
-
 def last_period(result: Result, coordinate: str, period: Radian = 2 * np.pi) -> Second:
     """When the last period of a coordinate began.
 
