@@ -117,12 +117,13 @@ def journal_loads(forces: Forces) -> "Figure":
 
     Returns figure: two panels, at most six curves each.
     """
-    figure, axes = panels(9, 5.2, 1, 2, "Loads of the main bearings at their places")
+    oiled = bool(forces.orbits)
+    figure, axes = panels(9, 4.2 if oiled else 5.2, 1, 3 if oiled else 2, "Loads of the main bearings at their places")
     turning = {f"{one.z}{one.sense}": np.exp(-1j * one.sense * forces.turn.phi) for one in forces.journals}
     loads = {f"{one.z}{one.sense}": one.x + 1j * one.y for one in forces.journals}
     names = {f"{one.z}{one.sense}": f"z = {quantity_text(one.z, 'm', 3)}" for one in forces.journals}
     factor, unit = axis_unit("N", *(abs(load) for load in loads.values()))
-    for axis, seen, frame in zip(axes, ({}, turning), ("in the block", "in the shaft"), strict=True):
+    for axis, seen, frame in zip(axes, ({}, turning), ("in the block", "in the shaft"), strict=False):
         for (key, load), color in zip(list(loads.items())[:_MOST_CURVES], SERIES, strict=False):
             curve = _closed(load * seen.get(key, 1.0)) * factor
             axis.plot(curve.real, curve.imag, color=color, lw=1.2, label=names[key])
@@ -131,8 +132,22 @@ def journal_loads(forces: Forces) -> "Figure":
         axis.locator_params(axis="x", nbins=4)
         axis.set_aspect("equal", adjustable="datalim")
         heading(axis, frame)
+    if oiled:
+        _orbits(axes[2], forces)
     legend(axes[0])
     return figure
+
+
+def _orbits(axis: "Axes", forces: Forces) -> None:
+    """Where each journal is in the clearance of its bearing."""
+    edge = np.exp(2j * np.pi * np.arange(181) / 180)
+    axis.plot(edge.real, edge.imag, color=INK, lw=0.8)
+    for orbit, color in zip(forces.orbits[:_MOST_CURVES], SERIES, strict=False):
+        curve = _closed(orbit.eccentricity)
+        axis.plot(curve.real, curve.imag, color=color, lw=1.2)
+    axis.set(xlabel="along x, of the clearance [-]", ylabel="along y, of the clearance [-]")
+    axis.set_aspect("equal", adjustable="datalim")
+    heading(axis, "journal in its clearance")
 
 
 def _short(name: str) -> str:

@@ -70,6 +70,7 @@ _BEARS = {
     "main_bearing": "main bearing, in the frame", "side_force": "guide of the piston", "F": "piston, from the gas",
     "shaft_torque": "shaft behind the throw", "torque": "load", "roll_moment": "mounts of the frame",
     "tooth": "teeth", "piston_torque": "crank, from the piston", "guide_combination": "guides together",
+    "knuckle_force": "knuckle pin, from the rod that carries it",
     "journal": "journal of the planet or slider", "X_": "guide of the slider",
 }  # fmt: skip
 _RAW = re.compile(r"_force_[xy](_|$)")

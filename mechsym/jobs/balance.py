@@ -30,6 +30,7 @@ class ShakenNumbers:
     roll: Mapping[str, float] = quantity("N*m")
     force_max: float = quantity("N")  #: Of all orders together
     couple_max: float = quantity("N*m")  #: Likewise
+    roll_max: float | None = quantity("N*m")  #: Likewise, half orders too; null where the mechanism does not tell it
     #: Largest load of a main bearing; null where the places of the bearings are not known
     main_bearing_max: float | None = quantity("N")
 
@@ -101,6 +102,7 @@ def _shaken(one: BalancedEngine, shaken: Shaken) -> ShakenNumbers:
         roll=_roll(shaken, one, least),
         force_max=_largest(shaken.force, least),
         couple_max=_largest(shaken.couple, least * length(one.turn)),
+        roll_max=None if shaken.roll is None else _largest(shaken.roll, least * length(one.turn)),
         main_bearing_max=max((float(journal.load.max()) for journal in shaken.journals), default=None),
     )
 

@@ -77,7 +77,9 @@ def _at_the_end(p: Scalar, angle: float, bore: float | None) -> Iterable[Line | 
 def _hung(p: Scalar, i: int, angle: float, bore: float | None) -> Iterable[Line | Circle]:
     """A rod that hangs on another with its piston and cylinder, in the axes of its own cylinder."""
     (knuckle, end, reach), r = _rod(p, i, angle), each(p, "r")[i]
-    yield Line(role="rod", points=(knuckle, end))
+    own = angle + local_shift(p)[i]
+    # from the crank pin over the knuckle pin, which the other's rod carries
+    yield Line(role="rod", points=((r * math.cos(own), r * math.sin(own)), knuckle, end))
     yield Circle(role="joint", centre=knuckle, radius=0.09 * r)
     yield from piston(end, 2 * r, bore)
     yield from cylinder(end[1], reach - 2 * r, 2 * r, bore)

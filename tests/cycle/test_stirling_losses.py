@@ -144,3 +144,10 @@ def test_work_of_a_leak_is_its_volume_by_the_pressure():
     flow = loss.seal_flow(dp, gap, length, bore, rho, mu)
     assert loss.leakage_loss(dp**2, gap, length, bore, mu) == pytest.approx(flow / rho * dp)
     assert loss.bypass_loss(flow, 5193.0, 600.0) == pytest.approx(flow * 5193.0 * 300.0)
+
+
+def test_the_shuttle_carries_what_its_displacement_leads_through_the_gap():
+    """A piston x off its mean place sees the cylinder x dT/L warmer and carries that on: pi D k/gap dT/L mean(x^2)."""
+    x = 0.031 / 2 * np.cos(np.arange(720) * 2 * np.pi / 720)
+    wanted = np.pi * 0.07 * 0.2 / 0.00028 * 600.0 / 0.043 * np.mean(x**2)
+    assert loss.shuttle_loss(0.031, 0.00028, 0.043, 0.07, 0.2, 600.0) == pytest.approx(wanted, rel=1e-12)

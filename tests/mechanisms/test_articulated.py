@@ -17,7 +17,9 @@ from mechsym.jobs.machine import turn as turn_of
 from mechsym.mechanisms.crank_train import build, build_rigid
 from mechsym.mechanisms.crank_train.firing import even_firing
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, dead_centre, local_shift
+from mechsym.mechanisms.drawn_parts import Line
 from mechsym.mechanisms.record import evaluate
+from mechsym.mechanisms.train_drawing import crank_train
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 DEG = math.pi / 180
@@ -195,3 +197,13 @@ def test_the_declared_v_twin():
         size = np.abs(wanted.reactions[its]).max()
         assert np.abs(found.reactions[mine] - wanted.reactions[its]).max() < 1e-10 * size
     assert found.torque == pytest.approx(wanted.torque, abs=1e-10 * np.abs(wanted.torque).max())
+
+
+def test_the_drawing_stands_where_the_pins_are():
+    two = {"throw": (1, 1), "phase": 0.3, "bank": (0.5, 0.5 - ANGLE), "master": (0, 1), "z": 0.0, "z_rod": 0.0}
+    two |= {n: getattr(v_engine(), n)[:2] for n in ("l1", "l2", "offset", "m_rod", "m_piston", "I_rod")}
+    drawn = list(crank_train(v_engine(**two), 0.7, None))
+    ends = [point for line in drawn if isinstance(line, Line) and line.role == "rod" for point in line.points]
+    found = np.array([complex(*point) for point in ends])
+    for wanted in places(0.7):  # the shaft stands upright: its axis is the drawing's y
+        assert np.abs(found - 1j * wanted).min() < 1e-12

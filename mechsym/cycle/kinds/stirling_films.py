@@ -94,8 +94,9 @@ def turbulent_share(Re_max: Pure, Va: Pure = 0.0) -> Pure:
 
     Notes
     -----
-    Source: M. Ohmi, M. Iguchi, Bull. JSME 25 (1982) 165, as in Simon and Seume, NASA CR-182108 (1988). Valid: smooth
-    tubes; the width of the transition is that of steady flow.
+    Source: M. Ohmi, M. Iguchi, Bull. JSME 25 (1982) 165, as in Simon and Seume, NASA CR-182108 (1988), not held
+    against the print: a public program has 2300 sqrt(Va/10), 727 in place of 882. Valid: smooth tubes; the width of the
+    transition is that of steady flow.
 
     Examples
     --------
@@ -235,7 +236,8 @@ def screen_nusselt(Re: Pure[Scalar], Pr: Pure, porosity: Pure) -> Pure[Scalar]:
 
     Notes
     -----
-    Source: Gedeon and Wood, NASA CR-198442 (1996). Valid: porosity 0.62 to 0.78, 0.45 < Re < 6100.
+    Source: Gedeon and Wood, NASA CR-198442 (1996), not held against the print: a public program has their friction as
+    here and (1 + 0.64 Pe^0.72) in this place. Valid: porosity 0.62 to 0.78, 0.45 < Re < 6100.
 
     Examples
     --------
