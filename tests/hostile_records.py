@@ -150,7 +150,8 @@ def write(rng: random.Random, file: Path, kind: str, most: int = MANY) -> None:
     rows = clean(rng, kind, count)
     for _ in range(rng.choice((0, 1, 1, 2, 3))):
         if len(rows):
-            rows = SPOILS[rng.choice(list(SPOILS))](rng, rows)
+            with np.errstate(all="ignore"):
+                rows = SPOILS[rng.choice(list(SPOILS))](rng, rows)
     head = HEADS[kind][0] if rng.random() < 0.6 else rng.choice(HEADS[kind])
     mark = "," if rng.random() < 0.85 else rng.choice((";", "\t", " ", "|"))
     columns = min(3, max(1, head.count(",") + 1)) if head else 2

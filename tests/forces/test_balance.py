@@ -15,6 +15,7 @@ from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.forces.balance import Shaken, Weight, _with, amplitudes, balance, couple, part
 from mechsym.forces.mains import MainShaft
+from mechsym.forces.shaking import BalanceWanted, shaking, verdict
 from mechsym.forces.turn import Turn, crank_drive, turn
 from mechsym.mechanisms.crank_train import CrankTrainParameters
 
@@ -56,6 +57,13 @@ def force(one: Turn) -> np.ndarray:
 def test_harmonics_of_the_page() -> None:
     values = [harmonic(order, 0.3) for order in (2, 4, 6)]
     assert values == pytest.approx([0.3070506590621657, -0.00723769499682184, 0.000191936746636], rel=1e-11)
+
+
+def test_what_is_left_of_one_cylinder_is_told_by_its_own_force() -> None:
+    one = in_line(0)
+    for order, share in ((1, 1.0), (2, harmonic(2))):
+        (told,) = verdict(one, shaking(one), BalanceWanted(orders=(float(order),)))
+        assert f"is left with {share * UNIT:.4g} N, {100 * share:.3g} % of one cylinder's" in told
 
 
 def test_three_in_line() -> None:
