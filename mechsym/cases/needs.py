@@ -278,7 +278,7 @@ COMMANDS: Mapping[str, Command] = {
     "hinge": Command(asks=_hinge, reads=reads.hinge),
     "identify": Command(asks=_identify, reads=reads.identify),
     "optimise": Command(asks=_optimise, reads=lambda case: reads.cycle(case) | {"optimise"}),
-    "page": Command(asks=_export, reads=reads.run),
+    "page": Command(asks=_export, reads=reads.page),
     "report": Command(asks=lambda case: [], reads=_reads_report),
     "simulate": Command(asks=_simulate, reads=reads.simulate),
     "size": Command(asks=_size, reads=reads.size),

@@ -71,6 +71,12 @@ def run(case: CaseFacts) -> set[str]:
     return every | turned | hinge | ({"load", "operation"} if loaded else set())
 
 
+def page(case: CaseFacts) -> set[str]:
+    """Sections that the page of a run reads: those of the run, and what its moving picture shows of a hinge."""
+    every = run(case)
+    return every | {"rollers"} if "guide" in every else every
+
+
 def simulate(case: CaseFacts) -> set[str]:
     """Sections that `simulate` reads: those of a run, and of what explains it."""
     shaft = {"speeds", "shaft"} if case.vibrates else {"startup"} if case.twists else set()
