@@ -25,10 +25,8 @@ class CycleColumns:
     sfc_g_kwh: Curve = quantity("g/(kW*h)", card="ISFC")  #: Indicated fuel consumption
     #: Indicated work by the fuel's heating value, or by the heat of the hot side
     efficiency: Curve = quantity("-", card="indicated efficiency")
-    p_max_mpa: Curve = quantity("MPa", card="largest pressure")  #: Largest pressure in the cylinder, absolute
-    p_max_angle_deg: Curve = quantity(
-        "deg", card="angle of the largest pressure"
-    )  #: Where that is, from firing dead centre
+    p_max_mpa: Curve = quantity("MPa", card="p_max")  #: Largest pressure in the cylinder, absolute
+    p_max_angle_deg: Curve = quantity("deg", card="angle of p_max")  #: Where that is, from firing dead centre
     ca10_deg: Curve = quantity("deg", card="CA10")  #: Where a tenth of the heat is released, from firing dead centre
     ca50_deg: Curve = quantity("deg", card="CA50")  #: Where half of it is
     ca90_deg: Curve = quantity("deg", card="CA90")  #: Where nine tenths of it are

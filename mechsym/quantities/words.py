@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 
 _WHOLE: Mapping[str, str] = {
+    "p_max": "largest pressure", "p_max_mpa": "largest pressure", "p_max_angle": "angle of the largest pressure",
     "t_end": "end of the run", "wall": "time it took", "steps": "steps of the integrator", "backend": "integrator",
     "energy_residual": "energy left over", "power_residual": "power left over", "facts": "assumed",
     "tolerance_difference": "difference to a finer run", "each": "one is a", "F": "gas force F",

@@ -107,7 +107,7 @@ def _extremes(row: Json) -> list[str]:
 
 _MODEL, _CLOSED = "the cycle is a model: ", "the closed period only, gas exchange at constant pressure"
 _ASSUMES = "what it assumes stands with its figure"
-_FIRST = ("speed", "brake power", "BMEP", "BSFC", "indicated power", "power", "IMEP net", "COV of net IMEP",
+_FIRST = ("speed", "brake power", "BMEP", "BSFC", "indicated power", "power", "p_max", "IMEP net", "COV of net IMEP",
           "CA50", "largest pressure", "rate of rise")  # fmt: skip
 _HINGE = (
     "the ripple is that of an ideal hinge at one speed and one load; friction, heat and a lost combustion stand beside "
