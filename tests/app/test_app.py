@@ -73,7 +73,7 @@ def test_guide_and_mechanism_are_drawn_to_one_scale():
     left, right, low, high = extent_of(answer.drawn())
     assert 2 < right - left < 6 and high - low > 1.6
     page = moving(answer, "<zotov>")
-    assert 'id="angle"' in page and "<zotov>" not in page
+    assert 'class="angle"' in page and "<zotov>" not in page
 
 
 def test_a_saved_case_is_the_case_with_its_values_and_comments():

@@ -98,5 +98,5 @@ def test_another_engine_or_speed_is_doubted(tmp_path, changes, code):
 
 def test_options_of_the_other_kinds_are_refused():
     for arguments in (["diagram", "--kind", "inline"], ["engine", "--trace", "p.csv"], ["diagram"]):
-        with pytest.raises(BadInput, match="belong|needs --trace"):
+        with pytest.raises(BadInput, match="belong to an engine|only a diagram has|needs --trace"):
             CliRunner().invoke(new, arguments, catch_exceptions=False)

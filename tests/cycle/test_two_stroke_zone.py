@@ -100,7 +100,9 @@ def test_events_out_of_order_are_refused():
 def test_command_on_both_cycles(tmp_path):
     algebraic = CliRunner().invoke(cycle_command, ["zotov-89", "--json"], catch_exceptions=False)
     found = json.loads(algebraic.stdout)
-    assert found["mep_kpa"] == [pytest.approx(800)] and found["efficiency"] == [None]
+    assert found["mep_kpa"] == [pytest.approx(800)]
+    heat_mj = found["sfc_g_kwh"][0] / 1000 * load("zotov-89").need("cycle").lhv / 1e6  # of the fuel of a kWh
+    assert found["efficiency"] == [pytest.approx(3.6 / heat_mj)]
     found = cycle_of(zone_file(tmp_path), "--speeds", "60,142")
     assert found["mep_kpa"] == pytest.approx([800, 800])
     assert found["efficiency"][0] < found["efficiency"][1]  # slower: more time for heat to reach the walls
