@@ -24,6 +24,8 @@ from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Pure, Radian
 
+_ROUND_OFF = 1e-10  #: Share of the largest amplitude below which an order is round-off and has no phase [-]
+
 
 @record
 class Harmonics:
@@ -31,7 +33,7 @@ class Harmonics:
 
     order: np.ndarray  #: Oscillations per turn, 0 first [-]
     amplitude: np.ndarray  #: a_k; the mean for order 0, with its sign [unit of the quantity]
-    phase: np.ndarray  #: delta_k, where the oscillation has its crest [rad]
+    phase: np.ndarray  #: delta_k, where the oscillation has its crest; 0 where there is none [rad]
 
 
 def orders(values: Pure[Array], period: Radian, highest: Pure = 12.0) -> Harmonics:
@@ -44,8 +46,10 @@ def orders(values: Pure[Array], period: Radian, highest: Pure = 12.0) -> Harmoni
     order = np.arange(len(spectrum)) * 2 * math.pi / period
     wanted = order <= highest + 1e-9
     amplitude = 2 * np.abs(spectrum)
+    there = amplitude > _ROUND_OFF * amplitude.max(initial=0.0)
     amplitude[0] = spectrum[0].real
-    return Harmonics(order=order[wanted], amplitude=amplitude[wanted], phase=-np.angle(spectrum[wanted]))
+    phase = np.where(there, -np.angle(spectrum), 0.0)
+    return Harmonics(order=order[wanted], amplitude=amplitude[wanted], phase=phase[wanted])
 
 
 def whole(harmonics: Harmonics, order: int) -> complex:

@@ -3,6 +3,7 @@
 `summary` makes the reported numbers of it: speeds over a window at the end, audit, convergence, event.
 """
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, field
 from pathlib import Path
@@ -104,6 +105,7 @@ def dataset(result: Result) -> "xarray.Dataset":
 
 _A_STEP = 16  # looks at each step of the integrator, whose formulas of high order swing within one
 _FINER = 129  # looks between two samples, one of which is before the last period
+_NEAR_WHOLE = 1e-6  # of a period, that a run which was to end with it may lack
 _LEAST, _MOST = 720, 50_000  # looks at a stretch
 
 
@@ -228,7 +230,8 @@ def period_means(result: Result, coordinate: str, period: Radian) -> np.ndarray:
 def period_ends(result: Result, coordinate: str, period: Radian) -> np.ndarray:
     """When each whole period of a coordinate that turns is over, the start among them (k,) [s]."""
     q = np.maximum.accumulate(result.columns[coordinate])
-    return np.interp(np.arange(q[0], q[-1], period), q, result.t)
+    whole = math.floor((q[-1] - q[0]) / period + _NEAR_WHOLE)
+    return np.interp(q[0] + period * np.arange(whole + 1), q, result.t)
 
 
 def speed_ripple(result: Result, coordinate: str, period: Radian = 2 * np.pi) -> Pure | None:

@@ -13,8 +13,8 @@ TOLERANCE = 1e-6
 # what is left of a balance, of two runs, of a closure: rounding, whose digits say nothing below this
 ROUNDING = re.compile(r"residual|difference|closure|energy_left|error|margin_error|deviation")
 SMALL = 1e-6
-# nor does a number that is so much smaller than the largest of its unit in the same answer
-NOTHING = 1e-9
+# what is left of a sum is known to this share of the largest number of its unit in the same answer
+NOTHING = 3e-8
 # steps and rounds of a search turn with the last digit of what they search
 LOOSE = re.compile(
     r"(^|\.)(steps|rounds|iterations|evaluations|runs|rejected)( \[-\])?(\[\d+\])*(\.(first|last|min|max))?$"
@@ -64,7 +64,7 @@ def differences(
         for i, (one, other) in enumerate(zip(old, new, strict=False)):
             yield from differences(one, other, tolerance, f"{path}[{i}]", scales)
     elif _is_number(old) and _is_number(new):
-        of_nothing = max(abs(old), abs(new)) <= NOTHING * scales.of(path)
+        of_nothing = abs(old - new) <= NOTHING * scales.of(path)
         if not (of_nothing or LOOSE.search(path) or alike(old, new, tolerance, bool(ROUNDING.search(path)))):
             yield f"{path}: {old:.9g}, now {new:.9g} ({_apart(old, new):.1e})"
     elif isinstance(old, str) and isinstance(new, str):

@@ -38,7 +38,7 @@ def test_whole_numbers_count():
     assert [*differences({"energy_residual": 3e-11}, {"energy_residual": 2e-3})]
 
 
-def test_a_billionth_of_the_largest_of_its_unit_is_rounding():
+def test_what_is_left_of_a_sum_is_known_to_a_share_of_the_largest_of_its_unit():
     old = {"json": {"check": {"speed_ripple": 4e-12}, "energy": {"work": {"gas": 1.7e4, "hinge": -3e-7}}}}
     now = {"json": {"check": {"speed_ripple": 5e-12}, "energy": {"work": {"gas": 1.7e4, "hinge": 2e-7}}}}
     assert len([*differences(old, now)]) == 2
