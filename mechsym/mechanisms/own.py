@@ -137,7 +137,8 @@ def content(name: str) -> str:
 
 
 def _key(path: Path, which: str) -> str:
-    return hashlib.sha256(b"\0".join([which.encode(), _core(), *sources(path).values()])).hexdigest()[:24]
+    named = path.name.encode(), which.encode()  # the stamp of the code names the file
+    return hashlib.sha256(b"\0".join([*named, _core(), *sources(path).values()])).hexdigest()[:24]
 
 
 @functools.lru_cache(maxsize=1)

@@ -168,6 +168,7 @@ def plain(answer, mechanism):
 
     def named(text):
         same = text and text.replace(f"./{mechanism}.py", mechanism).replace(f"{mechanism}.py", mechanism)
+        same = same and same.replace(f"<code>{mechanism}</code>", mechanism)  # a path is not set as a name is
         return same and re.sub(r'(sha256"?:? "?)[0-9a-f]{12}', r"\1", same)
 
     return code, named(told), {name: named(text) for name, text in files.items()}

@@ -282,8 +282,8 @@ def test_three_pistons_on_one_shaft_give_the_sum_of_their_torques(folder, slider
                      f'mechanism = "./turned.py"\n{data}{marine}')  # fmt: skip
     found = torque(machine(turned)).gas_part(phi + np.pi / 3)
     np.testing.assert_allclose(found, hinges[1].gas_part(phi), atol=1e-8 * np.abs(found).max())
-    for case in (three, turned):  # a torque has no compression line about angle 0
-        assert misfire_share(machine(case), hinges[0], None, None) is None
+    for case in (three, turned):  # the crank loses a part of its energy, and turns on
+        assert 0 < misfire_share(machine(case), hinges[0], None, None) < 1
         designed = point(machine(case), 7e5)
         assert designed.misfire is None
         assert designed.load_torque == pytest.approx(torque(machine(case)).load_torque, rel=1e-9)
