@@ -72,10 +72,7 @@ class Case:
     def need(self, section: str) -> Any:
         """The record of a section that the caller cannot do without.
 
-        Raises
-        ------
-        BadInput
-            The case has no such section
+        Raises BadInput: the case has no such section.
         """
         if section not in self.sections:
             why = f"section [{section}] is missing; this command needs it; see 'mechsym check' and 'mechsym cases'"
@@ -86,8 +83,6 @@ class Case:
 def names() -> list[str]:
     """Names of the built-in cases.
 
-    Examples
-    --------
     >>> "zotov-89" in names()
     True
     """
@@ -105,10 +100,7 @@ def text(name: str) -> str:
 
     name: name of a built-in case or a path.
 
-    Raises
-    ------
-    BadInput
-        Neither a built-in name nor a readable file
+    Raises BadInput: neither a built-in name nor a readable file.
     """
     return _read(name)[1]
 
@@ -119,13 +111,8 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
     name: name of a built-in case or a path to a TOML file. overrides: mapping, optional, values to replace, by dotted
     key; a bare key works if it is unique.
 
-    Raises
-    ------
-    BadInput
-        Names file, key, value and what is allowed
+    Raises BadInput: names file, key, value and what is allowed.
 
-    Examples
-    --------
     >>> case = load("zotov-89", {"spring.p0": "8 MPa"})
     >>> case.mechanism, case.need("spring").p0
     ('crosshead', 8000000.0)
@@ -182,13 +169,8 @@ def locate(name: str, key: str, overrides: Mapping[str, object] | None = None, o
     name: name of a built-in case or a path to a TOML file. key: dotted key; a bare key works if it is unique. option:
     where the key was written, for messages.
 
-    Raises
-    ------
-    BadInput
-        Unknown or ambiguous key
+    Raises BadInput: unknown or ambiguous key.
 
-    Examples
-    --------
     >>> found = locate("zotov-89", "p0")
     >>> found.section, found.field, found.unit
     ('spring', 'p0', 'Pa')

@@ -9,7 +9,7 @@ import functools
 import math
 from typing import TYPE_CHECKING
 
-from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_twist
+from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_throws, by_twist
 from mechsym.cases.scales import MOVING, by_shaft, by_size, by_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
@@ -77,7 +77,7 @@ def judged(sections: Records, mechanism: str) -> tuple[Doubt, ...]:
     alone, together = _sizes(sections, sizes, bore), by_size(sections, sizes, bore)
     if any(d.code == "reciprocating_mass" for d in alone):  # one slip is told once
         together = tuple(d for d in together if not d.quantity.startswith(MOVING))
-    doubts += alone + together + by_firing(sections, parameters)
+    doubts += (*alone, *together, *by_firing(sections, parameters), *by_throws(parameters))
     shaft = elastic(mechanism, parameters)
     if shaft is None:
         return doubts

@@ -37,6 +37,8 @@ _DRIVING = (("intake_pressure", 10.0), ("p_s", 10.0), ("mean_pressure", 1.0), ("
 _ALL_WAYS = 12  # firing orders of more cylinders are too many to try
 _STEEL = 7850.0  # its density [kg/m^3]
 _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
+_RPM = 30 / math.pi  # rpm of one rad/s
+_DIGITS = 1e-3  # within which two numbers have the same digits, of the larger
 _LATE = 0.9  # of a run, from when on a drive has no time to show what it does
 
 
@@ -106,6 +108,27 @@ def by_firing(sections: Records, parameters: object) -> tuple[Doubt, ...]:
     return proportion("firing_gap", what, _gap(angles) / best)
 
 
+def by_throws(parameters: Any) -> Iterator[Doubt]:
+    """Cylinders that fire beside their dead centre, and throws of a bank that do not follow one another."""
+    if not hasattr(parameters, "throw"):
+        return
+    from mechsym.mechanisms.crank_train.firing import lateness  # not every command needs a train
+    from mechsym.mechanisms.crank_train.parameters import each
+
+    angles = each(parameters, "firing") if parameters.firing else ()
+    # two pistons of one chamber fire together, one of them before its dead centre and the other behind
+    late = zip(angles, lateness(parameters), strict=True) if angles else ()
+    alone = [beside for angle, beside in late if angles.count(angle) == 1]
+    what = "parameters.firing from the dead centre of the piston, rad"
+    yield from proportion("firing_off", what, max(alone, key=abs, default=0.0))
+    places, banks = each(parameters, "z"), each(parameters, "bank")
+    for bank in sorted(set(banks)):
+        throws = sorted({t for t, b in zip(parameters.throw, banks, strict=True) if b == bank})
+        steps = [places[b - 1] - places[a - 1] for a, b in itertools.pairwise(throws)]
+        back = sum(a * b < 0 for a, b in itertools.pairwise(steps))
+        yield from proportion("throw_order", "turns back of parameters.z along the throws of a bank", back)
+
+
 def _gap(angles: Sequence[float]) -> float:
     period = 4 * math.pi
     ranked = sorted(a % period for a in angles)
@@ -145,6 +168,10 @@ def _burning(sections: Records) -> Iterator[Doubt]:
     elif hasattr(cycle, "a_p"):
         left = (1 - cycle.b) * math.exp(-cycle.a_p) + cycle.b * math.exp(-cycle.a_d)
         yield from proportion("burnt_fraction", burnt, 1 - left)
+    if hasattr(cycle, "octane") and (ratio := value(sections, "chamber", "compression_ratio")):
+        yield from proportion("spark_compression", "chamber.compression_ratio of an engine with a spark", ratio)
+    if shares := getattr(sections.get("rings"), "gas_shares", ()):
+        yield from proportion("ring_shares", "sum of rings.gas_shares", sum(shares))
     if hasattr(cycle, "stoichiometric_ratio"):
         what = "cycle.heating_value / cycle.stoichiometric_ratio"
         yield from proportion("fuel_heat", what, cycle.heating_value / cycle.stoichiometric_ratio)
@@ -180,7 +207,12 @@ def _run(sections: Records) -> Iterator[Doubt]:
     simulation, drive = sections.get("simulation"), sections.get("drive")
     start, usual = value(sections, "simulation", "speed_start"), value(sections, "operation", "speed")
     if start and usual:
-        yield from proportion("start_speed", "simulation.speed_start / operation.speed", abs(start / usual))
+        ratio = abs(start / usual)
+        yield from proportion("start_speed", "simulation.speed_start / operation.speed", ratio)
+        if min(abs(ratio * _RPM - 1), abs(ratio / _RPM - 1)) < _DIGITS:
+            why = "one is the other with rpm taken for rad/s: a number without a unit is in rad/s"
+            what = "simulation.speed_start / operation.speed, the digits of one speed in two units"
+            yield Doubt(code="speed_unit", quantity=what, value=ratio, usual="another ratio", why=why)
     yield from _starts(sections.get("start"))
     end = getattr(simulation, "t_end", None)
     if simulation is None or not end:

@@ -22,6 +22,7 @@ NO_FILE = "the diagram has no file; name it with cycle.file, or --diagram FILE"
 SPEEDS = "[speeds] or --speeds"
 _ACTS = "[drive] or [cycle]: nothing turns the shaft"
 _STILL = "simulation.t_end or speed_start, or [cycle] or [torque]"
+_TURNS = ("cycle", "torque", "drive")  # what would act beside the drives of a motion, over a turn or in time
 _SPARK = "[cycle] kind = 'spark-ignition'"
 
 
@@ -30,10 +31,7 @@ def require(case: Any, command: str, given: str = "") -> None:
 
     given: what an option of the command gives in place of the case.
 
-    Raises
-    ------
-    MissingSection
-        Names all that is missing
+    Raises MissingSection: names all that is missing.
     """
     facts = facts_of(case.mechanism, case.sections)
     missing = COMMANDS[command].lacks(facts)
@@ -86,7 +84,7 @@ def _of_any() -> Mapping[str, set[str]]:
         )
         for name, roles in known.items()
         for kind in (None, *KINDS.values())
-        for more in ((), ("drive",), ("part_crosshead",))
+        for more in ((), ("drive",), ("part_crosshead",), ("motion",))
     ]
     own_ways = COMMANDS.keys() - {"app", "report", "sweep"}  # those run the others
     return {name: set().union(*map(COMMANDS[name].reads, cases)) for name in own_ways}
@@ -116,15 +114,31 @@ def _no_piston(case: CaseFacts) -> str:
     return f"{said}; declare one with m.piston(name, travel=x, force=F), or take {', '.join(with_chain())}"
 
 
+def _events(case: CaseFacts) -> list[str]:
+    own = [] if case.roles is None else [*(s.name for s in case.roles.stops), *(f.name for f in case.roles.frictions)]
+    said = "a motion without events: {} is a stop or a friction, which only simulate and sweep take"
+    return [said.format(own[0])] if own else []
+
+
 def _turning(case: CaseFacts, *names: str) -> list[str]:
     """What one turn at constant speed lacks."""
     if case.has("cycle") and _gas(case) == [_no_piston(case)]:
         return [*_missing(case, "parameters", "operation", *names), _no_piston(case)]
+    if events := _events(case):
+        return events
     if case.free != 1:
         way = f"this command takes a mechanism with one, as {', '.join(with_chain())}"
         return [f"the {case.free} coordinates of {case.mechanism} are free; {way}"]
     closing = ("closing", *(("faces",) if case.has("cycle") else ())) if case.undetermined else ()
     return [*_missing(case, "parameters", "operation", *names, *closing), *_gas(case)]
+
+
+def _forces(case: CaseFacts) -> list[str]:
+    """What forces lack: over time where `[motion]` says how a mechanism moves, else over a turn."""
+    if not case.has("motion"):
+        return _turning(case)
+    acting = [f"a motion takes no [{name}]; leave [{name}] or [motion] out" for name in _TURNS if case.has(name)]
+    return [*_missing(case, "parameters"), *acting]
 
 
 def _cycle(case: CaseFacts) -> list[str]:
@@ -211,7 +225,7 @@ def _export(case: CaseFacts) -> list[str]:
             f"{case.mechanism} is closed by constraints and an export takes independent coordinates; simulate it with "
             "mechsym"
         ]
-    return _run(case)
+    return _events(case) or _run(case)
 
 
 def meant(case: CaseFacts) -> str:
@@ -241,6 +255,8 @@ def _identify(case: CaseFacts) -> list[str]:
             f"{case.mechanism} is put together from lists, and identify takes mechanisms with one value a letter; take "
             "chmielewski, or declare the shaft in a file of its own"
         ]
+    if events := _events(case):
+        return events
     if case.held:
         return [f"{case.mechanism} has loops that close by constraint; identify takes those that close in closed form"]
     return _missing(case, "parameters")
@@ -273,7 +289,7 @@ COMMANDS: Mapping[str, Command] = {
     "export": Command(asks=_export, reads=reads.run),
     "flywheel": Command(asks=_turning, reads=reads.flywheel),
     "fmu": Command(asks=_export, reads=reads.run),
-    "forces": Command(asks=_turning, reads=reads.forces),
+    "forces": Command(asks=_forces, reads=reads.forces),
     "guide": Command(asks=_hinge, reads=reads.guide),
     "hinge": Command(asks=_hinge, reads=reads.hinge),
     "identify": Command(asks=_identify, reads=reads.identify),

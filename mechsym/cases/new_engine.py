@@ -310,8 +310,6 @@ def _numbers(values: Sequence[float], unit: str) -> str:
 def judged(kind: str, bore: Metre, stroke: Metre) -> tuple[Doubt, ...]:
     """Sizes by those in which engines of a kind are built.
 
-    Examples
-    --------
     >>> [d.quantity for d in judged("two-stroke-crosshead", 0.086, 0.3)]
     ['--bore']
     """

@@ -7,7 +7,7 @@ from dataclasses import asdict
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cases.laws import fired, linked
+from mechsym.cases.laws import by_links, fired, linked
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.motion import pistons_of, travel_of
@@ -117,6 +117,10 @@ def of_run(
         # refused before a run, doubted as the outcome of one
         speed = min(abs(fastest), PISTON_SPEED * math.pi / sizes.stroke)
         found += piston_speed("highest mean piston speed of the run", sizes.stroke, speed, fired(case.sections))
+    else:
+        letters = asdict(case.need("parameters"))
+        links = by_links(plan_of(case.mechanism).listing(None), letters, {}, fastest)
+        found += tuple(doubt for doubt in links if doubt.code == "point_speed")
     found += _motion(case, run) if run is not None else ()
     if wanted is None or wanted.window is None or not length > 0:
         return found

@@ -54,8 +54,6 @@ def sourced(case: Case) -> list[SourcedValue]:
 def comments(text: str) -> dict[str, str]:
     """Comment of each key of a case file, by dotted key without a unit; empty where there is none.
 
-    Examples
-    --------
     >>> comments('[operation]\\nspeed = "89 rpm" # a; b')
     {'operation.speed': 'a; b'}
     """

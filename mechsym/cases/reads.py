@@ -32,7 +32,9 @@ def cycle(case: CaseFacts) -> set[str]:
 
 
 def forces(case: CaseFacts) -> set[str]:
-    """Sections that forces over a turn read."""
+    """Sections that forces over a turn read, or over time where `[motion]` says how a mechanism moves."""
+    if case.has("motion"):
+        return {"parameters", "inputs", "start", "flywheel", "motion"}
     shaft = {"simulation", "speeds"} if case.vibrates else set()
     rubs = of_friction(case) | {"friction", "rings"}
     return of_turn(case) | rubs | {"shaking", "shaft", "comparison", "gas_limits"} | shaft

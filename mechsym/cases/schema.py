@@ -109,7 +109,7 @@ ENTRIES: dict[str, Any] = {
 
 
 # sections whose keys are the mechanism's own letters: the function of mechsym.mechanisms that makes their record
-LETTERS = {"parameters": "parameters_class", "inputs": "inputs_class", "start": "start_class"}
+LETTERS = {"parameters": "parameters_class", "inputs": "inputs_class", "start": "start_class", "motion": "motion_class"}
 
 
 def sections() -> list[str]:

@@ -156,10 +156,7 @@ def judge_ends(case: Case, key: str, values: Sequence[float]) -> None:
 
     key: `section.field`; a case without that section is not judged. values: what the command computes it for [SI].
 
-    Raises
-    ------
-    BadInput
-        A value that no such engine has
+    Raises BadInput: a value that no such engine has.
     """
     section, _, field = key.partition(".")
     if section in case.sections:

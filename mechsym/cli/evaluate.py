@@ -7,14 +7,15 @@ import click
 
 from mechsym.cli.common import emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
-from mechsym.files import Json
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
     from mechsym.mechanisms.record import Mechanism
+    from mechsym.mechanisms.state import MechanismState
     from mechsym.plausible import Doubt
 
+_RATES = (("", "s"), ("d", "s^2"))
 _ROUND_OFF = 1e-14  # what trigonometry leaves of a zero, by the largest value with the same unit [-]
 
 
@@ -27,7 +28,8 @@ _ROUND_OFF = 1e-14  # what trigonometry leaves of a zero, by the largest value w
 def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str, ...], as_json: bool) -> None:
     """Evaluate a mechanism at one state; names are parameters, coordinates, velocities and inputs.
 
-    What is not set is 0. mass_matrix * qdd + bias = generalized_force.
+    What is not set is 0. mass_matrix * qdd + bias = generalized_force. An acceleration that is set (phidd=3) asks for
+    the force along its coordinate that makes it, driving_phi.
 
     \b
     Examples: mechsym eval crosshead --case zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5
@@ -44,7 +46,7 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
     mechanism, values, doubts = _read(name, case_name, pairs(overrides))
     known = mechanisms.listing(name, mechanism)
     found = state(mechanism, values, known["outputs"])
-    emit(found, as_json, lambda: "\n".join(_lines(tell(found), known)), beside={"doubts": doubts})
+    emit(found, as_json, lambda: "\n".join(_lines(found, known)), beside={"doubts": doubts})
 
 
 def _read(
@@ -64,7 +66,7 @@ def _read(
     mechanism = mechanisms.build(name, cls(**parameters))
     listing = mechanisms.listing(name, mechanism)
     units = listing["coordinates"] | listing["inputs"]
-    units |= {f"{q}d": f"{unit}/s" for q, unit in listing["coordinates"].items()}
+    units |= {f"{q}d{k}": f"{unit}/{by}" for q, unit in listing["coordinates"].items() for k, by in _RATES}
     values = {}
     for key, text in given.items():
         if key in units:
@@ -90,10 +92,11 @@ def _case_parameters(name: str, case_name: str | None) -> dict[str, float]:
     return dataclasses.asdict(parameters)
 
 
-def _lines(found: Json, listing: "Listing") -> list[str]:
+def _lines(state: "MechanismState", listing: "Listing") -> list[str]:
     """A line for each value, with its unit and, of a reaction, who acts on whom."""
+    found = tell(state)
     flat = {k: v for k, v in found.items() if k != "outputs"} | found["outputs"]
-    units = {"kinetic_energy": "J", "potential_energy": "J", **listing["outputs"]}
+    units = {"kinetic_energy": "J", "potential_energy": "J", **state.outputs.units, **listing["outputs"]}
     about = listing.get("reactions", {})
     # an angle or a ratio is round-off beside 1; how small a length or an inertia may be, only its like can tell
     largest = {unit: float(unit in ("rad", "rad/rad", "-")) for unit in units.values()}

@@ -1,5 +1,6 @@
 """`mechsym forces`: the force chain over one cycle."""
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -7,11 +8,14 @@ import click
 
 from mechsym.cli.common import case_of, emit, heads, in_rows, json_option, out_option, pairs, set_option, table
 from mechsym.cli.speeds import parse_speeds
+from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
+    from mechsym.cases import Case
+    from mechsym.forces.driven import DrivenNumbers
     from mechsym.forces.result import Forces
 
 _SHOWN = ("friction", "film", "natural", "order", "no order")  # facts for the terminal; the page has them all
@@ -40,6 +44,8 @@ def forces(
 ) -> None:
     """Forces of CASE over one cycle at constant speed: pins, bearings, guides, teeth, shaking, friction.
 
+    With [motion] in the case: driving forces, reactions and power over time, of any coordinates that it drives.
+
     Exit status 1 when the balance that the case asks for in [shaking] is not reached.
 
     \b
@@ -56,6 +62,12 @@ def forces(
     from mechsym.torsion.findings import criticals
 
     loaded = case_of(case, pairs(overrides))
+    if "motion" in loaded.sections:
+        if unused := [
+            option for option, value in (("--diagram", diagram), ("--comparison", comparison), ("--law", law)) if value
+        ]:
+            raise BadInput(f"{unused[0]}: is for a turn at constant speed; leave it, or [motion], out")
+        return _motion(loaded, out, as_json)
     loaded = loaded if diagram is None else measured(loaded, diagram)
     found = run(loaded, comparison)
     numbers = told(loaded, found, parse_speeds(law, "--law") if law else None)
@@ -67,6 +79,30 @@ def forces(
     beside = {"doubts": doubts, "files": report["files"]}
     emit(numbers, as_json, lambda: _text(report, found), beside=beside, files=report["files"], findings=findings)
     ctx.exit(1 if found.unbalanced else 0)
+
+
+def _motion(case: "Case", out: Path | None, as_json: bool) -> None:
+    from mechsym.forces.driven import numbers
+    from mechsym.jobs.forces import motion, write_motion
+
+    found = motion(case)
+    told = numbers(found, case.name)
+    files = [] if out is None else [str(file) for file in write_motion(found, tell(told), out)]
+    emit(told, as_json, lambda: _over_time(told), beside={"files": files}, files=files)
+
+
+def _over_time(report: "DrivenNumbers") -> str:
+    units, slopes = report.max.units, re.compile(r"d2?\w+_d\w+")
+    rows = [
+        {"quantity": name, "max": high, "min": report.min[name], "unit": units[name]}
+        for name, high in report.max.items() if not slopes.fullmatch(name)
+    ]  # fmt: skip
+    free = f"; {', '.join(report.free)} free" if report.free else ""
+    lines = [f"{report.case}: {', '.join(report.driven)} driven{free}, {report.t_end:.6g} s", ""]
+    lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit"]))
+    if report.power_residual is not None:
+        lines.append(f"power residual {ratio_text(report.power_residual)}")
+    return "\n".join(lines)
 
 
 def _text(report: Json, found: "Forces") -> str:

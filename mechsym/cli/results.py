@@ -29,7 +29,7 @@ RESULTS = {
     "hinge": ("mechsym.hinge.summary:HingeNumbers",),
     "codesign": ("mechsym.codesign.summary:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
     "flywheel": ("mechsym.jobs.flywheel:FlywheelDesign",),
-    "forces": ("mechsym.jobs.forces:ForceReport",),
+    "forces": ("mechsym.jobs.forces:ForceReport", "mechsym.forces.driven:DrivenNumbers"),
     "fmu": ("mechsym.out.fmi.build:UnitFile",),
     "guide": ("mechsym.out.cad.curve:GrooveDrawings",),
     "page": ("mechsym.out.web.build:WrittenPage",),
@@ -64,10 +64,7 @@ def _pattern(name: str) -> re.Pattern[str]:
 def rows(command: str | None = None) -> list[Json]:
     """Rows of `mechsym sections --results`: `command`, `path`, `unit`, `about`.
 
-    Raises
-    ------
-    BadInput
-        No command of that name tells numbers
+    Raises BadInput: no command of that name tells numbers.
     """
     if command is not None and command not in RESULTS:
         raise BadInput(f"command {command!r} has no list of results; {suggest(command, list(RESULTS))}")

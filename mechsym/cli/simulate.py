@@ -17,6 +17,7 @@ from mechsym.quantities.results import tell
 if TYPE_CHECKING:
     from mechsym.torsion.finished import FinishedRun
 
+_EVENTS = 12  # shown of a run
 _ENDS = {"turns": "after its turns", "t_end": "as planned"}
 
 
@@ -82,6 +83,7 @@ def _write(run: "FinishedRun", out: Path) -> list[str]:
 
 
 def _text(report: Json, of: Mapping[str, str]) -> str:
+    from mechsym.simulate.result import RunEvent
     from mechsym.torsion.startup import StartUpNumbers
     from mechsym.torsion.twist import ShaftSection
 
@@ -94,6 +96,11 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
     lines = [f"{name:22}{words}" for name, words in told.items()]
     if report["event"]:
         lines.append(f"{'event':22}" + ", ".join(f"{k} {_number(v)}" for k, v in report["event"].items()))
+    if report["events"]:
+        lines += ["", table(report["events"][:_EVENTS], ["t", "name", "kind", "lost"], heads(RunEvent))]
+        more, lost = len(report["events"]) - _EVENTS, sum(one["lost"] for one in report["events"])
+        lines += [f"and {more} more; --json has all"] if more > 0 else []
+        lines += [f"blows take {figure(lost, 6)} J"] if lost else []
     rows = [{"over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
     for unit in dict.fromkeys(of[f"{c}d"] for c in report["speeds"]):
         rates = dict.fromkeys(("mean", "min", "max"), unit)

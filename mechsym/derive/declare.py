@@ -14,7 +14,7 @@ from mechsym.derive import closing, dimensions, rates
 from mechsym.derive.drawing import Drawing
 from mechsym.derive.linkage import Link, Linkage, LinkPoint, point_of
 from mechsym.derive.refuse import place, refuse
-from mechsym.derive.roles import Roles
+from mechsym.derive.unilateral import Unilateral
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +59,7 @@ class Element:
     along: Expr
 
 
-class Declaration(Linkage, Roles, Drawing):
+class Declaration(Linkage, Unilateral, Drawing):
     """What a mechanism is made of.
 
     name: name through all stages; source: file stem of the source; about: one line for lists.
@@ -137,7 +137,9 @@ class Declaration(Linkage, Roles, Drawing):
 
     def weight(self, x: Expr | float, y: Expr | float) -> None:
         """Declare the acceleration of free fall by its components [m/s^2]."""
-        self.gravity = (self._checked(x, "m/s^2", "weight"), self._checked(y, "m/s^2", "weight"))
+        self.gravity = (
+            self._sized(x, "m/s^2", "weight_x", "weight"), self._sized(y, "m/s^2", "weight_y", "weight"),
+        )  # fmt: skip
 
     def force(self, value: Expr | float, *, along: Expr | float) -> None:
         """Add a force [N] along a displacement [m] or a torque [N*m] along an angle [rad], positive where it drives."""

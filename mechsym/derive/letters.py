@@ -71,7 +71,7 @@ class Letters:
         """Declare constants with their range: `above, below, low, high` and a `default`, all in the unit [unit]."""
         if unknown := set(bounds) - set(_RANGE):
             refuse(f"{', '.join(sorted(unknown))} is no bound of a parameter; there are {', '.join(_RANGE)}, about")
-        described: Json = {k: self._number(v, f"{k} of {names}") for k, v in bounds.items()}
+        described: Json = {k: self._posed(v, unit, f"{k} of {names}") for k, v in bounds.items()}
         least = max((v for k, v in described.items() if k in ("above", "low")), default=-inf)
         most = min((v for k, v in described.items() if k in ("below", "high")), default=inf)
         if least > most:
@@ -297,7 +297,7 @@ class Letters:
     def _number(self, value: Expr | float, what: str) -> float:
         """A finite number, which no letter is."""
         try:
-            found = float(value)
+            found = nan if isinstance(value, bool) else float(value)
         except (TypeError, ValueError):
             found = nan
         if not isfinite(found):

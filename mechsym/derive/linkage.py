@@ -12,6 +12,7 @@ placed as soon as their joints allow a closed form (closing.py); what remains cl
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import pi
 from typing import Any
 
 from sympy import Expr, Integer, Symbol, cos, sin
@@ -22,6 +23,7 @@ from mechsym.derive.refuse import place, refuse
 from mechsym.quantities.units import Radian
 
 Pair = tuple[Expr, Expr]
+_FAR = 4 * pi  # rad: a pose beyond two turns is one in degrees
 
 
 @dataclass(eq=False)
@@ -185,6 +187,8 @@ class Linkage(Letters):
         """
         if name == "frame" or any(k.name == name for k in self.links):
             refuse(f"the link {name!r} is declared twice in {self.name}; give one of them another name")
+        if name in {q.name for q in self.q}:
+            refuse(f"the link {name!r} has the name of a coordinate{self._first(name)}; give one of them another name")
         self._usable(name)
         new = Link(self, name, where=place(), given=turns is not None)
         new.guess = None if guess is None else self._number(guess, f"guess of {name}")
@@ -213,13 +217,17 @@ class Linkage(Letters):
                 refuse(f"the pose names {name!r}, which is no link and no coordinate of {self.name}; there are {known}")
             if link is not None and link.placed:
                 refuse(f"the pose of {name} comes after its loop has closed; say it before the joints")
+            known_as = str(link.turns) if link is not None and link.turns in self.q else name
+            if known_as in self.poses:
+                refuse(f"the pose of {known_as} is said twice; say it once")
             if isinstance(value, (tuple, list)) and len(value) == 2 and link is not None:
                 x, y = (self._posed(v, "m", f"pose of {name}") for v in value)
                 self.poses[name] = x, y
                 continue
-            known_as = str(link.turns) if link is not None and link.turns in self.q else name
             unit = "rad" if link is not None else self.units[name]
-            self.poses[known_as] = self._posed(value, unit, f"pose of {name}")
+            self.poses[known_as] = number = self._posed(value, unit, f"pose of {name}")
+            if unit == "rad" and not isinstance(value, str) and abs(number) > _FAR:
+                refuse(f"the pose of {name} = {value} is in rad; write degrees as '{value} deg'")
 
     def pin(self, name: str, first: object, second: object, *, branch: int = 0) -> None:
         """Join two points (a link stands for its origin); `branch` 1 or -1 chooses the side of a dyad."""
@@ -244,8 +252,10 @@ class Linkage(Letters):
             refuse(f"inside = {inside!r} of the gear {name!r} must be True or False")
         sizes = self._pair(radii, "m", f"pitch radii of {name}", (f"{name}_r1", f"{name}_r2"))
         above = [r.subs({s: Symbol(s.name, positive=True) for s in r.free_symbols}) for r in sizes]
-        if any(r.is_zero or r.is_negative for r in above):
+        if any(r.is_zero or r.is_negative for r in above) or any(self.sizes.get(s, (0,))[-1] < 0 for s in sizes):
             refuse(f"the gear {name!r} has pitch radii {sizes}; both must be above 0, and inside=True makes a ring")
+        if inside and sizes[0] == sizes[1]:
+            refuse(f"the gear {name!r} has one radius for the ring and for what rolls in it, {sizes[0]}; name two")
         self._join(Joint("gear", name, point_of(first), point_of(second), radii=sizes, inside=inside))
 
     def _join(self, joint: Joint) -> None:

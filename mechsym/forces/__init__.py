@@ -9,6 +9,7 @@ friction.py     first-order losses from the frictionless reactions, of rings, an
 comparison.py   slider crank, hypocycloid and rodless at equal stroke, mass and gas force; the sources' claims judged
 result.py       all of it in one record, with the table forces.csv and its extremes
 summary.py      the record in numbers
+motion.py       how coordinates are driven: evenly, by a word, through points; driven.py their forces over time
 """
 
 from mechsym.quantities import lazily

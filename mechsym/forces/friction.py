@@ -78,8 +78,6 @@ def ring_power(
     phi: angles from the piston's firing dead centre, evenly spaced over a period. Returns power: a mean rule is spread
     over the cycle like the speed of the piston.
 
-    Notes
-    -----
     Source: Patton, Nitschke, Heywood, SAE 890836 (1989), n in rpm, B in mm; four-stroke, bore 70 to 110 mm.
     """
     if isinstance(law, NoRings):
@@ -98,8 +96,6 @@ def patton_pressure(law: Patton1989, gas: "Gas", omega: RadPerSecond) -> Pascal:
 
     Returns fmep: friction mean effective pressure of the rings.
 
-    Examples
-    --------
     A bore of 80 mm at 3000 rpm: ring tension alone costs 7.4 kPa.
     """
     rpm, bore = omega * 30 / np.pi, gas.chamber.bore * 1e3
@@ -245,8 +241,6 @@ def mesh_power(
 
     tooth_force: tangential force; omega_rel: speed of one gear against the other.
 
-    Notes
-    -----
     Valid: pitch point in the middle of the path of contact, load spread evenly over the path.
     """
     slide = np.pi * friction.module * friction.contact_ratio / 4

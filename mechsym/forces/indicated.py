@@ -60,12 +60,8 @@ def shaft_lines(
     mechanism: reduced to the angle of its shaft, as `crank_drive` builds it; areas: by input the force that one pascal
     gives it, with its sign; held: inputs that do not change [N] or [N*m].
 
-    Notes
-    -----
     Source: derived here, from the equations of the mechanism. Valid at constant speed.
 
-    Examples
-    --------
     A crank of 1 m, massless but for its rotor, and a long rod: at 90 degrees each newton on the piston is one newton
     metre.
 
@@ -102,18 +98,11 @@ def pressure_from_torque(
     idle, lever: M_0 and h, as `shaft_lines` gives them; p_back: absolute pressure on the other side of the piston.
     Returns pressure: at every angle of the torque [Pa].
 
-    Raises
-    ------
-    BadInput
-        The noise is as large as the torque
+    Raises BadInput: the noise is as large as the torque.
 
-    Notes
-    -----
     Source: derived here. Valid for independent normal noise of the torque; friction in the torque counts as gas, an
     error of the angle or of the masses is not in the interval.
 
-    Examples
-    --------
     >>> one = CrankTorque(phi=np.array([1.0]), torque=np.array([30.0]), omega=100.0, noise=1.0)
     >>> indicated = pressure_from_torque(one, np.array([10.0]), np.array([1e-4]), 1e5)
     >>> round(float(indicated.p[0])), round(float(indicated.error[0]))
@@ -143,12 +132,8 @@ def work(measured: CrankTorque, pressure: IndicatedPressure, period: Radian) -> 
 
     period: 2 pi or 4 pi, over which the rows go.
 
-    Notes
-    -----
     Source: trapezoidal rule over a period. Valid for rows that resolve the torque.
 
-    Examples
-    --------
     >>> phi = np.arange(4) * np.pi / 2
     >>> one = CrankTorque(phi=phi, torque=np.array([1.0, 3.0, 1.0, 3.0]), omega=1.0, noise=0.1)
     >>> indicated = pressure_from_torque(one, np.zeros(4), np.ones(4), 0.0)
@@ -167,12 +152,8 @@ def scatter(torque: NewtonMetre[Array]) -> NewtonMetre:
 
     torque: rows one after the other.
 
-    Notes
-    -----
     Source: third differences of independent noise have 20 times its variance. Valid for steps that are even and small.
 
-    Examples
-    --------
     >>> scatter(np.arange(9.0) ** 2)
     0.0
     """

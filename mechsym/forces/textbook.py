@@ -69,12 +69,8 @@ def terskih(omega: RadPerSecond) -> Pure:
 
     Returns ratio: between 0.2 (fast) and 0.4 (slow).
 
-    Notes
-    -----
     Source: Moroianu (2017), eq. (3). Empirical.
 
-    Examples
-    --------
     >>> round(terskih(89 * math.pi / 30), 4)
     0.3984
     """
@@ -110,8 +106,6 @@ def chain(turn: Turn, ratio: Pure) -> Chain:
 
     ratio: L_m / L: the rod's centre of mass from the crank pin, as part of its length.
 
-    Notes
-    -----
     Source: Moroianu (2017), eqs. (2), (4), (6) to (13). The share on the crank pin, m_b (1 - L_m/L), is not printed.
     Valid: constant speed, no weight.
     """

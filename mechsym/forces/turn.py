@@ -143,10 +143,7 @@ def crank_drive(
     acts, for a mechanism that has a choice. closing: closing rule, optional, what an overconstrained mechanism needs
     besides.
 
-    Raises
-    ------
-    BadInput
-        More than one coordinate is free, or the closing rule is missing
+    Raises BadInput: more than one coordinate is free, or the closing rule is missing.
     """
     return drive_with(mechanisms.rigid(name, parameters), name, parameters, faces, closing)
 
@@ -174,10 +171,7 @@ def gas_faces(
 
     letters: its parameters [SI]; faces: record, optional, section `[faces]`.
 
-    Raises
-    ------
-    BadInput
-        The case has to choose, and does not
+    Raises BadInput: the case has to choose, and does not.
     """
     if not roles.faces:
         return tuple(

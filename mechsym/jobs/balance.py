@@ -68,8 +68,6 @@ def balance(
 ) -> BalancedEngine:
     """Counterweights and balancer shafts of a case at its speed of operation; arguments as in `forces.balance`.
 
-    Examples
-    --------
     >>> from mechsym import cases
     >>> one = balance(cases.load("zotov-89"))
     >>> round(one.counterweights[0].unbalance, 1)

@@ -42,10 +42,7 @@ class CylinderCount:
 def cylinders(case: Case) -> CylinderCount:
     """The cylinders of a case.
 
-    Raises
-    ------
-    BadInput
-        They fire off their dead centres, move differently, or the pistons of a chamber do not divide them
+    Raises BadInput: They fire off their dead centres, move differently, or the pistons of a chamber do not divide them.
     """
     parameters, plan = case.need("parameters"), plan_of(case.mechanism)
     roles = plan.parts(parameters)
@@ -143,10 +140,7 @@ def unlike_pistons(case: Case, omega: RadPerSecond[Array], friction: Friction) -
 
     Returns figures: as `mechsym.jobs.cycle`, with `pistons`: the figures of each by its name in the declaration.
 
-    Raises
-    ------
-    BadInput
-        Pistons that share a chamber, or gas that a turbocharger changes
+    Raises BadInput: Pistons that share a chamber, or gas that a turbocharger changes.
     """
     if _sharing(case) != 1 or charged(case):
         raise BadInput(
@@ -245,10 +239,7 @@ def engine(case: Case) -> ClosedEngine:
     case: as for `engine_with`; `[friction_pressure]` defaults to no friction, its law `mechanism` is fitted to the
     case's `[friction]`.
 
-    Raises
-    ------
-    BadInput
-        A section is missing, or the cycle is of another kind
+    Raises BadInput: a section is missing, or the cycle is of another kind.
     """
     return engine_with(case, _friction(case))
 

@@ -9,17 +9,19 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import require
+from mechsym.cases.runs import guesses
 from mechsym.cycle.friction import Friction, MechanismFriction
 from mechsym.cycle.kinds import kind_of
-from mechsym.files import Json
-from mechsym.forces import report, result
+from mechsym.errors import BadInput
+from mechsym.files import Json, to_json, write_quantities, write_text
+from mechsym.forces import driven, report, result
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import NoRings
 from mechsym.forces.result import Forces
 from mechsym.forces.summary import ForceNumbers, summary
 from mechsym.forces.turn import Turn
 from mechsym.jobs.gas import of
-from mechsym.jobs.machine import fitted_law, turn
+from mechsym.jobs.machine import constants, fitted_law, mechanism_of, turn
 from mechsym.mechanisms import listing
 from mechsym.page import Finding
 from mechsym.quantities.results import part, quantity
@@ -58,8 +60,6 @@ def forces(case: Case, comparison: bool = False) -> Forces:
     stand. comparison:
     whether the mechanisms are put side by side as well.
 
-    Examples
-    --------
     >>> from mechsym import cases
     >>> found = forces(cases.load("zotov-89"))
     >>> round(float(found.columns["crank_pin_load"].max()) / 1e3, 1)
@@ -74,6 +74,19 @@ def forces(case: Case, comparison: bool = False) -> Forces:
     with of(case):
         rows = compare(one, friction, rings, given.get("comparison", ComparisonSettings()))
     return dataclasses.replace(found, comparison=rows)
+
+
+def motion(case: Case) -> driven.DrivenForces:
+    """Forces of a case over time, whose `[motion]` says how some or all of its coordinates move.
+
+    Raises BadInput: what is driven, or the path, cannot be.
+    """
+    require(case, "forces")
+    mechanism, units = mechanism_of(case), listing(case.mechanism)["outputs"]
+    try:
+        return driven.forces(mechanism, case.need("motion"), guesses(case), constants(case), units)
+    except BadInput as error:
+        raise BadInput(f"{case.file}: {error}") from None
 
 
 def _whole(case: Case) -> Friction | None:
@@ -108,6 +121,14 @@ def write(case: Case, found: Forces, numbers: Json, folder: Path, findings: Sequ
     """
     about = case.about or listing(case.mechanism)["about"] or case.name
     return report.write(found, numbers, folder, about, findings)
+
+
+def write_motion(found: driven.DrivenForces, numbers: Json, folder: Path) -> list[Path]:
+    """Write table and summary of a motion."""
+    return [
+        write_quantities(folder / "forces.csv", found.columns, found.columns.units),
+        write_text(folder / "summary.json", to_json(numbers) + "\n"),
+    ]
 
 
 def vibration(case: Case, one: Turn | None = None) -> TrainVibration | None:

@@ -51,8 +51,6 @@ def gas(case: Case) -> Gas | None:
 
     Returns gas: None for a case without a cycle: only inertia and weight act.
 
-    Examples
-    --------
     >>> from mechsym import cases
     >>> round(gas(cases.load("zotov-89")).pressure.mean_indicated)
     800000
@@ -85,10 +83,7 @@ def source(case: Case, friction: Friction = _FREE, number: int = 0) -> GasSource
 def parts_of(case: Case, friction: Friction = _FREE, number: int = 0) -> EngineParts:
     """What stands around the gas of a case.
 
-    Raises
-    ------
-    BadInput
-        A section is missing that its kind needs, or one belongs to another kind
+    Raises BadInput: a section is missing that its kind needs, or one belongs to another kind.
     """
     kind = kind_of(case.need("cycle"))
     if kind.cylinder and not kind.measured and "scavenging" not in kind.reads and charged(case):
@@ -129,10 +124,7 @@ def engine_with(case: Case, friction: Friction, number: int = 0) -> ClosedEngine
     case: with a cycle whose closed period is integrated, and what that needs; number: place of its role in the
     declaration, from 0.
 
-    Raises
-    ------
-    BadInput
-        A section is missing, or the cycle is of another kind
+    Raises BadInput: a section is missing, or the cycle is of another kind.
     """
     if not kind_of(case.need("cycle")).closed:
         why = "[cycle] kind must be 'spark-ignition' for this command; 'mechsym check' tells which take the case"
@@ -198,10 +190,7 @@ class Piston:
 def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
     """Pistons with the gas of `[cycle]`; none without that section.
 
-    Raises
-    ------
-    BadInput
-        The declaration has no piston, or one goes out and back more than once in a turn
+    Raises BadInput: the declaration has no piston, or one goes out and back more than once in a turn.
     """
     if "cycle" not in case.sections:
         return []

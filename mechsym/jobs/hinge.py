@@ -66,10 +66,7 @@ class Workshop:
 def workshop(case: Case, diagram: str | None = None) -> Workshop:
     """The guide of a case for the workshop.
 
-    Raises
-    ------
-    BadInput
-        No guide can be cut, or a section is missing
+    Raises BadInput: no guide can be cut, or a section is missing.
     """
     require(case, "guide", NO_FILE if diagram else "")
     rollers, limits = case.need("rollers"), case.need("limits")
@@ -120,10 +117,8 @@ def hinge(case: Case, diagram: str | None = None, loads: Sequence[Pure] = ()) ->
     pressure. Returns design: guide and verdict, also when it cannot be built; runs, flywheels and sensitivities of what
     could be cut.
 
-    Raises
-    ------
-    BadInput
-        A section is missing, a value is impossible, or the cycle has one load only and others are asked for
+    Raises BadInput: a section is missing, a value is impossible, or the cycle has one load only and others are asked
+    for.
     """
     require(case, "hinge", NO_FILE if diagram else "")
     spring, choices, rollers, limits = (case.need(name) for name in ("spring", "guide", "rollers", "limits"))
@@ -145,10 +140,7 @@ def design_load(case: Case) -> Pascal:
 
     Returns mean_indicated_pressure: of its cycle.
 
-    Raises
-    ------
-    BadInput
-        The cycle has no mean indicated pressure to change
+    Raises BadInput: the cycle has no mean indicated pressure to change.
     """
     cycle = case.need("cycle")
     if not kind_of(cycle).load:

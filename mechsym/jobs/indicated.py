@@ -112,10 +112,7 @@ def indicated(case: Case, file: str, noise: NewtonMetre) -> TorquePressure:
     file: CSV as `[torque] file` takes it, of one speed and one load. noise: standard deviation of each torque in the
     file.
 
-    Raises
-    ------
-    BadInput
-        The file is refused, cylinders fire one after the other, or the noise hides the gas
+    Raises BadInput: the file is refused, cylinders fire one after the other, or the noise hides the gas.
     """
     table = read_torque(file)
     if len(table.curves) != 1:
@@ -142,10 +139,8 @@ def indicated(case: Case, file: str, noise: NewtonMetre) -> TorquePressure:
 def common_gas(case: Case) -> CommonGas:
     """The only gas of a case, on one piston or on several at once.
 
-    Raises
-    ------
-    BadInput
-        There is no cycle, or cylinders fire one after the other: the sum of their torques does not tell the shares
+    Raises BadInput: there is no cycle, or cylinders fire one after the other: the sum of their torques does not tell
+    the shares.
     """
     case.need("cycle")
     drive = drive_of(case)

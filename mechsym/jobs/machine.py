@@ -323,10 +323,7 @@ def turn(case: Case) -> Turn:
     case: with `[operation]`; `[cycle]` gives the gas, `[torque]` a torque in its place, `[inputs]` what else acts;
     `[faces]` and `[closing]` belong to an overconstrained mechanism.
 
-    Raises
-    ------
-    BadInput
-        A loop of the mechanism opens
+    Raises BadInput: a loop of the mechanism opens.
     """
     return _turn(at_recorded_speed(case))
 
@@ -381,10 +378,7 @@ def fitted_law(case: Case, omega: Sequence[RadPerSecond]) -> FittedLaw:
 
     case: with `[cycle]` and `[friction]`, perhaps `[rings]`. omega: crank speeds; a single one gives a constant.
 
-    Raises
-    ------
-    BadInput
-        The case has no cycle
+    Raises BadInput: the case has no cycle.
     """
     if "cycle" not in case.sections:
         raise BadInput(f"{case.file}: a friction mean pressure needs a [cycle]")

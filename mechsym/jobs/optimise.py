@@ -42,10 +42,7 @@ def programme(case: Case, section: Optimise, asked: Mapping[str, Json]) -> Figur
     numbers; of a list the number of the value comes behind it, from 1. asked: mapping of str to dict, limits of the
     case besides; those on figures that this cycle has not are none.
 
-    Raises
-    ------
-    BadInput
-        A name is none, or a limit leaves no room
+    Raises BadInput: a name is none, or a limit leaves no room.
     """
     variables = tuple(_variable(case, name, spec) for name, spec in section.variables.items())
     names = [v.name for v in variables]

@@ -89,10 +89,7 @@ class _Shaft:
 def problem_of(case: Case) -> Problem:
     """The run that a case describes.
 
-    Raises
-    ------
-    BadInput
-        A section is missing or names what the mechanism has not
+    Raises BadInput: a section is missing or names what the mechanism has not.
     """
     return ready(case).problem
 
@@ -121,14 +118,14 @@ def ready(case: Case) -> Ready:
     places = {"M_h", *(rotor.drive for rotor in mechanisms.roles_of(case.mechanism).rotors if rotor.drive)}
     for name in sorted(places & {part.input for part in parts}):
         mechanism = with_torque(mechanism, name)
-    q0, u0 = _start(case, mechanism, wanted, speed)
+    roles, (q0, u0) = mechanisms.roles_of(case.mechanism), _start(case, mechanism, wanted, speed)
     t_end, output = _end(case, wanted, u0[0])
     stalls = shaft.engine or shaft.twists and speed > 0 and bool(load_input(case))
     problem = Problem(
         mechanism=mechanism, parts=tuple(parts), q0=q0, u0=u0, t_end=t_end, turns=wanted.turns, kinks=driving.kinks,
         # a crank on a shaft that twists may swing back within a turn; its flywheel does only when the shaft stops
         stops=(Stop(name="stall", of=f"{shaft.coordinate}d", direction="falling"),) if stalls else (),
-        output=output,
+        unilateral=(*roles.stops, *roles.frictions), output=output,
     )  # fmt: skip
     return Ready(problem=problem, guide=guide, load=law)
 
@@ -247,10 +244,7 @@ def is_hinged(case: Case) -> bool:
 def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Guide]:
     """Engine, wanted torque and guide of a case with `[spring]` and `[guide]`.
 
-    Raises
-    ------
-    BadInput
-        The guide that the case asks for cannot be cut
+    Raises BadInput: the guide that the case asks for cannot be cut.
     """
     engine, choices = machine(case, diagram), case.need("guide")
     wanted = torque(engine)
@@ -266,10 +260,7 @@ def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Gu
 def driving_of(case: Case) -> Driving:
     """What turns the shaft of a case over its angle; nothing without `[cycle]` and `[torque]`.
 
-    Raises
-    ------
-    BadInput
-        Pistons on two throws of a shaft that share one gas, or a torque on a shaft that twists
+    Raises BadInput: Pistons on two throws of a shaft that share one gas, or a torque on a shaft that twists.
     """
     if not {"cycle", "torque"} & set(case.sections):
         return Driving()

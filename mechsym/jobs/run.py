@@ -165,7 +165,7 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         doubts=of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
         + (doubts(train, twist) if train else ()),
         findings=(
-            *_unbraked(case), *((*words(train), *twist_words(train, twist)) if train else ()),
+            *_unbraked(case), *_rubbing(result), *((*words(train), *twist_words(train, twist)) if train else ()),
             *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ()),
             *(_stopped(result, engine) if engine else ()),
         ),
@@ -202,6 +202,14 @@ def run_of(case: Case, settings: Settings) -> tuple[Result, RunNumbers, float]:
     problem = problem_of(case)
     result, period = simulate(problem, settings), period_of(problem)
     return result, summary(result, problem.mechanism.coordinates, window_of(case, problem), period), period
+
+
+def _rubbing(result: Result) -> tuple[str, ...]:
+    """How fast friction and the reactions that it makes converge to each other."""
+    rate = result.happened.contraction
+    return (
+        () if rate is None else (f"friction and reactions: their fixed point contracts by {rate:.3g} or less a turn",)
+    )
 
 
 def _unbraked(case: Case) -> tuple[str, ...]:

@@ -50,10 +50,7 @@ class Task:
 def size(case: Case) -> Sizing:
     """Size the engine of a case for the loads of its cycle.
 
-    Raises
-    ------
-    BadInput
-        The mechanism is not one that can be sized
+    Raises BadInput: the mechanism is not one that can be sized.
     """
     require(case, "size")
     by_spark = "cycle" in case.sections and kind_of(case.need("cycle")).closed
@@ -94,10 +91,7 @@ def _joints(case: Case) -> Sizing:
 def check_printed(case: Case) -> Sizing:
     """Check the parts that a case prints, in its sections `[part_*]`.
 
-    Raises
-    ------
-    BadInput
-        The case prints no parts
+    Raises BadInput: the case prints no parts.
     """
     if _given_drive(case):
         return _crosshead(case)
@@ -154,10 +148,7 @@ def _slider_crank(one: Task) -> Sizing:
 def task(case: Case) -> Task:
     """A case with the cycle settings that its section `[sizing]` asks for, and the stock to choose from.
 
-    Raises
-    ------
-    BadInput
-        A section is missing or a setting is no KEY=VALUE
+    Raises BadInput: a section is missing or a setting is no KEY=VALUE.
     """
     wants = case.sections.get("sizing", Wants())
     settings = dict(_setting(text, case.file) for text in wants.settings)
@@ -192,10 +183,7 @@ def gas_of(one: Task) -> Pressures:
 def printed_parts(case: Case) -> masses.PrintedMasses:
     """The parts that a case prints, with their masses: the reference of the mass model.
 
-    Raises
-    ------
-    BadInput
-        A section is missing
+    Raises BadInput: a section is missing.
     """
     parts = Parts(piston=case.need("part_piston"), cylinder=case.need("part_cylinder"), gears=case.need("part_gears"),
                   crank=case.need("part_crank"), bearings=case.need("part_bearings"))  # fmt: skip

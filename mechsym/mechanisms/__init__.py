@@ -3,6 +3,7 @@
 record        Mechanism: named CasADi functions with the parameters bound; `evaluate` along angles
 state         everything at one state; constraints closes loops and finds joint forces
 roles         what the parts are for: pistons, rotors, bearings, guides, teeth
+driven        coordinates that move as they are told, and what must push along them
 amounts       sizes that a declaration gives as text; closing  the force that an overconstrained mechanism leaves open
 plan          what a name stands for; own  the user's own; peers  what stands beside others in a comparison
 shaft         matrices of an elastic shaft
@@ -11,15 +12,16 @@ drawing, plots    to scale at any angle, moving in a page
 
 import dataclasses
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms import own
+from mechsym.mechanisms.driven import MotionSettings
 from mechsym.mechanisms.own import packaged
 from mechsym.mechanisms.plan import plan_of, roles_of
 from mechsym.mechanisms.record import Mechanism, bind, evaluate
 from mechsym.mechanisms.state import state
-from mechsym.quantities import quantity
+from mechsym.quantities import check, quantity
 from mechsym.quantities.records import Record
 
 if TYPE_CHECKING:
@@ -29,8 +31,6 @@ if TYPE_CHECKING:
 def names() -> list[str]:
     """Names of the mechanisms.
 
-    Examples
-    --------
     >>> "crosshead" in names()
     True
     """
@@ -40,13 +40,8 @@ def names() -> list[str]:
 def parameters_class(name: str) -> type[Record]:
     """The record of a mechanism's parameters.
 
-    Raises
-    ------
-    BadInput
-        No such mechanism
+    Raises BadInput: no such mechanism.
 
-    Examples
-    --------
     >>> parameters_class("hypocycloid").__name__
     'HypocycloidParameters'
     """
@@ -85,6 +80,16 @@ def start_class(name: str) -> type[Record]:
     return own.letters_class("Start", {**places, **speeds})
 
 
+def motion_class(name: str) -> type[Record]:
+    """The record of `[motion]`: how each driven coordinate moves, and what all of these share."""
+    _refuse_lists(name)
+    told = {q: dataclasses.field(default=None) for q in listing(name)["coordinates"]}
+    rows: list[Any] = [(q, float | str | None, field) for q, field in told.items()]
+    for field in dataclasses.fields(MotionSettings):
+        rows.append((field.name, field.type, dataclasses.field(default=field.default, metadata=field.metadata)))
+    return dataclasses.make_dataclass("Motion", rows, frozen=True, kw_only=True, namespace={"__post_init__": check})
+
+
 def build(name: str, parameters: Record) -> Mechanism:
     """The mechanism of that name with values for its parameters."""
     wanted = parameters_class(name)
@@ -98,10 +103,7 @@ def rigid(name: str, parameters: Record, guesses: Mapping[str, float] | None = N
 
     guesses: of coordinates that loops hold [rad] or [m].
 
-    Raises
-    ------
-    BadInput
-        More than one coordinate is free
+    Raises BadInput: more than one coordinate is free.
     """
     return plan_of(name).rigid(parameters, guesses or {})
 

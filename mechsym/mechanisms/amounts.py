@@ -23,8 +23,6 @@ def amount(text: str | float, letters: Mapping[str, Scalar]) -> Scalar:
 
     text: a number is its own value [unit]. Returns value: of the kind of the letters [unit].
 
-    Examples
-    --------
     >>> amount("r1 + 2*r2", {"r1": 0.2, "r2": 0.3})
     0.8
     """

@@ -103,13 +103,9 @@ def redundant_force(
     X_a, X_b: guide reactions at S = 0; s, c: sine and cosine of alpha. Returns S: along the crank, positive away from
     the shaft.
 
-    Notes
-    -----
     Source: principle of virtual forces with the one self-balanced state of the mechanism. Valid: contacts without
     friction or impact, deflections small against the crank radius, the play taken up at each instant.
 
-    Examples
-    --------
     >>> rule = Clearances(k_a=1e8, k_b=1e8, k_c=1e8, radius_error=1e-5)
     >>> round(float(redundant_force(rule, 0.0, 0.0, 0.6, 0.8)), 6)
     500.0

@@ -36,8 +36,6 @@ def equations(name: str) -> MechanismEquations:
 
     name: name of a mechanism, or a file with one.
 
-    Examples
-    --------
     >>> equations("crosshead").rows[0]["latex"]
     'l = l_{1} + l_{2}'
     """

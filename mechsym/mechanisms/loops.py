@@ -37,7 +37,7 @@ def closed(mechanism: Mechanism, q: ca.SX, dependents: Sequence[str], steps: int
     q: coordinates near a closed pose [rad] or [m], shape (n, 1); dependents: as many as there are constraints.
     """
     _, held = split(mechanism, dependents)
-    for _ in range(steps):
+    for _ in range(steps if held else 0):
         gap, jacobian, _ = mechanism.functions["constraints"](*ca.vertsplit(q), *([0] * q.numel()))
         moved = ca.SX(q)
         moved[held] = q[held] - ca.solve(jacobian[:, held], gap)
@@ -53,6 +53,8 @@ def motion(mechanism: Mechanism, q: ca.SX, u: ca.SX, dependents: Sequence[str]) 
     """
     free, held = split(mechanism, dependents)
     n = len(mechanism.coordinates)
+    if not held:
+        return ca.SX.eye(n), ca.SX(n, 1)
     _, jacobian, _ = mechanism.functions["constraints"](*ca.vertsplit(q), *([0] * n))
     T = ca.SX(n, len(free))
     T[free, :] = ca.SX.eye(len(free))
@@ -109,10 +111,7 @@ def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple
     Returns q: coordinates at even angles from 0 to where they repeat, both ends included [rad] or [m], shape (n, k +
     1); turns: after so many turns everything is as it was at the start.
 
-    Raises
-    ------
-    BadInput
-        The loop does not close over the turn; says where
+    Raises BadInput: the loop does not close over the turn; says where.
     """
     driver, *rest = mechanism.coordinates
     guesses = dict(mechanism.dependents)
@@ -165,10 +164,7 @@ def reduced(mechanism: Mechanism) -> tuple[Mechanism, int]:
     Returns mechanism: one coordinate; kinematic outputs also the dependent coordinates, with derivatives, and the
     inertia. turns: after so many turns everything is as it was at the start.
 
-    Raises
-    ------
-    BadInput
-        More than one independent coordinate, or the loop does not close over the turn
+    Raises BadInput: more than one independent coordinate, or the loop does not close over the turn.
     """
     free, _ = split(mechanism, tuple(mechanism.dependents))
     if free != [0]:

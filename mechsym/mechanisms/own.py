@@ -117,12 +117,8 @@ def file_of(name: str) -> tuple[Path, str]:
 def load(name: str) -> Own:
     """The mechanism of a file.
 
-    Raises
-    ------
-    BadInput
-        The file cannot be read, or its declaration is refused
-    MissingExtra
-        It is not in the cache and sympy is not installed
+    Raises BadInput: the file cannot be read, or its declaration is refused. MissingExtra: it is not in the cache and
+    sympy is not installed.
     """
     path, _, which = _parts(name)
     if not path.is_file():

@@ -176,8 +176,10 @@ def roles_of(name: str) -> "PartRoles":
 
 def driving_inputs(name: str) -> list[str]:
     """The inputs by which a drive may turn a mechanism: those of its rotors, else every torque."""
-    named = [rotor.drive for rotor in roles_of(name).rotors if rotor.drive]
-    return named or [text for text, unit in plan_of(name).listing(None)["inputs"].items() if unit == "N*m"]
+    roles = roles_of(name)
+    named = [rotor.drive for rotor in roles.rotors if rotor.drive]
+    torques = [text for text, unit in plan_of(name).listing(None)["inputs"].items() if unit == "N*m"]
+    return named or [text for text in torques if text not in roles.own_inputs]
 
 
 def _roles(name: str) -> "PartRoles":

@@ -38,7 +38,7 @@ class Mechanism:
     parameters: Mapping[str, float]  #: Values that are bound into the functions
     #: `kinematics(q..)`, `dynamics(q.., u.., inputs..)` giving mass_matrix, bias, generalized_force, `energy(q..,
     #: u..)`, `reactions(q.., u.., a.., inputs..)`, `momentum(q.., u.., a..)`, `constraints(q.., u..)` giving closure,
-    #: jacobian, bias; only those that exist
+    #: jacobian, bias, `joints` the reactions with what the constraints carry as inputs; only those that exist
     functions: Mapping[str, ca.Function]
     dependents: Mapping[str, float] = dataclasses.field(
         default_factory=dict
@@ -169,8 +169,8 @@ def bind_module(module: ModuleType, parameters: Mapping[str, Scalar]) -> Mechani
     functions: Mapping[str, ca.Function] = BoundFunctions(module, letters, values)
     dependents = getattr(module, "DEPENDENTS", {})
     if dependents and "reactions" in functions:
-        closed = with_multipliers(functions, module.MULTIPLIERS, tuple(dependents))
-        functions = {**functions, "reactions": closed}
+        functions = {**functions, "joints": functions["reactions"]}
+        functions = {**functions, "reactions": with_multipliers(functions, tuple(dependents))}
     return Mechanism(
         name=name, coordinates=q, inputs=module.INPUTS, parameters=values, functions=functions, dependents=dependents
     )
@@ -234,13 +234,8 @@ def evaluate(mechanism: Mechanism, group: str, **letters: Scalar) -> dict[str, n
     coordinates, velocities, accelerations and inputs, SI; what is not named is 0 [SI]. Returns values: by output name;
     vectors and matrices of several coordinates have their own axes before that of the points [SI].
 
-    Raises
-    ------
-    BadInput
-        No such group, or a letter that it does not take
+    Raises BadInput: no such group, or a letter that it does not take.
 
-    Examples
-    --------
     >>> from mechsym import cases, mechanisms
     >>> built = mechanisms.build("crosshead", cases.load("zotov-89").need("parameters"))
     >>> evaluate(built, "kinematics", phi=3.141592653589793)["x"].round(6).tolist()  # 2 r

@@ -160,6 +160,37 @@ class AlikeRole:
 
 
 @record
+class StopRole:
+    """What a motion meets: it gives way to none, or presses as a spring with damping."""
+
+    name: str
+    gap: str  #: Output: what is free, not below 0
+    force: str  #: Input: its force, 0 or above
+    restitution: Size | None = None  #: Share of the speed that comes back [-]
+    stiffness: Size | None = None  #: By how much it gives way [N/m] or [N*m/rad]
+    damping: Size | None = None  #: Of its force by the speed [s/m] or [s/rad]
+
+
+@record
+class FrictionRole:
+    """Dry friction, in the motion."""
+
+    name: str
+    force: str  #: Input: its force or torque
+    mu_s: Size  #: Of sticking [-]
+    mu_k: Size  #: Of sliding [-]
+    reactions: tuple[str, ...] = ()  #: That press the faces together
+    normal: Size | None = None  #: Or the force that does [N]
+    contact: str = ""  #: Or the contact whose force does
+    radius: Size | None = None  #: At which it acts where it is a torque [m]
+    stribeck: Size | None = None  #: Speed by which it falls from sticking to sliding [m/s] or [rad/s]
+    viscous: Size | None = None  #: [N*s/m] or [N*m*s/rad]
+    speed: Size | None = None  #: Of the other face [m/s] or [rad/s]
+    law: str = "set-valued"  #: Or `smooth`, which never sticks
+    smoothing: Size | None = None  #: Speed over which a smooth law turns about [m/s] or [rad/s]
+
+
+@record
 class PartRoles:
     """All parts with a role, in the order of the declaration."""
 
@@ -174,8 +205,15 @@ class PartRoles:
     closings: tuple[ClosingRole, ...] = ()
     shafts: tuple[ShaftRole, ...] = ()
     alike: tuple[AlikeRole, ...] = ()
+    stops: tuple[StopRole, ...] = ()
+    frictions: tuple[FrictionRole, ...] = ()
     opposed: bool = False  #: Whether the pistons stand in pairs on one axis, each towards the other's crank
     joints: Mapping[str, str] = field(default_factory=dict)  #: What bears each reaction
+
+    @property
+    def own_inputs(self) -> frozenset[str]:
+        """Inputs by which stops and friction act, and no drive."""
+        return frozenset([*(s.force for s in self.stops), *(f.force for f in self.frictions)])
 
     @property
     def load(self) -> str:
@@ -204,6 +242,7 @@ _KINDS = {
     "piston": ("pistons", PistonRole), "face": ("faces", FaceRole), "rotor": ("rotors", RotorRole),
     "bearing": ("bearings", BearingRole), "guide": ("guides", GuideRole), "teeth": ("teeth", TeethRole),
     "rod": ("rods", RodRole), "part": ("members", MemberRole),
+    "stop": ("stops", StopRole), "friction": ("frictions", FrictionRole),
     "shaft": ("shafts", ShaftRole), "closing": ("closings", ClosingRole), "alike": ("alike", AlikeRole),
 }  # fmt: skip
 

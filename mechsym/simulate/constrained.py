@@ -115,10 +115,7 @@ def start(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 
     Returns q, u: coordinates [rad or m] and velocities [rad/s or m/s].
 
-    Raises
-    ------
-    BadInput
-        The loop does not close there
+    Raises BadInput: the loop does not close there.
     """
     mechanism = problem.mechanism
     dependents = tuple(mechanism.dependents)

@@ -47,10 +47,7 @@ def system(problem: Problem, letters: Sequence[ca.SX] = ()) -> System:
     letters: sequence of casadi.SX, parameters that the mechanism leaves open; they become the last inputs of the
     function.
 
-    Raises
-    ------
-    BadInput
-        The mechanism has constraints, which need multipliers
+    Raises BadInput: the mechanism has constraints, which need multipliers.
     """
     mechanism = problem.mechanism
     if "constraints" in mechanism.functions:

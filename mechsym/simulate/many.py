@@ -52,7 +52,7 @@ def _groups(problems: Sequence[Problem], settings: Settings) -> list[list[int]]:
     """Problems that may share a call: same names everywhere, same jumps, stops and kinks in number."""
     families: dict[object, list[int]] = {}
     for i, p in enumerate(problems):
-        alone = settings.backend not in NATIVE or bool(unsuited(p))
+        alone = settings.backend not in NATIVE or bool(p.unilateral) or bool(unsuited(p))
         form = (
             p.mechanism.coordinates,
             tuple((q.name, q.input, type(q.value)) for q in p.parts),

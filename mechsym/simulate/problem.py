@@ -12,6 +12,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism, velocities
+from mechsym.mechanisms.roles import FrictionRole, StopRole
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Array, Scalar, Second
 
@@ -127,6 +128,7 @@ class Problem:
     breaks: tuple[float, ...] = ()
     kinks: tuple[Kinks, ...] = ()  #: Where forces are not smooth in a coordinate
     stops: tuple[Stop, ...] = ()
+    unilateral: tuple[StopRole | FrictionRole, ...] = ()  #: Stops, contacts and friction with events
     output: float | tuple[float, ...] = 0.01  #: Spacing of the results in time, or the wanted times themselves [s]
 
     def __post_init__(self) -> None:

@@ -31,6 +31,26 @@ class Event:
     state: Mapping[str, float]  #: Coordinates and velocities there [rad, rad/s]
 
 
+@results.result
+class RunEvent:
+    """What happened at a stop, a contact or a friction."""
+
+    t: float = quantity("s")  #: When
+    name: str = part()  #: Of which, or of those that are hit at once
+    #: `hit`, `rest` (a bounce is over), `touch`, `release`; `stick`, `slip`, `turn` (it slides the other way)
+    kind: str = part()
+    lost: float = quantity("J", default=0.0)  #: Energy that the blow takes
+
+
+@record
+class Happened:
+    """What a run tells of its stops, contacts and friction."""
+
+    events: tuple[RunEvent, ...] = ()  #: In time
+    #: Largest rate at which normal forces and friction converge to each other; None without friction of joints [-]
+    contraction: float | None = None
+
+
 @record
 class Energy:
     r"""Energy audit of a run.
@@ -67,6 +87,7 @@ class Result:
     tolerance_difference: float | None
     steps: int
     wall_s: float  #: Time that the run took, without the check [s]
+    happened: Happened = field(default_factory=Happened)
     #: Coordinates and velocities at any ascending times within the run; None where only the samples are known
     dense: Callable[[np.ndarray], Mapping[str, np.ndarray]] | None = field(default=None, repr=False, compare=False)
 
@@ -79,10 +100,7 @@ def write_series(result: Result, path: Path) -> Path:
 def write_netcdf(result: Result, path: Path) -> Path:
     """Write the time series as netCDF, each variable with its unit.
 
-    Raises
-    ------
-    MissingExtra
-        xarray or h5netcdf is not installed
+    Raises MissingExtra: xarray or h5netcdf is not installed.
     """
     return files.write_netcdf(path, dataset(result))
 
@@ -131,6 +149,7 @@ class RunNumbers:
     tolerance_difference: float | None = quantity("-")  #: Of a speed to the run at a hundredth of the tolerance
     steps: int = quantity("-")  #: Steps of the integrator
     wall_s: float = quantity("s")  #: Time that the run took
+    events: tuple[RunEvent, ...] = part()  #: At stops, contacts and friction, in time
     event: Columns | None = part()  #: What stopped it: name, time, state
     end: str = part()
     status: str = part()
@@ -166,6 +185,7 @@ def summary(
         steps=result.steps,
         wall_s=result.wall_s,
         event=stop,
+        events=result.happened.events,
         end=result.end,
         status=result.status,
         reason=result.reason,

@@ -11,12 +11,13 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities.units import Array, Second
 from mechsym.simulate import constrained
+from mechsym.simulate import events as event_runs
 from mechsym.simulate.audit import energies, energies_beside, energy_audit, speed_difference, verdict
 from mechsym.simulate.equations import System, system
 from mechsym.simulate.integrate import integrate
 from mechsym.simulate.phase import Raw
 from mechsym.simulate.problem import Problem, Steps, times_of
-from mechsym.simulate.result import Event, Result
+from mechsym.simulate.result import Event, Happened, Result
 from mechsym.simulate.settings import Settings
 
 TRIAL = 20_000  # steps that a run is tried with
@@ -32,10 +33,8 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
     settings: tolerance 1e-10 with check unless given. Returns result: series, energy audit, convergence; a failure is a
     status with a reason.
 
-    Raises
-    ------
-    BadInput
-        The backend cannot take this problem, or its first steps show that it would not end within those allowed
+    Raises BadInput: the backend cannot take this problem, or its first steps show that it would not end within those
+    allowed.
     """
     settings = settings or Settings()
     result = _once(problem, shorter(settings))
@@ -49,16 +48,18 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
 
 def _once(problem: Problem, settings: Settings) -> Result:
     begin = time.perf_counter()
-    equations, raw = _raw(problem, settings)
-    return result_of(problem, equations, raw, settings, time.perf_counter() - begin)
+    equations, raw, happened = _raw(problem, settings)
+    return replace(result_of(problem, equations, raw, settings, time.perf_counter() - begin), happened=happened)
 
 
-def _raw(problem: Problem, settings: Settings, equations: System | None = None) -> tuple[System, Raw]:
-    """A run before it is audited, and its equations, which may be known."""
+def _raw(problem: Problem, settings: Settings, equations: System | None = None) -> tuple[System, Raw, Happened]:
+    """A run before it is audited, its equations, which may be known, and what it tells."""
+    if problem.unilateral:
+        return event_runs.integrate(problem, settings, wanted_times(problem), ends_of(problem))
     if problem.mechanism.dependents:
-        return constrained.integrate(problem, settings, wanted_times(problem), ends_of(problem))
+        return *constrained.integrate(problem, settings, wanted_times(problem), ends_of(problem)), Happened()
     equations = equations or system(problem)
-    return equations, integrate(problem, equations, settings, wanted_times(problem), ends_of(problem))
+    return equations, integrate(problem, equations, settings, wanted_times(problem), ends_of(problem)), Happened()
 
 
 def tighter(settings: Settings) -> Settings:
@@ -207,7 +208,7 @@ def _dense(
             stops=(),
             output=tuple(after),
         )
-        _, run = _raw(again, settings, equations)
+        _, run, _ = _raw(again, settings, equations)
         return dict(zip(names, run.y[0 if times[0] == raw.t[i] else 1 :].T, strict=False))
 
     return at
@@ -229,10 +230,7 @@ def refuse_endless(problem: Problem, first: Result, tried: Result, settings: Set
 
     first, tried: the run with half of `TRIAL` steps, and with all of them.
 
-    Raises
-    ------
-    BadInput
-        The forecast is more than twice what is allowed, with how far the run may go
+    Raises BadInput: the forecast is more than twice what is allowed, with how far the run may go.
     """
     by_time, by_turns = _shares(problem, tried)
     half, whole = max(_shares(problem, first)), max(by_time, by_turns)

@@ -41,7 +41,7 @@ COMMANDS = {
             "mechsym.native.evaluate",
             "importlib.metadata",
         },
-        360,
+        361,
     ),
     "cases zotov-89": ({"scipy.optimize", "scipy.interpolate", "mechsym.jobs", "importlib.metadata"}, 360),
     "hinge zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 1010),

@@ -78,7 +78,7 @@ SLIPS = {
     "m.coordinates(['u', 'v'])": "write names divided by spaces",
     "m.coordinates('u, v')": "'u,' is not a usable name",
     "m.coordinates('u', None)": "the unit None is no text",
-    "m.parameters('q', 'm', above='zero')": "above of q = 'zero' is no number",
+    "m.parameters('q', 'm', above='zero')": "above of q = 'zero' is not a number in m",
     "m.parameters('q', 'm', default=float('nan'))": "default of q = nan is no number",
     "m.force(F, along=None)": "displacement = None is no expression",
     "m.torque(T, along=3)": "displacement = 3 moves with no coordinate; there are phi",

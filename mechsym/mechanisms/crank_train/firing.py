@@ -18,8 +18,6 @@ def firing_angles(order: Sequence[int], period: Radian) -> tuple[Radian, ...]:
     order: cylinders 1 to n in the order in which they fire; period: 2 pi (two-stroke) or 4 pi (four-stroke). Returns
     angles: shaft angle at which cylinder 1, 2.. fires.
 
-    Examples
-    --------
     >>> [round(math.degrees(a)) for a in firing_angles((1, 5, 3, 6, 2, 4), 4 * math.pi)]
     [0, 480, 240, 600, 120, 360]
     """
@@ -49,15 +47,19 @@ def refuse_wrong_firing(parameters: CrankTrainParameters, period: Radian = _TURN
             "firing is missing: gas forces need the shaft angle at which each cylinder fires; "
             f"evenly spaced as far as the cranks allow: {_line(even_firing(parameters, period))}"
         )
-    rows = zip(each(parameters, "firing"), local_shift(parameters), dead_centre(parameters), strict=True)
-    for i, (fires, shift, top) in enumerate(rows, 1):
-        late = math.remainder(fires + shift - top, _TURN)
+    for i, (fires, late) in enumerate(zip(each(parameters, "firing"), lateness(parameters), strict=True), 1):
         if abs(late) > _LARGEST_LEAD:
             raise BadInput(
                 f"firing of cylinder {i} = {math.degrees(fires):g} deg is {abs(math.degrees(late)):.4g} deg off its "
                 "top dead centre; with these phases and banks, spaced as evenly as they allow: "
                 f"{_line(even_firing(parameters, period))}"
             )
+
+
+def lateness(parameters: CrankTrainParameters) -> tuple[Radian, ...]:
+    """How far behind its top dead centre each cylinder fires."""
+    rows = zip(each(parameters, "firing"), local_shift(parameters), dead_centre(parameters), strict=True)
+    return tuple(math.remainder(fires + shift - top, _TURN) for fires, shift, top in rows)
 
 
 def even_firing(parameters: CrankTrainParameters, period: Radian) -> tuple[Radian, ...]:
