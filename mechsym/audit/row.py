@@ -8,6 +8,7 @@ from mechsym.audit.judge import conventions
 from mechsym.audit.judge.asked import Asked, left_note, question_of
 from mechsym.audit.judge.orders import expansions, groups, powers
 from mechsym.audit.judge.question import Question, used_names
+from mechsym.audit.read.mathml import STYLE, corrected, formula
 from mechsym.audit.read.reader import Statement, joined, statement, write
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import at
@@ -207,4 +208,11 @@ def unread_row(name: str, against: str, printed: str, why: str) -> Row:
 
 def html(title: str, summary: str, rows: Sequence[Row]) -> str:
     """The rows as one HTML page that opens offline: what is printed, what it was compared with, verdict, correction."""
-    return page("audit.html", title=title, summary=summary, rows=rows, ratio=ratio_text)
+    from markupsafe import Markup
+
+    def set_beside(printed: str, correction: str | None) -> Sequence[Markup]:
+        both = corrected(printed, correction) if correction else (formula(printed),)
+        return [Markup(text) for text in both]  # noqa: S704 escaped where it is made
+
+    return page("audit.html", title=title, summary=summary, rows=rows, ratio=ratio_text, set_beside=set_beside,
+                formulas=Markup(STYLE))  # fmt: skip

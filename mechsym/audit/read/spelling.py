@@ -26,9 +26,11 @@ _LATEX = {
 }  # fmt: skip
 _WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _STEMS = "|".join([*sorted(_LATEX, key=len, reverse=True), "[A-Za-z]"])
-_NAME = re.compile(rf"(?P<stem>{_STEMS})(?:(?P<digits>[A-Z]*[0-9]+)|_(?P<word>[A-Za-z0-9]+?))?(?P<dots>dd?)?")
+NAME = re.compile(rf"(?P<stem>{_STEMS})(?:(?P<digits>[A-Z]*[0-9]+)|_(?P<word>[A-Za-z0-9]+?))?(?P<dots>dd?)?")
 
 
+#: Letter by its name
+SYMBOLS = {name: sign for sign, name in _GREEK.items() if name.isalpha() and name != "sqrt" and sign != "ϕ"}
 _CALLS = "arcsin|arccos|arctan|asin|acos|atan|sqrt|sin|cos|tan|cot|tg|ctg|exp|log|ln"
 _BARE = re.compile(rf"\b({_CALLS})\s+((?:\d+(?:\.\d+)?\s*\*?\s*)?[^\W\d]\w*)(?!\s*\()")
 _POWERED = re.compile(rf"\b({_CALLS})\s*(?:(²|³|⁴)|(?:\^|\*\*)\s*\{{?\(?(-?\d)\)?\}}?)\s*(?=[^\W\d]|\()")
@@ -102,7 +104,7 @@ def resolve(written: str, known: Iterable[str]) -> str | None:
 
 def latex(name: str) -> str:
     r"""A plain name as LaTeX."""
-    match = _NAME.fullmatch(name)
+    match = NAME.fullmatch(name)
     if match is None:
         word = name.replace("_", r"\_")
         return rf"\mathrm{{{word}}}"
@@ -113,7 +115,7 @@ def latex(name: str) -> str:
     return f"{base}_{{{index}}}" if index else base
 
 
-_SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(5)  # how tightly a printed node binds
+SUM, PRODUCT, _SIGN, POWER, ATOM = range(5)  # how tightly a printed node binds
 _NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "log": "ln"}
 
 
@@ -122,33 +124,33 @@ def to_python(tree: Node) -> str:
     return _python(tree)[0]
 
 
-_SIGNS = {ast.Add: (" + ", _SUM), ast.Sub: (" - ", _SUM), ast.Mult: ("*", _PRODUCT), ast.Div: ("/", _PRODUCT)}
+_SIGNS = {ast.Add: (" + ", SUM), ast.Sub: (" - ", SUM), ast.Mult: ("*", PRODUCT), ast.Div: ("/", PRODUCT)}
 
 
 def _python(node: Node) -> tuple[str, int]:
     if isinstance(node, ast.Name):
-        return node.id, _ATOM
+        return node.id, ATOM
     if isinstance(node, ast.Constant):
-        return str(node.value), _ATOM
+        return str(node.value), ATOM
     if isinstance(node, ast.Call):
-        return f"{function_of(node)}({_python(node.args[0])[0]})", _ATOM
+        return f"{function_of(node)}({_python(node.args[0])[0]})", ATOM
     if isinstance(node, ast.UnaryOp):
-        return f"-{_bracketed(node.operand, _POWER)}", _SIGN
+        return f"-{_bracketed(node.operand, POWER)}", _SIGN
     if isinstance(node, ast.IfExp):
-        return f"piecewise({', '.join(_python(n)[0] for n in (node.test, node.body, node.orelse))})", _ATOM
+        return f"piecewise({', '.join(_python(n)[0] for n in (node.test, node.body, node.orelse))})", ATOM
     if isinstance(node, ast.Compare):
-        return f"{_python(node.left)[0]} {_SIDES[type(node.ops[0])]} {_python(node.comparators[0])[0]}", _SUM
+        return f"{_python(node.left)[0]} {SIDES[type(node.ops[0])]} {_python(node.comparators[0])[0]}", SUM
     assert isinstance(node, ast.BinOp)
     if isinstance(node.op, ast.Pow):
-        return f"{_bracketed(node.left, _ATOM)}**{_bracketed(node.right, _ATOM)}", _POWER
+        return f"{_bracketed(node.left, ATOM)}**{_bracketed(node.right, ATOM)}", POWER
     sign, level = _SIGNS[type(node.op)]
     # a signed factor may only lead, and what follows - or / needs its own bracket
     following = level + 1 if isinstance(node.op, (ast.Sub, ast.Mult, ast.Div)) else level
-    right = _bracketed(node.right, following if following != _SIGN else _POWER)
+    right = _bracketed(node.right, following if following != _SIGN else POWER)
     return f"{_bracketed(node.left, level)}{sign}{right}", level
 
 
-_SIDES: dict[type, str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
+SIDES: dict[type, str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 
 
 def _bracketed(node: Node, level: int) -> str:
@@ -163,32 +165,32 @@ def to_latex(tree: Node, spelled: Mapping[str, str]) -> str:
 
 def _latex(node: Node, spelled: Mapping[str, str]) -> tuple[str, int]:
     if isinstance(node, ast.Name):
-        return spelled.get(node.id) or latex(node.id), _ATOM
+        return spelled.get(node.id) or latex(node.id), ATOM
     if isinstance(node, ast.Constant):
         text = str(node.value)
         if "e" not in text:
-            return text, _ATOM
+            return text, ATOM
         mantissa, _, exponent = text.partition("e")
-        return rf"{mantissa} \cdot 10^{{{int(exponent)}}}", _PRODUCT
+        return rf"{mantissa} \cdot 10^{{{int(exponent)}}}", PRODUCT
     if isinstance(node, ast.UnaryOp):
-        return f"-{_at_least(node.operand, _POWER, spelled)}", _SUM
+        return f"-{_at_least(node.operand, POWER, spelled)}", SUM
     if isinstance(node, ast.Call):
         function, argument = str(function_of(node)), node.args[0]
         if function == "sqrt":
-            return rf"\sqrt{{{_latex(argument, spelled)[0]}}}", _ATOM
+            return rf"\sqrt{{{_latex(argument, spelled)[0]}}}", ATOM
         if function == "abs":
-            return rf"\left|{_latex(argument, spelled)[0]}\right|", _ATOM
+            return rf"\left|{_latex(argument, spelled)[0]}\right|", ATOM
         if function == "sum":
-            return rf"\left(\sum {_at_least(argument, _PRODUCT, spelled)}\right)", _ATOM
+            return rf"\left(\sum {_at_least(argument, PRODUCT, spelled)}\right)", ATOM
         inner, tightness = _latex(argument, spelled)
-        short = tightness == _ATOM and isinstance(argument, ast.Name)
-        return rf"\{_NAMES.get(function, function)}" + (f" {inner}" if short else rf"\left({inner}\right)"), _ATOM
+        short = tightness == ATOM and isinstance(argument, ast.Name)
+        return rf"\{_NAMES.get(function, function)}" + (f" {inner}" if short else rf"\left({inner}\right)"), ATOM
     if isinstance(node, ast.IfExp):
         test, body, other = (_latex(n, spelled)[0] for n in (node.test, node.body, node.orelse))
-        return rf"\begin{{cases}} {body} & {test} \\ {other} & \text{{else}} \end{{cases}}", _ATOM
+        return rf"\begin{{cases}} {body} & {test} \\ {other} & \text{{else}} \end{{cases}}", ATOM
     if isinstance(node, ast.Compare):
         left, right = (_latex(n, spelled)[0] for n in (node.left, node.comparators[0]))
-        return f"{left} {_SIDES[type(node.ops[0])]} {right}", _SUM
+        return f"{left} {SIDES[type(node.ops[0])]} {right}", SUM
     assert isinstance(node, ast.BinOp)
     return _operation(node, spelled)
 
@@ -200,22 +202,22 @@ def _at_least(node: Node, level: int, spelled: Mapping[str, str]) -> str:
 
 def _operation(node: ast.BinOp, spelled: Mapping[str, str]) -> tuple[str, int]:
     if isinstance(node.op, ast.Div):
-        return rf"\frac{{{_latex(node.left, spelled)[0]}}}{{{_latex(node.right, spelled)[0]}}}", _ATOM
+        return rf"\frac{{{_latex(node.left, spelled)[0]}}}{{{_latex(node.right, spelled)[0]}}}", ATOM
     if isinstance(node.op, ast.Pow):
-        return _power(node, spelled), _POWER
+        return _power(node, spelled), POWER
     if isinstance(node.op, ast.Mult):
         # -a b: the sign of the first factor needs no bracket where the product leads
         first = node.left
         while isinstance(first, ast.BinOp) and isinstance(first.op, ast.Mult):
             first = first.left
         signed = isinstance(first, ast.UnaryOp)
-        left = _at_least(node.left, _SUM if signed else _PRODUCT, spelled)
-        right = _at_least(node.right, _POWER, spelled)
+        left = _at_least(node.left, SUM if signed else PRODUCT, spelled)
+        right = _at_least(node.right, POWER, spelled)
         apart = left[-1:].isdigit() and right[:1].isdigit() or _ends_bare(node.left)
-        return f"{left} \\cdot {right}" if apart else f"{left} {right}", _SUM if signed else _PRODUCT
+        return f"{left} \\cdot {right}" if apart else f"{left} {right}", SUM if signed else PRODUCT
     sign = "+" if isinstance(node.op, ast.Add) else "-"
-    right = _at_least(node.right, _PRODUCT, spelled)
-    return f"{_latex(node.left, spelled)[0]} {sign} {right}", _SUM
+    right = _at_least(node.right, PRODUCT, spelled)
+    return f"{_latex(node.left, spelled)[0]} {sign} {right}", SUM
 
 
 def _ends_bare(node: Node) -> bool:
@@ -232,5 +234,5 @@ def _power(node: ast.BinOp, spelled: Mapping[str, str]) -> str:
         head, _, tail = _latex(node.left, spelled)[0].partition(str(_NAMES.get(str(function), function)))
         return rf"{head}{_NAMES.get(str(function), function)}^{{{exponent}}}{tail}"
     base, level = _latex(node.left, spelled)
-    simple = level == _ATOM and isinstance(node.left, (ast.Name, ast.Constant))
+    simple = level == ATOM and isinstance(node.left, (ast.Name, ast.Constant))
     return f"{base}^{{{exponent}}}" if simple else rf"\left({base}\right)^{{{exponent}}}"
