@@ -7,6 +7,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from mechsym.app.answers import Plotted
@@ -32,7 +33,9 @@ _TURNS = 12.0  # about two turns [rad]
 LIVE = ("simulate", "forces", "cycle")
 #: command: its table, the column along which it goes
 _TABLES = {"forces": ("forces.csv", "phi"), "cycle": ("cycle.csv", "phi"), "simulate": ("series.csv", "t")}
+_PAGES = {"codesign": "report.html"}  # shown below its numbers
 _FIRST = ("p", "torque")  # curves that are looked for first
+_ALONG = {"phi": "crank angle", "t": "time"}
 _HEAD = re.compile(r"^(.*?)(?: \[(.*)\])?$")
 
 
@@ -45,6 +48,7 @@ class Run:
     rows: tuple[tuple[str, str], ...] = ()  #: names and values of its JSON, the lists in short
     curves: tuple[Plotted, ...] = ()  #: of its table, where it has one
     findings: tuple[Finding, ...] = ()  #: what has to be known first
+    page: str = ""  #: that it wrote, with its pictures
 
 
 def tabs(case: Case) -> tuple[str, ...]:
@@ -61,8 +65,6 @@ def reads(command: str, case: Case) -> set[str]:
 def against(mechanism: str) -> str:
     """A quantity of a mechanism that a formula may be tried against: the travel of its first piston, as a rule.
 
-    Examples
-    --------
     >>> against("crosshead"), against("rodless"), against("crank_train")
     ('crosshead.x', 'rodless.x_a', 'crank_throw.x')
     """
@@ -77,10 +79,11 @@ def words(command: str, name: str, values: Mapping[str, float]) -> list[str]:
 
 async def run(line: Sequence[str]) -> Run:
     """Run a command line with --json, and its table where it has one; when it is cancelled its process ends too."""
-    table = _TABLES.get(line[0])
+    table, written = _TABLES.get(line[0]), _PAGES.get(line[0])
+    out_of = line[0] in {*_TABLES, *_PAGES}
     with tempfile.TemporaryDirectory() as folder:
         process = await asyncio.create_subprocess_exec(
-            sys.executable, "-m", "mechsym", *line, "--json", "--with-units", *(("--out", folder) if table else ()),
+            sys.executable, "-m", "mechsym", *line, "--json", "--with-units", *(("--out", folder) if out_of else ()),
             stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
         )  # fmt: skip
         try:
@@ -91,7 +94,9 @@ async def run(line: Sequence[str]) -> Run:
             raise
         curves = _curves(Path(folder) / table[0], table[1]) if table else ()
         units = _units(Path(folder) / table[0]) if table else {}
-    return run_of(process.returncode or 0, out.decode(), said.decode(), curves, units)
+        page = Path(folder) / written if written else None
+        shown = page.read_text(encoding="utf-8") if page is not None and page.exists() else ""
+    return replace(run_of(process.returncode or 0, out.decode(), said.decode(), curves, units), page=shown)
 
 
 def run_of(
@@ -134,13 +139,24 @@ def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
     # what only rounds beside the others of its unit is no curve
     sizes = {u: max((max(map(abs, c)) for c, (_, v) in zip(columns, named, strict=True) if c and u == v), default=0.0)
              for _, u in named}  # fmt: skip
-    moving = [i for i, c in enumerate(columns) if i != place and c and max(c) - min(c) > _ROUNDING * sizes[named[i][1]]]
+    steady = {i for i, c in enumerate(columns) if c and max(c) - min(c) <= _ROUNDING * sizes[named[i][1]]}
+    for i in (i for i in steady if named[i][1] == "rad/s"):  # a speed that is held is seen to be
+        columns[i] = (sum(columns[i]) / len(columns[i]),) * len(columns[i])
+    moving = [i for i, c in enumerate(columns) if i != place and c and (i not in steady or named[i][1] == "rad/s")]
     # an angle that goes on from turn to turn is a straight line; what swings stands before it
     goes_on = {i for i in moving if named[i][1] == "rad" and max(columns[i]) - min(columns[i]) > _TURNS}
-    moving.sort(key=lambda i: (named[i][0] not in _FIRST, i in goes_on))
-    x_name, x = _axis(*named[place], columns[place])
-    shown = ((key_words(named[i][0], KNOWN), *_axis(*named[i], columns[i])) for i in moving[:_MOST_CURVES])
-    return tuple(Plotted(name=name, chart=name, x_name=x_name, y_name=y_name, x=x, y=y) for name, y_name, y in shown)
+    moving.sort(key=lambda i: (named[i][0] not in _FIRST and named[i][1] != "rad/s", i in goes_on))
+    x_name, x = _axis(_ALONG[along], named[place][1], columns[place])
+    shown = (_axis(*_worded(*named[i]), columns[i]) for i in moving[:_MOST_CURVES])
+    named_y = ((y_name.partition(" [")[0], y_name, y) for y_name, y in shown)
+    return tuple(Plotted(name=name, chart=name, x_name=x_name, y_name=y_name, x=x, y=y) for name, y_name, y in named_y)
+
+
+def _worded(name: str, unit: str) -> tuple[str, str]:
+    """The rate of an angle is a speed."""
+    if unit != "rad/s" or not name.endswith("d"):
+        return name, unit
+    return "crank speed" if name == "phid" else f"speed of {name[:-1]}", unit
 
 
 def _axis(name: str, unit: str, values: tuple[float, ...]) -> tuple[str, tuple[float, ...]]:

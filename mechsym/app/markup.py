@@ -5,13 +5,14 @@ from collections.abc import Sequence
 
 from mechsym.app.answers import Answer, Plotted
 from mechsym.app.commands import Run
-from mechsym.app.told import pretty_words
+from mechsym.app.told import grouped, pretty_words
 from mechsym.files import Json
 from mechsym.page import Finding
 from mechsym.style import DARK, QUIET
 
 _COLOURS = ("#3f7fca", "#c9503f", "#3f9d68")
 _SENTENCE = 40  # letters
+_TALL = "this.style.height = this.contentDocument.body.offsetHeight + 16 + 'px'"
 # no one grey has a contrast of 4.5 on both papers: the browser chooses
 _GREY = f"document.body.classList.contains('body--dark') ? '{DARK[QUIET]}' : '{QUIET}'"
 # in the picture: it tells its angle, and stands where it is told to
@@ -19,11 +20,11 @@ _LINK = """<style>h1 { display: none } body { padding: 0 } .turning .scene svg {
 const [label, angle, play] = ["label", "angle", "play"].map(name => document.querySelector(".turn ." + name));
 let stopped = false;
 const tell = () => parent.postMessage({ crank: parseFloat(label.textContent) }, "*");
-new MutationObserver(tell).observe(label, { childList: true });
+if (DEGREES) new MutationObserver(tell).observe(label, { childList: true });
 addEventListener("message", e => {
   if (e.source !== parent || !e.data) return;
   if ("rest" in e.data && !stopped && play.textContent === "Pause") { stopped = true; play.click(); }
-  else if ("hold" in e.data) {
+  else if ("hold" in e.data && DEGREES) {
     const count = +angle.max + 1, at = ((e.data.hold % DEGREES) + DEGREES) % DEGREES;
     stopped = stopped || play.textContent === "Pause";
     angle.value = Math.round(at / DEGREES * count) % count;
@@ -57,25 +58,43 @@ def _counted(rows: Sequence[tuple[str, str]]) -> list[tuple[tuple[str, int], str
 
 
 def bars(answer: Answer) -> str:
-    """Limits as bars with what is left of them."""
+    """Limits as bars, as long as the share of each that is used; one that is only kept or not has none."""
     parts = []
     for bar in answer.bars:
-        left = 1.0 if bar.margin is None else max(0.0, min(1.0, bar.margin))
+        used = 1.0 if bar.margin is None else max(0.0, min(1.0, 1.0 - bar.margin))
         colour = _COLOURS[2] if bar.kept else _COLOURS[1]
+        drawn = f"<div style='background:{colour};height:.4rem;width:{100 * (used if bar.kept else 1):.0f}%'></div>"
+        word = "" if bar.kept else "NOT kept: "
         parts.append(
-            f"<div style='font-size:.85rem;margin-bottom:.2rem'>{html.escape(bar.text)}"
-            f"<div class='mechsym-bar'><div style='background:{colour};height:.4rem;"
-            f"width:{100 * (left if bar.kept else 1):.0f}%'></div></div></div>"
+            f"<div style='font-size:.85rem;margin-bottom:.2rem'>{word}{html.escape(bar.text)}"
+            + (f"<div class='mechsym-bar'>{drawn}</div></div>" if bar.margin is not None else "</div>")
         )
-    return "".join(parts)
+    told = "Limits: a bar is as long as what is used of its limit, full where it is reached."
+    return f"<p class='mechsym-note'>{told}</p>{''.join(parts)}" if parts else ""
 
 
-def run_table(found: Run, pinned: Run | None = None) -> str:
-    """What a command said."""
+def run_head(found: Run, pinned: Run | None = None) -> str:
+    """What has to be known first of what a command said: findings, how it ended, the numbers that stand alone."""
     state = {0: "done", 1: "done: what is asked is not met", 2: "refused: see why", 3: "done, with doubts"}
     words = f"<p>{html.escape(found.words)}</p>" if found.words else ""
     said = f"<p class='mechsym-note'>{state.get(found.status, 'failed: it ended before it was done')}</p>"
-    return findings(found.findings) + said + words + table(found.rows, pinned.rows if pinned else ())
+    rows, beside = grouped(found.rows).get("", []), grouped(pinned.rows if pinned else ()).get("", [])
+    return findings(found.findings) + said + words + table(rows, beside)
+
+
+def run_groups(found: Run, pinned: Run | None = None) -> str:
+    """The page that a command wrote, and its other numbers in groups with a heading each."""
+    beside = grouped(pinned.rows if pinned else ())
+    parts = [
+        f"<section><h3>{html.escape(title)}</h3>{table(rows, beside.get(title, ()))}</section>"
+        for title, rows in grouped(found.rows).items()
+        if title
+    ]
+    told = f"<div class='mechsym-groups'>{''.join(parts)}</div>"
+    if not found.page:
+        return told
+    page = f'<iframe class="mechsym-page" title="page of the command" srcdoc="{html.escape(found.page)}"'
+    return f'{page} onload="{_TALL}"></iframe><details><summary>all numbers</summary>{told}</details>'
 
 
 def findings(found: Sequence[Finding]) -> str:
@@ -109,10 +128,10 @@ def chart(curves: list[tuple[Plotted, str]]) -> Json:
     }  # fmt: skip
 
 
-def frame(page: str, title: str, turns: int) -> str:
-    """A whole page inside the page, its angle linked with the charts; it shows so many turns."""
+def frame(page: str, title: str, turns: int = 0) -> str:
+    """A whole page inside the page; one that shows so many turns has its angle linked with the charts."""
     linked = page.replace("</body>", _LINK.replace("DEGREES", str(360 * turns)))
     return (
-        f'<iframe style="width:100%;height:min(27rem,90vw);border:0;border-radius:.4rem" '
+        f'<iframe style="width:100%;height:min(27rem,90vw);border:0;border-radius:.4rem" onload="{_TALL}" '
         f'title="{html.escape(title)} turning" srcdoc="{html.escape(linked)}"></iframe>'
     )

@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from mechsym.app import commands
-from mechsym.app.answers import Answer, Plotted, hinge_answer, moving
+from mechsym.app.answers import Answer, Plotted, hinge_answer, machine, moving
 from mechsym.app.commands import Run
-from mechsym.app.markup import bars, chart, findings, frame, run_table, table
+from mechsym.app.markup import bars, chart, findings, frame, run_groups, run_head, table
 
 if TYPE_CHECKING:
     from nicegui.element import Element
@@ -128,14 +128,20 @@ class RunPanel(Panel):
         self.found_for: dict[str, float] | None = None
         self.pinned: Run | None = None
         self.running: asyncio.Task[Run] | None = None
+        self.drawn_for: dict[str, float] | None = None
         self.above()
-        with ui.row().classes("items-center"):
-            ui.button(f"run mechsym {self.name}", on_click=self.start)
-            self.busy = ui.spinner(size="sm")
-            self.note = ui.label().classes("mechsym-note")
+        with ui.element("div").classes("w-full").props(f'data-run="{self.name}"'):
+            with ui.element("div").classes("w-full grid gap-6 grid-cols-1 lg:grid-cols-2 items-start"):
+                self.stage = ui.html("", sanitize=False).classes("w-full")
+                with ui.column().classes("gap-2"):
+                    with ui.row().classes("items-center"):
+                        ui.button(f"run mechsym {self.name}", on_click=self.start)
+                        self.busy = ui.spinner(size="sm")
+                        self.note = ui.label().classes("mechsym-note")
+                    self.first = ui.html("", sanitize=False)
+            self.charts = ui.element("div").classes("w-full grid gap-2 grid-cols-1 sm:grid-cols-2 xl:grid-cols-3 mt-4")
+            self.shown = ui.html("", sanitize=False).classes("w-full")
         self.busy.visible = False
-        self.charts = ui.element("div").classes("w-full grid gap-2 grid-cols-1 sm:grid-cols-2 xl:grid-cols-3")
-        self.shown = ui.html("", sanitize=False).classes("w-full").props(f'data-run="{self.name}"')
         ui.timer(1.0, self._tick)
         self.seconds = 0
 
@@ -157,6 +163,18 @@ class RunPanel(Panel):
             await asyncio.sleep(_REST)
             if newest():
                 await self.start()
+        if newest():
+            await self._turn(dict(values))
+
+    async def _turn(self, values: dict[str, float]) -> None:
+        """Draw the machine of these values, turning."""
+        from nicegui import run
+
+        if self.drawn_for != values:
+            self.drawn_for = values
+            picture = await run.io_bound(machine, self.path, values)
+            self.stage.set_content("" if picture is None else frame(picture, "the machine"))
+            self.stage.visible = picture is not None
 
     async def start(self) -> None:
         """Run the command; a run that is still on its way ends."""
@@ -178,7 +196,8 @@ class RunPanel(Panel):
 
     def _show(self, found: Run) -> None:
         pinned = self.pinned
-        self.shown.set_content(run_table(found, pinned))
+        self.first.set_content(run_head(found, pinned))
+        self.shown.set_content(run_groups(found, pinned))
         self.draw(found.curves, pinned.curves if pinned else ())
 
     def pin(self) -> None:

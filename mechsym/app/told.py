@@ -16,6 +16,10 @@ Rows = list[tuple[str, str]]
 # of a folder that is gone; beside their values; ends of curves; at the head of the page
 _SILENT = ("files", "written", "units", "final_state", "case", "mechanism")
 _MOST = 8  # entries of a list that are told
+_SENTENCE = 90  # letters: a longer text stands under a heading of its own
+_SPANNED = ("min", "max", "angle_of_max_deg", "reactions")
+_TURN = "least to largest over the turn"
+_RODS = {"two_mass_": "with the rod as two masses", "terskih_": "with the rod after Terskih"}
 _ORDERS = 4  # orders of a harmonic analysis that are told
 _NAMES = {"component", "quantity"}
 _HARMONIC = {"order", "amplitude", "phase"}
@@ -27,7 +31,9 @@ _ROUNDING = 1e-9  # of the largest number of one unit in a group
 _FREQUENCIES = ("natural", "natural_bare", "natural_frequencies")  # told in Hz
 _PLAIN = ("tolerance", "knock")  # pure numbers that are no ratios
 #: Words of results without the unit that ends their names
-KNOWN = {without_unit(name, UNITS[name]): words for name, words in WORDS.items()}
+KNOWN = {without_unit(name, UNITS[name]): words for name, words in WORDS.items()} | {
+    "d2x_dphi2": "curvature of x", "dpsi_dphi": "slope of psi", "dinertia_dphi": "slope of the inertia",
+}  # fmt: skip
 Units = Mapping[str, str]  # of numbers by their paths
 
 
@@ -39,6 +45,21 @@ def told(found: Json | list[Json], units: Units) -> Rows:
     return [(worded[name] if often[worded[name]] == 1 else key_words(name), text) for name, text in rows]
 
 
+def grouped(rows: Sequence[tuple[str, str]]) -> dict[str, Rows]:
+    """Rows by the first word of their names, where several share it; those that stand alone under none.
+
+    >>> grouped([("speed", "89 rpm"), ("work, gas", "9 J"), ("work, load", "-9 J"), ("assumed", "a"), ("assumed", "b")])
+    {'': [('speed', '89 rpm')], 'work': [('gas', '9 J'), ('load', '-9 J')], 'assumed': [('', 'a'), ('', 'b')]}
+    """
+    often = Counter(name.partition(", ")[0] for name, _ in rows)
+    groups: dict[str, Rows] = {}
+    for name, text in rows:
+        title, _, rest = name.partition(", ")
+        several = often[title] > 1 or len(text) > _SENTENCE
+        groups.setdefault(title if several else "", []).append((rest if several else name, text))
+    return groups
+
+
 def _told(found: Json | list[Json], units: Units) -> Rows:
     if isinstance(found, list):
         return _checks(found, units)
@@ -48,7 +69,7 @@ def _told(found: Json | list[Json], units: Units) -> Rows:
         for d in found.get(key) or ()
     ]
     spans = isinstance(found.get("min"), Mapping) and isinstance(found.get("max"), Mapping)
-    hidden = {"doubts", "accepted", "headline", *_SILENT, *(("min", "max", "angle_of_max_deg") if spans else ())}
+    hidden = {"doubts", "accepted", "headline", *_SILENT, *(_SPANNED if spans else ())}
     rest = {k: v for k, v in found.items() if k not in hidden}
     inner = {k: v for k, v in rest.items() if isinstance(v, (Mapping, list))}
     said = {k: v for k, v in inner.items() if isinstance(v, list) and v and isinstance(v[0], str)}
@@ -60,8 +81,6 @@ def _told(found: Json | list[Json], units: Units) -> Rows:
 def unit_of(path: str, units: Units) -> tuple[str, str]:
     """The path of a number without the unit that it carries, and its unit: `-` of a pure number, empty where unknown.
 
-    Examples
-    --------
     >>> unit_of("per_cylinder.power_kw", {"per_cylinder.power_kw": "kW"}), unit_of("power", {})
     (('per_cylinder.power', 'kW'), ('power', ''))
     """
@@ -76,8 +95,6 @@ def unit_of(path: str, units: Units) -> tuple[str, str]:
 def pretty(text: str) -> str:
     """A unit as people write it.
 
-    Examples
-    --------
     >>> pretty("9 kN*m"), pretty("kg*m^2"), pretty("g/(kW*h)")
     ('9 kN m', 'kg m²', 'g/(kW h)')
     """
@@ -87,8 +104,6 @@ def pretty(text: str) -> str:
 def pretty_words(text: str) -> str:
     """A sentence with its units as people write them; what may be a formula stays as it is.
 
-    Examples
-    --------
     >>> pretty_words("the shaft carries 70.21 N*m of it"), pretty_words("2*m*r")
     ('the shaft carries 70.21 N m of it', '2*m*r')
     """
@@ -115,10 +130,13 @@ def span(low: float, high: float, unit: str) -> str:
 def _spans(found: Json, units: Units) -> Rows:
     """Least and largest of each quantity in one row, and where it is largest."""
     low, high, where = found["min"], found["max"], found.get("angle_of_max_deg") or {}
-    rows = []
+    rows, places = [], found.get("reactions") or {}
     for key in (k for k in high if k in low and k != "phi_deg"):
         at = f", largest at {figure(where[key])} deg" if key in where else ""
-        rows.append((key, span(low[key], high[key], unit_of(f"max.{key}", units)[1]) + at))
+        group, rest = next(((g, key.removeprefix(s)) for s, g in _RODS.items() if key.startswith(s)), (_TURN, key))
+        on = f" ({places[key]})".replace("_", " ") if key in places else ""
+        name = f"{group}, {key_words(rest, KNOWN)}{on}"
+        rows.append((name, span(low[key], high[key], unit_of(f"max.{key}", units)[1]) + at))
     return rows
 
 

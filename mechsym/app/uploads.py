@@ -30,10 +30,7 @@ _folder = tempfile.TemporaryDirectory(prefix="mechsym-uploads-")
 def keep(data: bytes) -> str:
     """Take a case in: the name under which this browser alone can ask for it.
 
-    Raises
-    ------
-    BadInput
-        Too large, no case, or it names what would be read
+    Raises BadInput: too large, no case, or it names what would be read.
     """
     name = f"upload-{secrets.token_hex(8)}"
     path = Path(_folder.name) / f"{name}.toml"

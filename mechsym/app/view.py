@@ -64,6 +64,8 @@ class Page:
         with ui.element("div").classes("w-full flex flex-col md:flex-row gap-4 items-start").style("flex-wrap: nowrap"):
             self.left = ui.column().classes("w-full md:w-80 shrink-0 order-2 md:order-1 gap-0 mechsym-sliders")
             with self.left:
+                fold = ui.button("values").props("flat dense no-caps").classes("w-full mechsym-fold")
+                fold.on("click", js_handler="e => e.currentTarget.parentElement.classList.toggle('open')")
                 self._sliders()
             with ui.column().classes("w-full grow min-w-0 order-1 md:order-2"):
                 self._views(case.mechanism)
@@ -117,12 +119,11 @@ class Page:
         ui, value = self.ui, self.values.get(knob.key, knob.value)
         self.rows[knob.key] = ui.row().classes("w-full items-center gap-x-2 gap-y-0")
         with self.rows[knob.key]:
-            ui.label(knob.label).classes("w-full text-xs break-words").props["title"] = knob.key
+            with ui.row().classes("w-full justify-between gap-2 flex-nowrap"):
+                ui.label(knob.label).classes("text-xs break-words").props["title"] = knob.key
+                shown = ui.label(told_value(knob, value)).classes("shrink-0 text-sm whitespace-nowrap mechsym-value")
             moved = ui.slider(min=min(knob.low, value), max=max(knob.high, value), step=knob.step, value=value)
-            moved.classes("grow").props(f'data-key="{knob.key}" aria-label="{knob.key}"')
-            shown = ui.label(told_value(knob, value)).classes(
-                "shrink-0 text-right text-sm whitespace-nowrap mechsym-value"
-            )
+            moved.classes("grow").props(f'data-key="{knob.key}" aria-label="{knob.label}"')
         moved.on_value_change(lambda e: self.move(knob.key, float(e.value)))
         self.controls[knob.key] = (moved, shown)
 
@@ -265,12 +266,17 @@ _STYLE = """<style>
 /* the sliders stay beside what they move: at the left of a wide screen, at the foot of a narrow one */
 .mechsym-sliders { position: sticky; z-index: 2; overflow-y: auto; flex-wrap: nowrap; }
 @media (min-width: 768px) { .mechsym-sliders { top: 0; max-height: 100vh; } }
-@media (max-width: 767px) {
-  .mechsym-sliders { bottom: 0; max-height: 26vh; background: #fff; border-top: 1px solid #888; }
+@media (min-width: 768px) { .mechsym-fold { display: none; } }
+@media (max-width: 767px) { /* folded until it is wanted, and never over more than a third of the screen */
+  .mechsym-sliders { bottom: 0; max-height: 33vh; background: #fff; border-top: 1px solid #888; }
+  .mechsym-sliders:not(.open) > :not(.mechsym-fold) { display: none; }
   .body--dark .mechsym-sliders { background: #121212; } }
+.mechsym-page { width: 100%; height: 80vh; border: 0; }
+.mechsym-groups { columns: 26rem; column-gap: 2rem; }
+.mechsym-groups section { break-inside: avoid; padding-bottom: .8rem; }
+.mechsym-groups h3 { font-size: 1rem; font-weight: 600; }
 .body--dark .q-tab-panels { background: transparent; }
 .mechsym-note { opacity: .7; }
-.mechsym-value { min-width: 5rem; white-space: nowrap; }
 .mechsym-bar { background: rgba(128, 128, 128, .25); height: .4rem; }
 .mechsym-table td { padding: 0 .8rem 0 0; vertical-align: top; }
 .mechsym-table td + td { overflow-wrap: anywhere; }

@@ -27,8 +27,6 @@ class Finding:
     def line(self) -> str:
         """Its line in a text.
 
-        Examples
-        --------
         >>> Finding(rank=2, words="the run has not settled").line
         'look at: the run has not settled'
         """

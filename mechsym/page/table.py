@@ -43,8 +43,6 @@ def grid(
 
     units: SI unit of columns whose name does not tell it.
 
-    Examples
-    --------
     >>> grid("Loads", [{"force": 2000.0}], ["force"], {"force": "N"}).headings
     ('force [kN]',)
     """

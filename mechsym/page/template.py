@@ -21,8 +21,6 @@ _TIMES = re.compile(r"(?<=[a-zA-Z])\*(?=[a-zA-Z])")
 def page(name: str, **values: object) -> str:
     """A page that opens offline, from a file of `mechsym/templates`; a value that it lacks is an error.
 
-    Examples
-    --------
     >>> page("cards.html", cards=(), title="Empty").startswith('<div class="mechsym">')
     True
     """
@@ -71,8 +69,6 @@ def _set(found: re.Match[str]) -> str:
 def pretty(text: object) -> str:
     """Units as a book sets them: `kN*m` as kN m, `kg*m^2` as kg m².
 
-    Examples
-    --------
     >>> pretty("37810 kg*m^2")
     '37810 kg m²'
     """

@@ -44,8 +44,6 @@ def card(kind: type, name: str, value: Scalar | None, about: str = "", of: str =
 
     value: number of the field `name` of the class `kind`, None where it is not known [its unit]; of: which of several.
 
-    Examples
-    --------
     >>> from mechsym.quantities.results import quantity, result
     >>> @result
     ... class Wheel:

@@ -102,8 +102,6 @@ def _columns(letters: list[int], wide: float) -> int:
 def unit_words(unit: str) -> str:
     """A unit as people write it.
 
-    Examples
-    --------
     >>> unit_words("kN*m"), unit_words("m/s^2")
     ('kN m', 'm/s²')
     """
@@ -116,8 +114,6 @@ def axis_unit(unit: str, *values: object) -> tuple[Pure, str]:
     values: array_like, what will be drawn, in SI [unit]. Returns factor: to be multiplied with; unit: as it stands on
     the axis.
 
-    Examples
-    --------
     >>> axis_unit("N*m", np.array([12e3])), axis_unit("Pa", 5.0)
     ((0.001, 'kN m'), (1e-06, 'MPa'))
     """
@@ -161,8 +157,6 @@ def spread(wanted: Sequence[Pure], gap: Pure, low: Pure = -np.inf, high: Pure = 
     the room ends. Returns places: in the order of `wanted`, with the least sum of squares to it where the room has no
     end.
 
-    Examples
-    --------
     >>> spread([1.0, 1.1, 5.0], 1.0).tolist()
     [0.55, 1.55, 5.0]
     """
@@ -223,8 +217,6 @@ def same_path(one: np.ndarray, other: np.ndarray, size: float) -> bool:
 
     one, other: values across, then values up [unit], shape (2 n,); size: largest value of all paths [unit].
 
-    Examples
-    --------
     >>> t = np.linspace(0, 2 * np.pi, 100)
     >>> circles = [np.concatenate([r * np.cos(t + s), r * np.sin(t + s)]) for r, s in ((1, 0), (1, 2), (1.1, 0))]
     >>> same_path(circles[0], circles[1], 1.1), same_path(circles[0], circles[2], 1.1)
@@ -253,8 +245,6 @@ def distinct(
     curves: of one unit [unit]; same: tells of two curves, and of the largest value of all, whether they lie on each
     other.
 
-    Examples
-    --------
     >>> list(distinct({"N1": np.ones(3), "N2": np.ones(3), "N3": np.zeros(3)}))
     ['N1 = N2', 'N3']
     """
@@ -275,8 +265,6 @@ def clear_places(points: Sequence[tuple[Pure, Pure]], size: tuple[Pure, Pure]) -
 
     points: where the labels begin, in any one unit; size: how wide and high a label is, in that unit.
 
-    Examples
-    --------
     >>> clear_places([(0.0, 0.0), (0.5, 0.0), (2.0, 0.0)], (1.0, 1.0))
     [0, 2]
     """
@@ -292,8 +280,6 @@ def significant(value: Pure | None, digits: int = 4) -> str:
 
     Returns text: without an exponent between 1e-3 and 1e6.
 
-    Examples
-    --------
     >>> significant(123456.7), significant(1.5e-7), significant(None)
     ('123500', '1.500e-07', '–')
     """

@@ -93,7 +93,11 @@ def test_tabs_are_the_commands_that_the_case_has_sections_for():
 def test_a_run_is_that_of_the_command_and_what_is_refused_is_said():
     done = asyncio.run(run(["forces", "moroianu"]))
     rows = dict(done.rows)
-    assert done.status == 0 and " kN, largest at " in rows["side force"] and "rodless" not in rows
+    assert (
+        done.status == 0
+        and " kN, largest at " in rows["least to largest over the turn, side force"]
+        and "rodless" not in rows
+    )
     refused = asyncio.run(run(["cycle", "zotov-89", "--set", "cycle.bore=60"]))
     assert refused.status == 2 and "bore" in refused.words
 

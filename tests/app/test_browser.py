@@ -263,3 +263,27 @@ def test_a_foreign_page_in_the_same_browser_learns_nothing(browser, address, pag
         stranger.terminate()
         stranger.wait()
     assert not learnt["opened"] and learnt["read"] == "" and not inside
+
+
+@pytest.mark.parametrize("tab", ["hinge", "forces", "simulate", "cycle", "size", "codesign"])
+def test_the_machine_turns_on_the_first_screen_of_a_tab(browser, address, tab):
+    made = browser.new_page()
+    made.set_viewport_size({"width": 1400, "height": 900})
+    made.goto(f"{address}?case=zotov-89&tab={tab}")
+    picture = made.locator("iframe[title*=turning]:visible").first
+    playwright.expect(picture).to_be_visible(timeout=30_000)
+    drawn = made.frame_locator("iframe[title*=turning]:visible").locator(".scene svg").bounding_box()
+    assert drawn["y"] >= 0 and drawn["y"] + drawn["height"] <= 900
+    made.close()
+
+
+def test_sliders_are_folded_on_a_phone_until_they_are_wanted(browser, address):
+    made = browser.new_page()
+    made.set_viewport_size({"width": 375, "height": 812})
+    made.goto(address)
+    panel = made.locator(".mechsym-sliders")
+    playwright.expect(made.locator("[data-verdict]")).to_contain_text("can be cut", timeout=30_000)
+    assert panel.bounding_box()["height"] < 60
+    made.get_by_role("button", name="values").click()
+    assert 100 < panel.bounding_box()["height"] <= 0.34 * 812
+    made.close()

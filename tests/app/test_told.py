@@ -1,15 +1,18 @@
 """What a tab says of the JSON of its command: units of people, round-off named, pinned values beside their own."""
 
 import json
+import re
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from pictures import contrast
 
 from mechsym import cases
 from mechsym.app import commands
-from mechsym.app.answers import Plotted
-from mechsym.app.markup import chart, table
+from mechsym.app.answers import Answer, Bar, Plotted
+from mechsym.app.commands import Run
+from mechsym.app.markup import bars, chart, run_groups, run_head, table
 from mechsym.app.told import told, unit_of
 from mechsym.cli import mechsym
 from mechsym.style import DARK, QUIET
@@ -45,7 +48,8 @@ def test_what_belongs_together_stands_in_one_row():
              "angle_of_max_deg": {"F": 12.5}, "torque_orders": orders, "facts": ["one", "two"],
              "wiebe": {"start": {"value": 0.1, "confidence": 0.01}}}  # fmt: skip
     assert told(given, {"max.F": "N", "wiebe.start.value": "rad", "torque_orders.amplitude": "N*m"}) == [
-        ("assumed", "one"), ("assumed", "two"), ("gas force F", "-0.01 to 2 kN, largest at 12.5 deg"),
+        ("assumed", "one"), ("assumed", "two"),
+        ("least to largest over the turn, gas force F", "-0.01 to 2 kN, largest at 12.5 deg"),
         ("torque orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe, start", "5.7296 deg ± 0.57296 deg"),
     ]  # fmt: skip
 
@@ -55,7 +59,7 @@ def test_what_swings_is_drawn_before_an_angle_that_goes_on(tmp_path):
     (tmp_path / "series.csv").write_text("\n".join(lines), encoding="utf-8")
     found = commands._curves(tmp_path / "series.csv", "t")
     assert [c.y_name for c in found] == ["work [kJ]", "rod angle psi [deg]", "phi [deg]"]
-    assert found[0].y == pytest.approx((0.005, 2.5, 7.0)) and found[0].x_name == "t [s]"
+    assert found[0].y == pytest.approx((0.005, 2.5, 7.0)) and found[0].x_name == "time [s]"
 
 
 def test_sentences_of_one_name_stand_beside_their_own():
@@ -112,7 +116,44 @@ def test_torque_and_pressure_are_drawn_first_in_units_of_people(tmp_path):
     found = commands._curves(tmp_path / "cycle.csv", "phi")
     assert [c.y_name for c in found][:3] == ["pressure p [MPa]", "torque [kN m]", "travel x [mm]"] and found[
         0
-    ].x_name == "phi [deg]"
+    ].x_name == "crank angle [deg]"
+
+
+def test_a_speed_is_drawn_first_also_where_it_is_held(tmp_path):
+    lines = ["t [s],work [J],phid [rad/s],psid [rad/s]", "0,5,10,1", "1,2500,10.000000000001,-1", "2,7000,10,1"]
+    (tmp_path / "series.csv").write_text("\n".join(lines), encoding="utf-8")
+    found = commands._curves(tmp_path / "series.csv", "t")
+    assert [c.y_name for c in found] == ["crank speed [rpm]", "speed of psi [rpm]", "work [kJ]"]
+    assert len(set(found[0].y)) == 1  # round-off is no ripple
+    assert found[0].y[0] == pytest.approx(300 / np.pi)
+
+
+def test_loads_say_where_they_act_and_by_which_rod():
+    given = {"max": {"R_x_A": 2000.0, "two_mass_N": 5.0}, "min": {"R_x_A": 0.0, "two_mass_N": -5.0},
+             "reactions": {"R_x_A": "crank on rod"}}  # fmt: skip
+    assert told(given, {"max.R_x_A": "N", "max.two_mass_N": "N"}) == [
+        ("least to largest over the turn, R x A (crank on rod)", "0 to 2 kN"),
+        ("with the rod as two masses, N", "-5 to 5 N"),
+    ]
+
+
+def test_a_bar_is_as_long_as_what_is_used_of_its_limit():
+    limits = (Bar(name="a", text="8 of at most 10 MPa", kept=True, margin=0.2),
+              Bar(name="b", text="over", kept=False, margin=-0.5),
+              Bar(name="c", text="no limit", kept=True, margin=None))  # fmt: skip
+    shown = bars(Answer(good=True, words="", bars=limits))
+    assert re.findall(r"width:(\d+)%", shown) == ["80", "100"]  # one without a limit has none
+    assert "NOT kept: over" in shown and shown.count("NOT kept") == 1
+
+
+def test_a_run_is_read_its_numbers_first_the_rest_in_groups():
+    rows = (("speed", "89 rpm"), ("work, gas", "9 <J>"), ("work, load", "-9 J"), ("reason", "long " * 30))
+    done = Run(status=0, words="", rows=rows)
+    head, groups = run_head(done), run_groups(done)
+    assert "89 rpm" in head and "work" not in head and "long" not in head
+    assert "<h3>work</h3>" in groups and "<td>gas</td><td>9 &lt;J&gt;</td>" in groups and "<h3>reason</h3>" in groups
+    assert "exit status" not in head and "refused" in run_head(Run(status=2, words="why"))
+    assert "srcdoc=" not in groups and "&lt;p&gt;page" in run_groups(Run(status=0, words="", page="<p>page"))
 
 
 def test_grey_text_can_be_read_on_both_papers():
