@@ -24,10 +24,7 @@ _BYTES = {"MB": 1e6, "GB": 1e9}
 def choose(text: str) -> None:
     """Set the budget of this command: a time, a memory or both with a comma, `2 h, 8 GB`; the usual one where empty.
 
-    Raises
-    ------
-    BadInput
-        Neither a time nor a memory
+    Raises BadInput: neither a time nor a memory.
     """
     seconds, size = Budget().seconds, Budget().size
     for part in filter(None, (p.strip() for p in text.split(","))):
@@ -40,22 +37,24 @@ def choose(text: str) -> None:
     _CHOSEN.set(Budget(seconds=seconds, size=size))
 
 
+def allowed() -> Budget:
+    """The budget of this command."""
+    return _CHOSEN.get() or Budget()
+
+
 def require(what: str, seconds: Second, size: float, way_out: str) -> None:
     """Refuse work beyond the budget before it begins.
 
     what: the work with its size, for the message; seconds: forecast of its time on a processor; size: of its memory
     [B].
 
-    Raises
-    ------
-    BadInput
-        With what it would take and how to allow it
+    Raises BadInput: with what it would take and how to allow it.
     """
-    chosen = _CHOSEN.get() or Budget()
+    chosen = allowed()
     if seconds <= chosen.seconds and size <= chosen.size:
         return
     hours = f"{seconds / 3600:.2g} h" if seconds >= 3600 else f"{seconds / 60:.2g} min"
     needs = f"about {hours} and {size / 1e9:.2g} GB"
-    allowed = f"{chosen.seconds / 60:.3g} min and {chosen.size / 1e9:.3g} GB are allowed"
+    limits = f"{chosen.seconds / 60:.3g} min and {chosen.size / 1e9:.3g} GB are allowed"
     asked = f"--budget '{1.5 * seconds / 60:.2g} min, {max(1.5 * size, 2e9) / 1e9:.2g} GB'"
-    raise BadInput(f"{what} takes {needs}; {allowed}: {way_out}, or say {asked}")
+    raise BadInput(f"{what} takes {needs}; {limits}: {way_out}, or say {asked}")

@@ -44,8 +44,6 @@ def brake_figures(
 def mechanical_efficiency(brake: Watt[Scalar], indicated: Watt[Scalar]) -> Pure[Scalar]:
     """Brake by net indicated power, works and mean pressures alike; nan without power, or where no friction is known.
 
-    Examples
-    --------
     >>> float(mechanical_efficiency(0.97, 1.15)), float(mechanical_efficiency(1.15, 1.15))
     (0.8434782608695652, nan)
     """

@@ -177,8 +177,6 @@ def wall_area(chamber: Chamber, v: Volume[Scalar]) -> Area[Scalar]:
 
     v: volume of the chamber. Returns area: two crowns, or crown and flat head, and the liner between them.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. (2.40), for a cylinder closed by two flat ends.
     """
     return 2 * chamber.area + 4 * v / chamber.bore
@@ -194,8 +192,6 @@ def piston_force(
     phi: crank angle from top dead centre; p: absolute pressure in the chamber. Returns force: positive away from the
     head.
 
-    Notes
-    -----
     Source: Nunes (2017), eqs. (2.62) to (2.64), whose acceleration is -x'' omega^2.
     """
     net = (p - chamber.back_pressure) * chamber.area

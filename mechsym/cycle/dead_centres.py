@@ -20,8 +20,6 @@ def chamber_over(kinematics: ca.Function, bore: Metre, compression_ratio: Pure, 
     piston. compression_ratio: largest volume by smallest volume. back_pressure: absolute pressure on the other side of
     the piston. Returns chamber: its stroke is x at bottom dead centre.
 
-    Notes
-    -----
     Valid: top dead centre at 0, one bottom dead centre in a turn.
     """
     motion = motion_over(kinematics)
@@ -49,10 +47,7 @@ def motion_over(kinematics: ca.Function) -> Motion:
 def with_bottom(motion: Motion) -> Motion:
     """The motion with its bottom dead centre, which an offset or an articulated rod moves away from pi.
 
-    Raises
-    ------
-    BadInput
-        The piston goes out and back more than once in a turn
+    Raises BadInput: the piston goes out and back more than once in a turn.
     """
     phi = np.linspace(0.0, 2 * np.pi, 361)
     x, slope, _ = travel(motion, phi)

@@ -46,10 +46,7 @@ def over_design(engine: ClosedEngine, design: Mapping[str, np.ndarray], progress
     design: mapping of str to ndarray, shape (n,), operating points, see `model.design_names`; must hold `omega`
     [rad/s]. progress: called with the number of points done after each block of them.
 
-    Raises
-    ------
-    BadInput
-        The printed method knows no other variable than the speed
+    Raises BadInput: the printed method knows no other variable than the speed.
     """
     printed = engine.cycle.method == "nunes2017_printed"
     if printed and set(design) != {"omega"}:

@@ -25,8 +25,6 @@ def beale_power(mean_pressure: Pascal, swept: Volume, omega: RadPerSecond) -> Wa
     mean_pressure: of the gas over a turn; swept: volume that the hot piston sweeps. By G. Walker, Stirling
     Engines, Oxford University Press, 1980.
 
-    Examples
-    --------
     >>> round(beale_power(5e5, 763e-6, 62.83), 1)
     572.2
     """

@@ -53,8 +53,6 @@ def friction_pressure(
 
     p_max: peak pressure.
 
-    Notes
-    -----
     Sources: Chen and Flynn (1965), SAE 650733, with coefficients of usual size; Heywood (1988), eq. (13.6).
     """
     match law:

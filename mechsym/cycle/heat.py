@@ -81,8 +81,6 @@ def heat_flux(law: Law, state: GasAtWall) -> Annotated[Scalar, "W/m^2"]:
 
     Returns flux: positive from the gas to the walls.
 
-    Notes
-    -----
     Sources: Annand (1963) as printed in Nunes (2017), eqs. (2.30) to (2.37); Woschni (1967) after Heywood (1988),
     eqs. (12.19) and (12.20); Hohenberg (1979).
     """

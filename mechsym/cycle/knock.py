@@ -28,14 +28,10 @@ def ignition_delay(p: Pascal[Scalar], T: Kelvin[Scalar], octane: Pure[Scalar]) -
 
     p: absolute pressure; T: temperature of the end gas; octane: octane number of the fuel. Returns tau: delay.
 
-    Notes
-    -----
     Source: A. M. Douaud, P. Eyzat, SAE 780080 (1978), as printed in J. B. Heywood, Internal Combustion Engine
     Fundamentals (1988), eq. (9.27). Valid: octane number 80 to 100, stoichiometric, engine conditions; fitted on few
     engines, so a limit of 1 is good for comparing designs and not for guaranteeing one.
 
-    Examples
-    --------
     >>> round(float(ignition_delay(50 * ATM, 900.0, 95.0)) * 1e3, 3)
     1.31
     """
@@ -53,12 +49,8 @@ def end_gas_temperature(
     p, p_0: absolute pressure, and that when combustion starts; T_0: temperature when combustion starts; kappa: gas
     constant by heat capacity at constant pressure.
 
-    Notes
-    -----
     Source: isentropic ideal gas. Valid: no heat to the walls, kappa taken where combustion starts.
 
-    Examples
-    --------
     >>> round(float(end_gas_temperature(40e5, 20e5, 700.0, 0.25)), 1)
     832.4
     """

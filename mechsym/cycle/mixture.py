@@ -68,8 +68,6 @@ def properties(gas: ConstantGamma | NasaMixture, t: Kelvin[Scalar], burnt: Pure[
 
     burnt: burnt mass fraction X, 0 to 1. Returns properties: u [J/kg], c_v [J/(kg*K)], du/dX [J/kg], R [J/(kg*K)].
 
-    Notes
-    -----
     Fuel vapour is counted as air and products do not dissociate. NASA fits hold from 300 to 5000 K [K].
     """
     match gas:
@@ -91,8 +89,6 @@ def properties(gas: ConstantGamma | NasaMixture, t: Kelvin[Scalar], burnt: Pure[
 def viscosity(t: Kelvin[Scalar]) -> Viscosity[Scalar]:
     """Dynamic viscosity of air.
 
-    Notes
-    -----
     Source: Blair (1999) as printed in Nunes (2017), eq. (2.34).
     """
     return 7.457e-6 + 4.1547e-8 * t - 7.4793e-12 * t**2
@@ -101,8 +97,6 @@ def viscosity(t: Kelvin[Scalar]) -> Viscosity[Scalar]:
 def conductivity(t: Kelvin[Scalar]) -> Annotated[Scalar, "W/(m*K)"]:
     """Thermal conductivity of air.
 
-    Notes
-    -----
     Source: Blair (1999) as printed in Nunes (2017), eq. (2.36).
     """
     return 6.1944e-3 + 7.3814e-5 * t - 1.2491e-8 * t**2

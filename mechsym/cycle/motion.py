@@ -58,10 +58,7 @@ def piston_motion(
 def pistons_of(name: str) -> tuple[PistonRole, ...]:
     """What the declaration of a mechanism says of its pistons.
 
-    Raises
-    ------
-    BadInput
-        It has none
+    Raises BadInput: it has none.
     """
     found = mechanisms.roles_of(name).pistons
     if not found:

@@ -63,10 +63,7 @@ class EngineParts:
     def pair(self) -> tuple[ca.Function, ca.Function]:
         """Travels of two pistons that share a gas, with their slopes, over the angle of the shaft.
 
-        Raises
-        ------
-        BadInput
-            The mechanism has not two of them
+        Raises BadInput: the mechanism has not two of them.
         """
         roles = plan_of(self.mechanism).parts(self.parameters)
         names = [role.travel for role in roles.faces or pistons_of(self.mechanism)]

@@ -29,8 +29,6 @@ def wiebe(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]:
 
     y: (phi - start) / duration; values below 0 count as 0. a: completeness: f(1) = 1 - exp(-a). m: form factor, m >= 0.
 
-    Notes
-    -----
     Valid: m >= 0; for -1 < m < 0 the rate at y = 0 is infinite.
     Source: Wiebe (1956); Shen et al. (2020).
     """
@@ -45,8 +43,6 @@ def dwiebe_dy(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]
     y: (phi - start) / duration; the rate is 0 below 0. a: completeness. m: form factor, m >= 0. Returns rate: df/dy;
     divide by the duration for df/dphi.
 
-    Notes
-    -----
     For m = 0 the rate steps to a at y = 0, the value given there.
     """
     t = _from_start(y)
@@ -63,8 +59,6 @@ def double_wiebe(
     y: (phi - start) / duration; values below 0 count as 0. a_p, m_p: completeness and form factor of the share 1 - b.
     a_d, m_d: completeness and form factor of the share b. b: share of the second function, 0 <= b <= 1.
 
-    Notes
-    -----
     Source: Shen et al. (2020), J. Mar. Sci. Eng.; the letters p and d are theirs.
     """
     return (1 - b) * wiebe(y, a_p, m_p) + b * wiebe(y, a_d, m_d)
@@ -94,8 +88,6 @@ def burnt_at(share: Pure, a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]:
 
     a, m: completeness and form factor of `wiebe`. Returns y: (phi - start) / duration.
 
-    Examples
-    --------
     >>> round(float(burnt_at(0.5, 5.0, 2.0)), 4)
     0.5159
     """

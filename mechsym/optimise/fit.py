@@ -137,10 +137,11 @@ class _Linear(NamedTuple):
 
 
 class TraceTask:
-    """A trace, the equations for it, and their sparse parts that stay."""
+    """A trace, the equations for it, their sparse parts that stay, and the work put into them."""
 
-    def __init__(self, model: TracedMotion, trace: Trace, points: Intervals) -> None:
+    def __init__(self, model: TracedMotion, trace: Trace, points: Intervals, most: int = 10**9) -> None:
         self.model, self.trace, self.points = model, trace, points
+        self.evaluations, self.most = 0, most  # of the linear system, and how many a fit may take
         n, each = 2 * len(model.velocities), sp.identity(2 * len(model.velocities))
         x, w, z = ca.SX.sym("x", n), ca.SX.sym("w", len(model.inputs)), ca.SX.sym("z", len(model.names))
         rate = model.rate(x, w, z)
@@ -153,6 +154,11 @@ class TraceTask:
         self.measured = np.array(list(trace.speeds.values()))
         self.scale = max(float(np.abs(self.measured).max()), 1e-9)
 
+    @property
+    def spent(self) -> bool:
+        """Whether the fit has taken all the evaluations that it may."""
+        return self.evaluations >= self.most
+
     def rest(self, states: np.ndarray) -> np.ndarray:
         """Measured speeds less those of the states, shape (speeds, samples) [rad/s]."""
         return np.asarray(self.measured - states[self._rows] @ self.points.samples)
@@ -160,6 +166,7 @@ class TraceTask:
     def linear(self, states: np.ndarray, theta: np.ndarray) -> _Linear | None:
         """The equations about states (2 n, points) and parameters (k,) [SI]; None where a loop is open."""
         n, k, count = states.shape[0], len(theta), len(self.points.nodes)
+        self.evaluations += 1
         values = self._rates(states @ self.points.inner, self._known, np.tile(theta[:, None], (1, count)))
         rates, by_state, by_theta = (np.asarray(v) for v in values)
         if not all(np.isfinite(v).all() for v in (states, rates, by_state, by_theta)):
@@ -276,6 +283,8 @@ def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | 
             or float(np.abs(full).max(initial=0.0)) < 1e-13 * task.scale
         ):
             return here._replace(status="converged")
+        if task.spent:
+            return here._replace(status=f"given up after {task.evaluations} evaluations")
         trial = _step(task, here, free, damping)
         if trial is not None and trial.left < here.left:
             here, damping = trial, damping / 10

@@ -78,12 +78,18 @@ def rounding(rest: np.ndarray, trace: Trace) -> bool:
 
 
 def doubts(
-    rest: RadPerSecond[Array], trace: Trace, estimates: tuple[Estimate, ...], least: np.ndarray, ways: int
+    rest: RadPerSecond[Array],
+    trace: Trace,
+    estimates: tuple[Estimate, ...],
+    least: np.ndarray,
+    ways: int,
+    spent: int = 0,
 ) -> tuple[Doubt, ...]:
     """What of a fit looks wrong: residuals that are no noise, outliers, parameters hardly known or impossible.
 
     rest: measured less fitted speeds, shape (speeds, samples); least: least values of the parameters [SI], shape (k,);
-    ways: how many motions explain the trace, each with its own place of the dead centre.
+    ways: how many motions explain the trace, each with its own place of the dead centre; spent: evaluations after which
+    the fit was given up, 0 where it came to its end.
     """
     white, worst = durbin_watson(rest), float(np.abs(rest).max()) / max(float(np.std(rest)), 1e-300)
     band, raised = _DURBIN * 2 / math.sqrt(rest.size), []
@@ -94,11 +100,15 @@ def doubts(
     if worst > _OUTLIER and not rounding(rest, trace):
         why = "samples lie far off; look for bad readings, they pull the parameters"
         raised.append(Doubt(code="outlier", quantity="residual / noise", value=worst, usual="at most 6", why=why))
+    if spent:
+        why = "the fit was given up: ends that it has not reached are left open; --budget '1 h' lets it go on"
+        raised.append(Doubt(code="work", quantity="evaluations", value=float(spent), usual="a fit that ends", why=why))
     if ways > 1:
         why = "the trace does not tell where the dead centre lies: the intervals hold the values of each place"
         raised.append(Doubt(code="ambiguous", quantity="motions", value=float(ways), usual="1", why=why))
     one_by_one = (_of_estimate(e, low) for e, low in zip(estimates, least.tolist(), strict=True))
-    return (*raised, *(doubt for doubt in one_by_one if doubt is not None))
+    # an end that was given up says nothing of the trace
+    return (*raised, *(d for d in one_by_one if d is not None and not (spent and d.code == "open")))
 
 
 def _of_estimate(e: Estimate, least: float) -> Doubt | None:
@@ -128,6 +138,9 @@ _STARTS = 4  # angles that are tried
 # time for each number of the linear system from each start [s], and how many times it is held: measured, 1e3 to 1e5
 # intervals of one and two coordinates
 _PER_NUMBER, _COPIES = 1e-5, 20
+# numbers of the linear system that a fit may take within the usual budget (measured: 15 s), evaluations from each start
+# that it may take however large it is, and the share of the starts: the ends of the intervals have the rest
+_NUMBERS, _EACH_START, _FOR_STARTS = 4e7, 50, 0.6
 _SAME, _BESIDE = 0.1, 0.2  # standard errors and radians of the first angle within which two fits are one
 
 
@@ -158,10 +171,7 @@ class Identified:
 def identify(model: TracedMotion, trace: Trace) -> Identified:
     """Find the parameters of a machine in a trace.
 
-    Raises
-    ------
-    BadInput
-        The trace is too short for them, or does not determine one of them
+    Raises BadInput: the trace is too short for them, or does not determine one of them.
     """
     seen = _seen_poses(model)
     count = sum(map(len, trace.speeds.values()))
@@ -174,8 +184,8 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
     angles = [k * 2 * math.pi / _STARTS for k in range(_STARTS if angular else 1)]
     longest = _longest(model, trace, angles)
     require_plausible(model, trace, angles, longest)
-    _require_short(model, trace, longest, len(angles))
-    task = TraceTask(model, trace, grid(trace.t, model.breaks, longest))
+    most = _evaluations(model, trace, longest, len(angles))
+    task = TraceTask(model, trace, grid(trace.t, model.breaks, longest), round(_FOR_STARTS * most))
     near = [place for angle in angles if (place := approach(task, angle)) is not None]
     fits = sorted((fit for place in near if (fit := closest(task, *place)) is not None), key=lambda fit: fit.left)
     if not fits:
@@ -185,6 +195,7 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
             f"{trace.file}: {why} from {_pose(model)} or a quarter turn on; {way_out}, and see whether [drive], units "
             "and the values of the case fit it"
         )
+    task.most = most
     return _result(task, fits)
 
 
@@ -214,14 +225,15 @@ def _require_seen(model: TracedMotion, trace: Trace) -> None:
         raise BadInput(f"{trace.file}: {why}; leave it out of --free")
 
 
-def _require_short(model: TracedMotion, trace: Trace, longest: Second, starts: int) -> None:
-    """Refuse a fit that takes longer or more memory than its budget."""
+def _evaluations(model: TracedMotion, trace: Trace, longest: Second, starts: int) -> int:
+    """How often a fit may solve its linear system; refused where it takes longer or more memory than its budget."""
     intervals, states = (float(trace.t[-1] - trace.t[0]) / longest, 2 * len(model.velocities))
     columns = len(model.names) + states + 1
     numbers = intervals * (DEGREE + 1) * states * columns
     seconds, size = _PER_NUMBER * numbers * starts, 8 * _COPIES * numbers
     what = f"{trace.file}: a fit over about {intervals:.3g} intervals"
     budget.require(what, seconds, size, "give a shorter stretch of the trace")
+    return round(max(_NUMBERS / numbers, _EACH_START * starts) * budget.allowed().seconds / budget.Budget().seconds)
 
 
 def _longest(model: TracedMotion, trace: Trace, angles: list[float]) -> float:
@@ -283,7 +295,7 @@ def _result(task: TraceTask, fits: list[ClosestMotion]) -> Identified:
         unit=trace.unit, durbin_watson=durbin_watson(best.rest),
         samples=best.rest.size, intervals=len(task.points.edges) - 1, t=trace.t, measured=measured,
         fitted={name: measured[name] - rest for name, rest in zip(measured, best.rest, strict=True)},
-        doubts=doubts(best.rest, trace, estimates, model.low, len(alike)),
+        doubts=doubts(best.rest, trace, estimates, model.low, len(alike), task.evaluations if task.spent else 0),
     )  # fmt: skip
 
 
@@ -327,6 +339,8 @@ def _distance(task: TraceTask, fit: ClosestMotion, number: int, far: float, leas
     inner, outer, here = (0.0, math.sqrt(max(fit.left - least, 0.0))), (math.inf, math.inf), fit
     distance = min(abs(far), room)
     for _ in range(_TRIALS):
+        if task.spent:  # a trial that was not finished bounds nothing
+            return outer[0] if math.isfinite(outer[1]) else math.inf
         there = _held(task, here, number, float(fit.theta[number]) + math.copysign(distance, far))
         growth = math.inf if there is None else math.sqrt(max(there.left - least, 0.0))
         if abs(growth - wide) < _CLOSE * wide or (growth < wide and distance >= room):

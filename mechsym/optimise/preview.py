@@ -33,10 +33,7 @@ def require_plausible(model: TracedMotion, trace: Trace, angles: list[float], lo
 
     angles: how far beyond its pose the machine may have started [rad]; longest: interval of the collocation.
 
-    Raises
-    ------
-    BadInput
-        With the slip of the unit that would explain it
+    Raises BadInput: with the slip of the unit that would explain it.
     """
     period = 4 * math.pi * longest
     step = float(np.median(np.diff(trace.t)))

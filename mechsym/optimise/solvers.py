@@ -42,10 +42,7 @@ def ipopt(solver: ca.Function, given: Mapping[str, Any], nearly: bool = False) -
 
     given: start, bounds and parameters, as CasADi calls them. nearly: whether its acceptable level is good enough.
 
-    Raises
-    ------
-    BadInput
-        It cannot begin: what CasADi has thrown
+    Raises BadInput: it cannot begin: what CasADi has thrown.
     """
     try:
         values = solver(**given)

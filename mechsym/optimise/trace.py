@@ -41,10 +41,8 @@ def read_trace(path: str | Path, velocities: Mapping[str, str], inputs: Mapping[
     path: CSV file, columns divided by commas; velocities, inputs: units of the mechanism's velocities and inputs by
     their names.
 
-    Raises
-    ------
-    BadInput
-        No such file, no column of time or speed, no number, times that do not grow, too few samples, a gap
+    Raises BadInput: no such file, no column of time or speed, no number, times that do not grow, too few samples, a
+    gap.
     """
     header, rows = _table(str(path))
     first, usual = next(iter(velocities.items()))

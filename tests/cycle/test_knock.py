@@ -14,7 +14,8 @@ from mechsym.cli import mechsym
 from mechsym.cycle.closed.differentiable import design_function
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import at_angles, run
-from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, knock_along, share_of_delay
+from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, knock_along, knock_of_runs, share_of_delay
+from mechsym.cycle.mixture import ConstantGamma
 from mechsym.jobs.cycle import engine
 from mechsym.jobs.optimise import optimise
 from mechsym.optimise.problem import Optimise, problem
@@ -49,6 +50,18 @@ def test_numbers_and_expressions_agree_and_differentiate():
     numbers = share_of_delay(1.2 * s**3, pressure(s), end_gas_temperature(pressure(s), 20e5, 700.0, 0.27), OMEGA, 95.0)
     assert float(f(95.0)[0]) == pytest.approx(numbers, rel=1e-12)
     assert float(f(95.0)[1]) == pytest.approx(-3.402 / 95.0 * numbers, rel=1e-12)  # closed form of the octane's power
+
+
+def test_a_state_that_rests_knocks_as_long_as_it_rests():
+    """Pressure and temperature constant: (ends - closes) / (omega tau), along curves and of nodes alike."""
+    p, T, octane, closes, starts, ends = 40 * ATM, 850.0, 95.0, -2.1, -0.3, 0.6
+    wanted = (ends - closes) / (OMEGA * ignition_delay(p, T, octane))
+    along = knock_along((lambda a: p + 0 * a, lambda a: T + 0 * a), (closes, starts, ends), OMEGA, 0.27, octane)
+    assert along == pytest.approx(wanted, rel=1e-12)
+    nodes = {"p": np.full((2, 303), p), "t": np.full((2, 303), T)}
+    angles = {"closes": closes, "starts": starts, "ends": ends, "omega": OMEGA}
+    runs = knock_of_runs(nodes | {k: np.full(2, v) for k, v in angles.items()}, ConstantGamma(gamma=1.3), octane)
+    assert runs == pytest.approx([wanted, wanted], rel=1e-6)
 
 
 def test_constant_state_is_time_by_delay():

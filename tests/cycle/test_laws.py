@@ -4,9 +4,11 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from mechsym import cases
 from mechsym.cycle.friction import ChenFlynn, Heywood, NoFriction, friction_pressure
 from mechsym.cycle.heat import Adiabatic, Annand, GasAtWall, Hohenberg, Woschni, heat_flux, motored_swirl
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, conductivity, properties, viscosity
+from mechsym.errors import BadInput
 
 # JANAF tables (NIST), cp in J/(mol K)
 JANAF = {
@@ -101,3 +103,29 @@ def test_friction_by_hand():
     assert friction_pressure(ChenFlynn(), 6e6, 10.0, 300.0) == pytest.approx(0.4e5 + 0.3e5 + 0.9e5 + 0.09e5)
     at_3000_rpm = friction_pressure(Heywood(), 6e6, 10.0, 100 * np.pi)
     assert at_3000_rpm == pytest.approx((0.97 + 0.45 + 0.45) * 1e5)
+
+
+@pytest.mark.parametrize(("section", "law", "names"), [
+    ("friction_pressure", "chen_flynn", "constant per_peak_pressure per_speed per_speed_squared"),
+    ("heat_transfer", "annand", "a radiation"),
+    ("heat_transfer", "woschni", "c1 c2"),
+    ("heat_transfer", "hohenberg", "c1 c2"),
+])  # fmt: skip
+def test_a_part_of_a_law_may_be_left_away_and_not_turned_round(section, law, names):
+    base = {f"{section}.law": law} | ({"heat_transfer.wall_temperature": 450} if section == "heat_transfer" else {})
+    for name in names.split():
+        none = cases.load("generator-breathing", base | {f"{section}.{name}": 0})
+        assert getattr(none.sections[section], name) == 0
+        with pytest.raises(BadInput, match=name):
+            cases.load("generator-breathing", base | {f"{section}.{name}": -1e-12})
+
+
+def test_lean_exhaust_is_burnt_gas_and_the_air_left_over():
+    """A kilogram of fuel with twice the air it needs: stoichiometric products and as much air once more."""
+    rich, lean, air = (
+        properties(NasaMixture(excess_air=e), 1200.0, x) for e, x in ((1.0, 1.0), (2.0, 1.0), (1.0, 0.0))
+    )
+    fuel = (12.011 + 1.87 * 1.008) / (12.011 + 1.87 * 1.008 + (1 + 1.87 / 4) * 137.9)  # of the stoichiometric charge
+    weight = (1 - fuel) / (2 - fuel)  # of the air left over
+    mixed = (1 - weight) * float(rich.gas_constant) + weight * float(air.gas_constant)
+    assert float(lean.gas_constant) == pytest.approx(mixed, rel=2e-3)

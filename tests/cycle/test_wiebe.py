@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shen2020 import SHEN_2020
 
-from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe, dwiebe_dy, wiebe
+from mechsym.cycle.wiebe import burnt_at, ddouble_wiebe_dy, double_burnt_at, double_wiebe, dwiebe_dy, wiebe
 
 positive = st.floats(0.5, 30.0)
 form = st.floats(0.0, 4.0)
@@ -69,3 +69,18 @@ def test_symbolic_derivatives_are_finite_at_the_start():
     for at in (-0.1, 0.0, 1e-12):
         assert np.allclose(np.asarray(gradient(at, 5.0, 0.7)).ravel(), 0.0, atol=1e-6)
     assert np.isclose(float(gradient(0.4, 5.0, 0.7)[0]), dwiebe_dy(0.4, 5.0, 0.7), rtol=1e-13)
+
+
+@settings(deadline=None, derandomize=True, max_examples=60)
+@given(a=positive, m=form, share=st.floats(0.01, 0.99))
+def test_where_a_share_is_burnt_is_the_inverse(a, m, share):
+    assert wiebe(burnt_at(share, a, m), a, m) == pytest.approx(share * wiebe(1.0, a, m), rel=1e-12)
+    # both functions alike: the double one is the single one, and half of it lies where its closed form says
+    assert double_burnt_at(share, (a, m, a, m, 0.3), 1.0) == pytest.approx(float(burnt_at(share, a, m)), rel=1e-9)
+
+
+def test_nothing_is_burnt_at_the_start_and_all_of_it_at_its_end():
+    fitted = tuple(SHEN_2020[2].values())
+    assert double_burnt_at(0.0, fitted, 1.0) == 0.0
+    assert double_burnt_at(1.0, fitted, 0.8) == pytest.approx(0.8, rel=1e-12)
+    assert double_wiebe(double_burnt_at(0.5, fitted, np.inf), *fitted) == pytest.approx(0.5, rel=1e-12)

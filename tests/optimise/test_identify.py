@@ -1,6 +1,7 @@
 """Parameters out of synthetic traces: truth by another integrator and equations written out by hand."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -181,3 +182,16 @@ def test_the_same_samples_give_the_same_maps_to_the_last_digit():
     # a cubic of the time goes through each interval as it is
     nodes = np.sort(np.append(first.nodes, first.edges[:-1]))
     assert first.samples.T @ nodes**3 == pytest.approx(t**3, abs=1e-13)
+
+
+def test_a_fit_that_is_given_up_says_so_and_leaves_its_ends_open(tmp_path, speeds, monkeypatch):
+    """Ends that a finished fit has lie inside those of one that was given up."""
+    file = written(tmp_path, speeds[:, :201], noise=0.5, t=T[:201])
+    whole = found_in(file, ("I2",))
+    monkeypatch.setattr("mechsym.optimise.identify._NUMBERS", 0.0)
+    monkeypatch.setattr("mechsym.optimise.identify._EACH_START", 15)
+    given_up = found_in(file, ("I2",))
+    assert "work" not in [d.code for d in whole.doubts] and "work" in [d.code for d in given_up.doubts]
+    (all_of,), (some,) = whole.estimates, given_up.estimates
+    assert some.low <= all_of.low < all_of.value < all_of.high <= some.high
+    assert math.isinf(some.high - some.low) and "open" not in [d.code for d in given_up.doubts]

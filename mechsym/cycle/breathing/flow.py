@@ -23,12 +23,8 @@ def critical_ratio(gamma: Pure) -> Pure:
 
     gamma: ratio of the heat capacities. Returns ratio: pressure behind the throat by the pressure before it.
 
-    Notes
-    -----
     Source: ideal gas, isentropic to the throat; Heywood (1988), eq. (C.7). Valid: constant heat capacities.
 
-    Examples
-    --------
     >>> round(critical_ratio(1.4), 4)
     0.5283
     """
@@ -51,13 +47,9 @@ def orifice_flow(
     volume [Pa, K]; gamma: ratio of the heat capacities; R: gas constant.
     Returns flow: from the first to the second volume; the volume of the higher pressure gives p_0 and T_0.
 
-    Notes
-    -----
     Source: Heywood (1988), eqs. (C.8), (C.9). Valid: quasi-steady; within 1e-3 of equal pressures a straight line
     stands for the root.
 
-    Examples
-    --------
     >>> round(float(orifice_flow(1e-4, (2e5, 300.0), (1e5, 300.0), 1.4, 287.0)), 5)  # choked
     0.04667
     """
@@ -87,12 +79,8 @@ def valve_lift(
     opens, closes: crank angles between which it is open, closes above opens; lift: largest lift; period: of the cycle.
     Returns h: lift, 0 while closed; velocity and acceleration have no jump.
 
-    Notes
-    -----
     Source: polynomial cam of the 6th degree with two free derivatives at its ends. Valid: closes - opens below period.
 
-    Examples
-    --------
     >>> [round(float(valve_lift(a, 0.0, 4.0, 0.01)), 5) for a in (0.0, 1.0, 2.0)]
     [0.0, 0.00422, 0.01]
     """
@@ -108,12 +96,8 @@ def curtain_area(lift: Metre[Scalar], diameter: Metre, discharge: Pure) -> Area[
 
     diameter: inner diameter of the seat d; discharge: discharge coefficient.
 
-    Notes
-    -----
     Source: Heywood (1988), section 6.3.2, without the seat's angle. Valid: stem thin against the seat.
 
-    Examples
-    --------
     >>> round(float(curtain_area(0.005, 0.02, 1.0)) * 1e6, 2)
     314.16
     """
@@ -128,12 +112,8 @@ def port_area(x: Metre[Scalar], uncovered_from: Metre, height: Metre, width: Met
     x: travel of the piston from top dead centre; uncovered_from, height, width: travel x_p at the upper edge, height h
     and total width w of the ports; discharge: discharge coefficient.
 
-    Notes
-    -----
     Source: geometry of rectangular ports. Valid: piston crown flat, ports of equal height.
 
-    Examples
-    --------
     >>> round(float(port_area(0.09, 0.08, 0.02, 0.1, 0.7)) * 1e4, 6)
     7.0
     """

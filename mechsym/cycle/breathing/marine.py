@@ -137,10 +137,7 @@ class _Engine(NamedTuple):
 def scavenge(s: Scavenging, cycle: TwoStrokeMarine, room: Chamber, omega: RadPerSecond) -> ScavengeState:
     """The steady balance of a cylinder and its share of the turbocharger.
 
-    Raises
-    ------
-    BadInput
-        The exhaust does not drive the turbocharger at any scavenge pressure, or does so at every one
+    Raises BadInput: the exhaust does not drive the turbocharger at any scavenge pressure, or does so at every one.
     """
     p_1, T_1 = atmosphere(s.altitude)
     ambient = (p_1, T_1 if s.ambient_temperature is None else s.ambient_temperature)
@@ -280,10 +277,7 @@ class MarineGas(CylinderGas):
     def charged(self, omega: float) -> tuple[TwoStrokeMarine, ScavengeState | None]:
         """The cycle with p_s and T_evc from its turbocharger at a speed [rad/s], and how that runs; None without.
 
-        Raises
-        ------
-        BadInput
-            There is no balance
+        Raises BadInput: there is no balance.
         """
         section: Scavenging | None = self.parts.section("scavenging")
         if section is None or section.source != "turbocharger":

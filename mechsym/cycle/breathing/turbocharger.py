@@ -26,12 +26,8 @@ def corrected_flow(flow: MassFlow[Array], p: float, T: float) -> MassFlow[Array]
 
     p, T: state before the compressor [Pa, K]. Returns flow: corrected flow, shape of `flow`.
 
-    Notes
-    -----
     Source: similarity of Mach numbers; SAE J1826. Valid: the gas of the map, Reynolds number without effect.
 
-    Examples
-    --------
     >>> round(float(corrected_flow(np.array(0.1), 101325.0, 288.15)), 3)
     0.1
     """
@@ -43,18 +39,11 @@ def map_efficiency(points: Sequence[Sequence[float]], flow: MassFlow[Array], rat
 
     points: corrected flows [kg/s], pressure ratios and efficiencies [-] of the map's points; flow: corrected flow.
 
-    Raises
-    ------
-    BadInput
-        A point outside the map: surge on its left, choke on its right
+    Raises BadInput: a point outside the map: surge on its left, choke on its right.
 
-    Notes
-    -----
     Source: planes through each three neighbouring points of the map (Delaunay), flow and ratio by their largest. Valid
     between the points that the maker measured.
 
-    Examples
-    --------
     >>> points = ([0.1, 0.3, 0.1, 0.3], [1.0, 1.0, 3.0, 3.0], [0.6, 0.7, 0.6, 0.7])
     >>> round(float(map_efficiency(points, np.array([0.2]), 2.0)[0]), 9)
     0.65
@@ -124,12 +113,8 @@ def atmosphere(altitude: Metre) -> tuple[Pascal, Kelvin]:
 
     altitude: height h above the sea. Returns p: absolute pressure.
 
-    Notes
-    -----
     Source: ISO 2533:1975. Valid: troposphere, -500 m to 11 km.
 
-    Examples
-    --------
     >>> p, T = atmosphere(5000.0)
     >>> round(p), round(T, 2)
     (54020, 255.65)
@@ -148,12 +133,8 @@ def compressor_temperature(
     T: temperature before it; ratio: pressure ratio, at least 1; efficiency: isentropic efficiency; gamma: ratio of the
     heat capacities.
 
-    Notes
-    -----
     Source: Heywood (1988), eq. (6.42). Valid: constant heat capacities, no heat to the surroundings.
 
-    Examples
-    --------
     >>> round(compressor_temperature(288.15, 2.0, 0.72), 1)
     375.8
     """
@@ -172,13 +153,9 @@ def turbine_ratio(
     compressor; efficiency: isentropic efficiency of the compressor, else that of the record. Returns ratio: pressure
     before the turbine by that behind it.
 
-    Notes
-    -----
     Source: balance of the shaft's powers, Heywood (1988), eq. (6.50). Valid: whole flow through the turbine, steady
     flow, cp 1005 and 1130 J/(kg K), gamma 1.4 and 1.34.
 
-    Examples
-    --------
     >>> round(turbine_ratio(Boost(), 288.15, 1000.0, 2.0), 3)
     1.589
     """

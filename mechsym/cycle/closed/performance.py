@@ -67,10 +67,7 @@ def performance(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Performan
 
     design: mapping of str to ndarray, shape (n,), operating points; must hold `omega` [rad/s].
 
-    Raises
-    ------
-    BadInput
-        A value is out of range, or combustion does not fit into the closed period
+    Raises BadInput: a value is out of range, or combustion does not fit into the closed period.
     """
     check_design(engine, design)
     result = run(functools.partial(closed_period, engine), design)

@@ -151,10 +151,7 @@ def gas_in_cylinder(
     kinematics: one input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]. omega: crank speed, of
     cycles that depend on it. walls: heat to the walls, of kinds that ask for it.
 
-    Raises
-    ------
-    BadInput
-        The cycle cannot be made, or needs more than a cylinder
+    Raises BadInput: the cycle cannot be made, or needs more than a cylinder.
     """
     kind = kind_of(cycle)
     if not kind.cylinder:
@@ -175,10 +172,7 @@ def with_diagram(cycle: Any, file: str | None, motored: str | None = None) -> "D
 
     cycle: of a `diagram` all methods are kept, of another kind what it knows of the engine.
 
-    Raises
-    ------
-    BadInput
-        A cycle of another kind, whose cylinder is not known
+    Raises BadInput: a cycle of another kind, whose cylinder is not known.
     """
     kind = kind_of(cycle)
     if kind.measured:

@@ -57,8 +57,6 @@ def absolute_pressure(cycle: CompressorCycle, room: Chamber, phi: Radian[Scalar]
 
     phi: crank angles after top dead centre, in [0, 2 pi). Returns p: absolute.
 
-    Notes
-    -----
     Valid: valves without inertia and losses, heat by the indices only.
     """
     V = np.asarray(volume(room, phi))

@@ -18,8 +18,6 @@ def otto_efficiency(compression_ratio: Pure[Scalar], gamma: Pure[Scalar]) -> Pur
 
     compression_ratio: largest over smallest volume; gamma: ratio of heat capacities.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. (2.3).
     """
     return 1 - compression_ratio ** (1 - gamma)

@@ -59,8 +59,6 @@ def march(chamber: Chamber, cycle: SparkIgnition, gas: ConstantGamma, law: Law, 
 
     .. math:: p_2 = \frac{2(\delta Q_R - \delta Q_L - \delta Q_{vap}) + p_1(G_6 V_1 - V_2)}{G_6 V_2 - V_1}
 
-    Notes
-    -----
     Source: Nunes (2017), eqs. (3.5) to (3.14).
     """
     theta = np.arange(_CLOSES, _OPENS + 1)
@@ -105,8 +103,6 @@ def crank_torque(chamber: Chamber, result: March) -> NewtonMetre[Array]:
 
     Returns torque: from absolute pressure and inertia, shape (361, n).
 
-    Notes
-    -----
     Source: Nunes (2017), eqs. (2.62) to (2.65) and (2.73).
     """
     phi = np.radians(result.theta_deg - _FIRING)[:, None]
@@ -120,8 +116,6 @@ def mean_torque(chamber: Chamber, result: March) -> NewtonMetre[Array]:
 
     Returns torque: all pistons together, over the 721 points of four strokes of which the gas exchange adds nothing.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. (2.66); 720 steps would be right (erratum E6).
     """
     return chamber.pistons * crank_torque(chamber, result).sum(axis=0) / _POINTS
@@ -161,8 +155,6 @@ def performance_printed(engine: ClosedEngine, omega: RadPerSecond[Array]) -> Per
     engine: the engine; its gas must be `ConstantGamma`, its closed period two whole strokes. Returns performance: same
     entries as the converged figures; `unburnt` is the thesis's remainder (erratum E3).
 
-    Notes
-    -----
     Source: Nunes (2017), eqs. (2.51) to (2.53), (2.62) to (2.66), sections 5.1 and 5.2.
     """
     room = chamber(engine.chamber, engine.motion)

@@ -92,8 +92,6 @@ def combustion_efficiency(cycle: SparkIgnition) -> Pure[Scalar]:
 
     cycle: its values may be CasADi expressions. Returns eta_c: combustion efficiency.
 
-    Notes
-    -----
     Source: Blair (1999) as printed in Nunes (2017), eq. (2.56), for a relative air-fuel ratio of 0.75 to 1.2.
     """
     lam = cycle.air_fuel_ratio / cycle.stoichiometric_ratio
@@ -109,8 +107,6 @@ def charge(chamber: Chamber, cycle: SparkIgnition, gas_constant: Annotated[Scala
     cycle: its values may be CasADi expressions. gas_constant: of the charge. Returns charge:
     gas [kg], fuel [kg], heat [J].
 
-    Notes
-    -----
     The clearance holds air at intake state too, but only the swept part is fuelled: Nunes (2017), eqs. (2.4), (2.5).
     """
     density = cycle.intake_pressure / (gas_constant * cycle.intake_temperature)
@@ -133,8 +129,6 @@ def vapour_energy(cycle: SparkIgnition, gas: ConstantGamma | NasaMixture) -> Ann
     cycle: its values may be CasADi expressions. gas: gas model, whose zero of energy counts.
     Returns energy: specific internal energy, latent heat taken off.
 
-    Notes
-    -----
     The thesis charges the latent heat but lets the vapour arrive with zero energy at 0 K: erratum E4.
     """
     if cycle.vaporisation == "liquid_energy":

@@ -67,12 +67,8 @@ def regenerator_temperature(T_h: Kelvin[Scalar], T_k: Kelvin[Scalar]) -> Kelvin[
 
     T_h, T_k: temperatures at its ends, not equal. Returns T_r: harmonic mean over the length.
 
-    Notes
-    -----
     Source: Urieli and Berchowitz (1984), section 3.2. Valid: T linear along the regenerator, T_h > T_k.
 
-    Examples
-    --------
     >>> round(float(regenerator_temperature(900.0, 330.0)), 2)
     568.12
     """
@@ -87,12 +83,8 @@ def exchanger_capacity(spaces: FiveSpaces) -> Annotated[Scalar, "m^3/K"]:
     spaces: volumes [m^3] of heater, regenerator and cooler, temperatures [K] of heater and cooler. Returns K: sum over
     the three.
 
-    Notes
-    -----
     Source: ideal gas at one pressure. Valid: exchangers without film resistance, T_h > T_k.
 
-    Examples
-    --------
     >>> case = FiveSpaces(volumes=None, V_h=1e-4, V_r=0.0, V_k=1e-4, T_h=1000.0, T_k=500.0, gamma=1.4, R=287.0,
     ...                   mean_pressure=5e5)
     >>> round(float(exchanger_capacity(case)) * 1e7, 6)

@@ -25,13 +25,9 @@ def viscosity(mu_0: Viscosity, T_0: Kelvin, sutherland: Kelvin, T: Kelvin[Scalar
 
     T_0, sutherland: temperature of reference, and constant S.
 
-    Notes
-    -----
     Source: W. Sutherland, Phil. Mag. 36 (1893); constants as in Urieli and Berchowitz (1984), appendix A. Valid: dilute
     gas, 200 K to 1200 K.
 
-    Examples
-    --------
     >>> round(viscosity(17.08e-6, 273.0, 112.0, 300.0) * 1e6, 2)  # air at 300 K; tables have 18.5
     18.39
     """
@@ -45,13 +41,9 @@ def valensi(omega: RadPerSecond, d: Metre, rho: Density, mu: Viscosity) -> Pure:
 
     d: hydraulic diameter; rho, mu: density and viscosity of the gas.
 
-    Notes
-    -----
     Source: T. W. Simon, J. R. Seume, A Survey of Oscillating Flow in Stirling Engine Heat Exchangers, NASA
     CR-182108 (1988). Valid: any flow that swings once a turn.
 
-    Examples
-    --------
     >>> round(valensi(262.0, 0.00302, 2.2, 4.3e-5), 1)
     30.6
     """
@@ -66,12 +58,8 @@ def laminar_swing(Va: Pure) -> Pure:
 
     Va: number of Valensi, from 0 on. Returns ratio: 1 for a slow flow, towards sqrt(Va/2)/4 for a fast one.
 
-    Notes
-    -----
     Source: S. Uchida, ZAMP 7 (1956) 403; Simon and Seume, NASA CR-182108 (1988). Valid: sinusoidal, developed, laminar.
 
-    Examples
-    --------
     >>> [round(laminar_swing(Va), 3) for Va in (0.0, 10.0, 1000.0)]
     [1.0, 1.078, 5.976]
     """
@@ -92,14 +80,10 @@ def turbulent_share(Re_max: Pure, Va: Pure = 0.0) -> Pure:
     Re_max: largest Reynolds number of the turn; Va: number of Valensi, 0 for a steady flow. Returns share: 1 from 1.74
     Re_crit on, which is 4000 in a steady flow.
 
-    Notes
-    -----
     Source: M. Ohmi, M. Iguchi, Bull. JSME 25 (1982) 165, as in Simon and Seume, NASA CR-182108 (1988), not held
     against the print: a public program has 2300 sqrt(Va/10), 727 in place of 882. Valid: smooth tubes; the width of the
     transition is that of steady flow.
 
-    Examples
-    --------
     >>> [round(turbulent_share(Re, 30.0), 3) for Re in (4000.0, 6000.0, 9000.0)]
     [0.0, 0.392, 1.0]
     """
@@ -116,13 +100,9 @@ def tube_friction(Re: Pure[Scalar], Va: Pure = 0.0) -> Pure[Scalar]:
     Re: Reynolds numbers of a turn, of diameter and mean speed, above 0; Va: number of Valensi, 0 for a steady flow.
     Returns f: friction factor, shape of Re; see `laminar_swing`, `turbulent_share`.
 
-    Notes
-    -----
     Source: Hagen and Poiseuille; P. R. H. Blasius, VDI-Forschungsheft 131 (1913); swinging flow after Simon and Seume,
     NASA CR-182108 (1988). Valid: Re < 1e5.
 
-    Examples
-    --------
     >>> [round(float(tube_friction(Re)), 5) for Re in (640.0, 1e4)]
     [0.1, 0.0316]
     """
@@ -140,13 +120,9 @@ def tube_nusselt(Re: Pure[Scalar], Pr: Pure, Va: Pure = 0.0) -> Pure[Scalar]:
     Re: Reynolds numbers of a turn, above 0; Pr: Prandtl number; Va: number of Valensi, 0 for a steady flow. Returns Nu:
     Nusselt number, shape of Re: laminar, turbulent (no less than laminar), see `turbulent_share`.
 
-    Notes
-    -----
     Source: V. Gnielinski, Int. Chem. Eng. 16 (1976) 359; swinging laminar flow: D. Gedeon, J. Heat Transfer 108 (1986)
     513, as in Simon and Seume, NASA CR-182108 (1988). Valid: developed flow, 0.5 < Pr < 2000, Re < 5e6.
 
-    Examples
-    --------
     >>> [round(float(tube_nusselt(Re, 0.7)), 2) for Re in (1000.0, 1e4)]
     [3.66, 29.82]
     """
@@ -167,13 +143,9 @@ def bend_heads(angle: Radian, radius: Pure) -> Pure:
     angle: by which the flow turns, up to pi; radius: of the bend's middle line, by the diameter, from 1 on. Returns
     heads: straight between 70 and 90 degrees, of which the law speaks as 1.05.
 
-    Notes
-    -----
     Source: I. E. Idelchik, Handbook of Hydraulic Resistance, diagram 6-1. Valid: round tubes, Re > 2e5; below it the
     handbook has more, up to twice.
 
-    Examples
-    --------
     >>> [round(bend_heads(angle, 4.0), 4) for angle in (0.0, math.pi / 2, math.pi)]
     [0.0, 0.1102, 0.147]
     """
@@ -193,13 +165,9 @@ def end_heads(share: Pure) -> Pure:
 
     share: free area by area in front, 0 to 1. Returns heads: of the speed inside; 1.5 into and out of a wide header.
 
-    Notes
-    -----
     Source: contraction and expansion of sharp edges (Borda and Carnot), as in W. M. Kays, A. L. London, Compact Heat
     Exchangers, 2nd ed. 1964, chapter 5. Valid: turbulent flow.
 
-    Examples
-    --------
     >>> [round(end_heads(share), 3) for share in (0.0, 0.7, 1.0)]
     [1.5, 0.24, 0.0]
     """
@@ -213,13 +181,9 @@ def screen_friction(Re: Pure[Scalar]) -> Pure[Scalar]:
 
     Re: Reynolds number of hydraulic diameter and speed in the free area V/L, above 0.
 
-    Notes
-    -----
     Source: D. Gedeon, J. G. Wood, Oscillating-Flow Regenerator Test Rig: Hardware and Theory with Derived Correlations
     for Screens and Felts, NASA CR-198442 (1996). Valid: porosity 0.62 to 0.78, 0.45 < Re < 6100.
 
-    Examples
-    --------
     >>> round(float(screen_friction(100.0)), 3)
     3.101
     """
@@ -234,13 +198,9 @@ def screen_nusselt(Re: Pure[Scalar], Pr: Pure, porosity: Pure) -> Pure[Scalar]:
 
     Re: Reynolds number as for `screen_friction`; Pr: Prandtl number; porosity: share beta of gas.
 
-    Notes
-    -----
     Source: Gedeon and Wood, NASA CR-198442 (1996), not held against the print: a public program has their friction as
     here and (1 + 0.64 Pe^0.72) in this place. Valid: porosity 0.62 to 0.78, 0.45 < Re < 6100.
 
-    Examples
-    --------
     >>> round(float(screen_nusselt(100.0, 0.7, 0.7)), 2)
     9.16
     """
@@ -254,12 +214,8 @@ def screen_mixing(Re: Pure[Scalar], Pr: Pure, porosity: Pure) -> Pure[Scalar]:
 
     Re, Pr, porosity: as for `screen_nusselt`. Returns N_k: of the free area.
 
-    Notes
-    -----
     Source: Gedeon and Wood, NASA CR-198442 (1996), the third of the laws taken from the same runs. Valid: as there.
 
-    Examples
-    --------
     >>> round(float(screen_mixing(100.0, 0.7, 0.7)), 1)
     20.4
     """
@@ -273,12 +229,8 @@ def screen_conductivity(gas: Conductivity, wire: Conductivity, porosity: Pure) -
 
     gas, wire: conductivities of both; porosity: share beta of gas.
 
-    Notes
-    -----
     Source: B. F. Alexander, thesis, Catholic University of America (1972). Valid: screens pressed on each other.
 
-    Examples
-    --------
     >>> round(screen_conductivity(0.25, 20.0, 0.7), 3)
     2.154
     """
@@ -293,13 +245,9 @@ def regenerator_effectiveness(ntu: Pure) -> Pure:
     ntu: transfer units of matrix to matrix, half of those of one blow. Returns effectiveness: share of the heat that
     comes back.
 
-    Notes
-    -----
     Source: Kays and London (1964), balanced counter flow; Urieli and Berchowitz (1984), section 5.2. Valid: heat
     capacity of the matrix large against that of the gas of a blow.
 
-    Examples
-    --------
     >>> regenerator_effectiveness(99.0)
     0.99
     """
@@ -313,12 +261,8 @@ def along_matrix(k: Conductivity, area: Annotated[float, "m^2"], length: Metre, 
 
     k, area: conductivity and the area that it counts for; dT: difference of temperature of the ends.
 
-    Notes
-    -----
     Source: Fourier's law. Valid: straight profile of temperature.
 
-    Examples
-    --------
     >>> round(along_matrix(2.2, 0.0032, 0.0226, 543.0), 1)
     169.1
     """

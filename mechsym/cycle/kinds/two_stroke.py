@@ -90,8 +90,6 @@ def scavenging_pressure(p_s: Pascal) -> Pascal:
 
     p_s: absolute scavenge pressure. Returns p_evc: absolute pressure in the cylinder.
 
-    Notes
-    -----
     Source: Shen et al. (2020), fitted to measurements with p_s up to about 4 bar.
     """
     return 0.9749 * p_s - 0.1029e5
@@ -125,8 +123,6 @@ def kinks(cycle: TwoStrokeMarine) -> tuple[Radian, ...]:
 
     Returns angles: start of combustion, EVO, SPO and EVC, ascending in [0, 2 pi).
 
-    Notes
-    -----
     At the start of combustion the slope is continuous but not the curvature (m_d < 1 even makes it infinite). The
     nominal end of combustion and the closing of the ports leave no kink.
     """
@@ -218,13 +214,8 @@ def solve(cycle: TwoStrokeMarine, cylinder: Chamber) -> TwoStrokeState:
     cylinder: geometry, with the same bore and compression ratio. Returns state: pressures, temperatures and what they
     mean for the fuel.
 
-    Raises
-    ------
-    BadInput
-        The wanted mean pressure is below that of the cycle without fuel
+    Raises BadInput: the wanted mean pressure is below that of the cycle without fuel.
 
-    Notes
-    -----
     The pressure is linear in p_ref at every angle, so two evaluations close the cycle; a third one corrects round-off.
     """
 

@@ -40,8 +40,6 @@ def log_pressure(cylinder: Chamber, phi: Radian[Array], shape: ChargeShape) -> t
     phi: crank angle from firing TDC, within half a turn of it. Returns slopes: derivatives by a later dead centre
     [1/rad], n0, n1 [-], loss [rad], sharpness [-], shape (n, 5).
 
-    Notes
-    -----
     Source: first law of a trapped ideal gas, (dp/p)/dphi = -gamma V'/V - (gamma - 1) Q'/(p V) - gamma m'/m, with the
     last two terms as one power of the volume.
     Valid: nothing burns, valves closed, k small against n V''/V.
@@ -66,8 +64,6 @@ def by_clearance(cylinder: Chamber, phi: Radian[Array], shape: ChargeShape) -> P
 
     phi: crank angle from firing TDC, within half a turn of it. Returns slope: shape (n,).
 
-    Notes
-    -----
     Source: derivative of `log_pressure`. A rod that is not the engine's bends the line in the same way.
     """
     v, v_ref, v_c = volume(cylinder, phi), float(volume(cylinder, REFERENCE)), float(volume(cylinder, 0.0))

@@ -53,13 +53,14 @@ class Diagram:
     #: `checked` (as read, refused where the compression line starts outside 0.7 to 1.4 times inlet_pressure),
     #: `as_given` (as read, a doubt there), `trapped` (that line starts from inlet_pressure at bottom dead centre) or
     #: `exhaust` (the mean over the middle of the exhaust stroke is exhaust_pressure); the last two take the
-    #: offset of the compression line, `joint` or `polytropic`
-    scale: str = choice("checked", "as_given", "trapped", "exhaust", default="checked")
+    #: offset of the compression line, `joint` or `polytropic`. `swing`: as read, less the sensor's drift and the slow
+    #: swing of its heated membrane, so that the exhaust stroke has exhaust_pressure beside the offset of `inlet`
+    scale: str = choice("checked", "as_given", "trapped", "exhaust", "swing", default="checked")
     #: Absolute pressure at the bottom dead centre before compression, and while the exhaust is pushed out; without the
     #: first the scale is checked against 0.2 to 5 bar only [Pa]
     inlet_pressure: float | None = quantity("Pa", default=None, above=0, below=20e5, about="absolute, at BDC")
     exhaust_pressure: float = quantity(
-        "Pa", default=1.05e5, above=0, below=20e5, about="absolute, exhaust stroke", only=("scale", "exhaust")
+        "Pa", default=1.05e5, above=0, below=20e5, about="absolute, exhaust stroke", only=("scale", "exhaust", "swing")
     )
     #: Where the compression line is read: after the inlet closes, before combustion starts [rad]
     fit_from: float = quantity("rad", default=math.radians(-90.0), low=-2.8, below=0, about="start of the line")
@@ -82,8 +83,12 @@ class Diagram:
             raise BadInput(f"motored and alignment = {self.alignment!r} both give the dead centre; leave one out")
         if self.scale in ("trapped", "exhaust") and self.pegging not in ("polytropic", "joint"):
             raise BadInput(f"scale = {self.scale!r} needs pegging = 'joint' or 'polytropic', not {self.pegging!r}")
-        if self.scale == "exhaust" and self.working_cycle != "four-stroke":
-            raise BadInput("scale = 'exhaust' needs an exhaust stroke; a two-stroke cycle has none, use 'trapped'")
+        if self.scale == "swing" and self.pegging != "inlet":
+            raise BadInput("scale = 'swing' needs pegging = 'inlet': the pressure is known at two places of the cycle")
+        if self.scale in ("exhaust", "swing") and self.working_cycle != "four-stroke":
+            raise BadInput(
+                f"scale = {self.scale!r} needs an exhaust stroke; a two-stroke cycle has none, use 'trapped'"
+            )
 
 
 @record

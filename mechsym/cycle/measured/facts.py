@@ -136,6 +136,9 @@ def _scale_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
     start = f"the compression line starts from {_pressure(measured.bottom, 3)} absolute at BDC"
     if diagram.scale in ("checked", "as_given"):
         return f"scale as given; {start}"
+    if diagram.scale == "swing":
+        level = _pressure(diagram.exhaust_pressure, 3)
+        return f"scale as given, drift and thermal swing taken off: {level} in the exhaust stroke (assumed); {start}"
     assumed = "inlet_pressure there" if diagram.scale == "trapped" else (
         f"{_pressure(diagram.exhaust_pressure, 3)} in the middle of the exhaust stroke"
     )  # fmt: skip

@@ -136,8 +136,6 @@ def clearance_asked(
     fit: of these samples under the prior; phi: ascending crank angles on the scale of its dead centre. Returns change,
     spread: of the logarithm of the clearance, which is minus that of the compression ratio less 1.
 
-    Notes
-    -----
     A: residuals of samples and priors by the values of the fit, b what they leave, c by the clearance: all that the
     dead centre, exponents, losses and the sensor can explain is taken out. One step of Gauss and Newton.
     """

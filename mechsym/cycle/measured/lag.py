@@ -89,8 +89,6 @@ def sensor_lag(fits: Sequence[JointFit], speeds: RadPerSecond[Array], prior: Pri
     fits: line of every cycle, of one or several records of one sensor and encoder, on one scale of angles; speeds:
     their speeds, shape (k,). Returns lag: None with fewer than four cycles or a single speed.
 
-    Notes
-    -----
     Weights w are one over the variance that the noise leaves of each dead centre; s is the deviation of tau by the
     scatter about the straight line. What is assumed of the charge (pull g on the dead centre) is in all cycles alike
     and goes out with phi_0, but for c_j, by which it may change with speed.
@@ -98,8 +96,6 @@ def sensor_lag(fits: Sequence[JointFit], speeds: RadPerSecond[Array], prior: Pri
     Valid: a lag that is short beside compression (tau omega below about 3 degrees), on an encoder that follows the
     shaft inside a turn.
 
-    Examples
-    --------
     >>> sensor_lag([], np.array([]), Prior()) is None
     True
     """

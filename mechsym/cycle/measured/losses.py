@@ -32,8 +32,6 @@ def expected_losses(cylinder: Chamber, omega: RadPerSecond) -> ExpectedLosses:
 
     Returns losses: heat as the mean of the laws, with their own spread and at least half of it; blow-by to 0.8 of it.
 
-    Notes
-    -----
     Sources: Woschni (1967), Annand (1963), Hohenberg (1979), without radiation; they differ by a factor of two to three
     (Heywood 1988, section 12.4). Blow-by: about 1 % of the charge at rated speed (Heywood 1988, section 8.6), through
     gaps that grow with the bore.

@@ -14,13 +14,14 @@ from mechsym.cycle.measured.charge_line import ChargeShape, log_pressure
 from mechsym.cycle.measured.dead_centre import DeadCentre
 from mechsym.cycle.measured.diagram import Diagram, period_of
 from mechsym.cycle.measured.joint_fit import JointFit, Prior, cycle_lines
+from mechsym.cycle.measured.swing import without_swing
 from mechsym.cycle.measured.timing import cycle_speeds
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Pascal, Radian
 
-_AT_BDC = math.radians(10.0)
-_EXHAUST_MIDDLE, _EXHAUST_REACH = math.radians(270.0), math.radians(30.0)
+# middle and half width of where the pressure is that of the inlet, and that of the exhaust
+_INLET, _EXHAUST = (-math.pi, math.radians(10.0)), (math.radians(270.0), math.radians(30.0))
 _BDC = np.array([-math.pi])
 USUAL_SCALE = (0.7, 1.4)
 _USUAL_BOTTOM = (0.2e5, 5e5)  # where no inlet pressure is given: throttled to the utmost, charged to the utmost
@@ -68,11 +69,15 @@ def measured_cycles(
             "the diagram has no file; name it with --set cycle.file=FILE (or --diagram FILE of hinge, forces, cycle)"
         )
     period = period_of(diagram)
-    recording, angle, raw = sound_cycles(diagram.file, diagram, cylinder)
-    found = align(diagram, cylinder, recording, angle, raw, shared)
+    recording, angle, read = sound_cycles(diagram.file, diagram, cylinder)
+    found = align(diagram, cylinder, recording, angle, read, shared)
     # the row starts before TDC and ends behind it, whatever the file calls its angles
     phi = angle - found.dead_centre.angle
     phi = phi - period * math.ceil(phi[0] / period)
+    raw = read
+    if diagram.scale == "swing" and diagram.inlet_pressure is not None:
+        inlet, exhaust = (_behind(phi, at, reach) for at, reach in (_INLET, _EXHAUST))
+        raw = without_swing(read, 2, inlet, exhaust, diagram.exhaust_pressure - diagram.inlet_pressure)
     shape, drift = _pegging_line(diagram, found.fit)
     on_line, levels = cycle_lines(*around_compression(phi, raw, period), cylinder, between(diagram), shape, drift)
     offsets, level = _offsets(diagram, phi, raw, on_line), float(levels.mean())
@@ -85,7 +90,7 @@ def measured_cycles(
         period=period,
         phi=phi,
         cycles=cycles,
-        raw_mean=raw.mean(axis=0),
+        raw_mean=read.mean(axis=0),
         alignment=found,
         offsets=offsets,
         scale=scale,
@@ -130,17 +135,20 @@ def _offsets(diagram: Diagram, phi: np.ndarray, raw: np.ndarray, on_line: np.nda
     if diagram.pegging == "gauge":
         return np.full(len(raw), -diagram.p_back)
     if diagram.pegging == "inlet" and diagram.inlet_pressure is not None:
-        ordered, rows = around_compression(phi, raw, period_of(diagram))
-        return rows[:, np.abs(ordered + math.pi) <= _AT_BDC].mean(axis=1) - diagram.inlet_pressure
+        return raw[:, _behind(phi, *_INLET, period_of(diagram))].mean(axis=1) - diagram.inlet_pressure
     return on_line
+
+
+def _behind(phi: np.ndarray, middle: float, reach: float, period: float = 4 * math.pi) -> np.ndarray:
+    """Which angles lie no further than `reach` from the middle, whole periods aside [rad]."""
+    return np.abs(np.remainder(phi - middle + period / 2, period) - period / 2) <= reach
 
 
 def _scale(diagram: Diagram, phi: np.ndarray, pegged: np.ndarray, bottom: float) -> float:
     if diagram.scale == "trapped" and diagram.inlet_pressure is not None:
         return diagram.inlet_pressure / bottom
     if diagram.scale == "exhaust":
-        behind = np.remainder(phi - _EXHAUST_MIDDLE + math.pi, 4 * math.pi) - math.pi
-        level = float(pegged[np.abs(behind) <= _EXHAUST_REACH].mean())
+        level = float(pegged[_behind(phi, *_EXHAUST)].mean())
         if level <= 0:
             raise BadInput(
                 f"{diagram.file}: in the middle of the exhaust stroke the pegged pressure is {level / 1e5:.3g} bar, "

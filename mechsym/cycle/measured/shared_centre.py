@@ -64,8 +64,6 @@ def shared_centre(
     records: of one engine, encoder and sensor, at any loads and speeds. between: ends of the compression line from the
     dead centre. prior: of the exponent and the form of the losses; how large these are is expected by size and speed.
 
-    Notes
-    -----
     x_k: dead centre, n0, n1, loss and sharpness of record k; Lambda and b: what its samples say of them, offset, level
     and drift free; m and P: middle and covariance of what is known before, which holds the records together.
     """
