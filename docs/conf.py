@@ -24,7 +24,15 @@ _FENCE = re.compile(r"^```(\w+) [^\n]*$", re.MULTILINE)
 
 def _read(app, name, source):
     """Links to code beside the docs become code; what the tests read behind a block's language goes."""
+    import findings
+
     source[0] = _FENCE.sub(r"```\1", _OUTSIDE.sub(r"`\1`", source[0]))
+    if name == "start":
+        import pages
+
+        source[0] = pages.with_results(source[0], HERE / "made" / "printed")
+    if name == "errata":
+        source[0] = findings.typeset(source[0])
 
 
 def _make(app):

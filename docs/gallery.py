@@ -41,9 +41,10 @@ def make(folder: Path) -> None:
 
 
 _STYLE = (
-    ".gallery{display:grid;grid-template-columns:repeat(auto-fill,minmax(15rem,1fr));gap:1rem}"
+    ".gallery{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(21rem,100%),1fr));gap:1rem}"
     ".gallery .card{display:block;border:1px solid #8884;border-radius:.4rem;padding:.6rem;text-decoration:none}"
-    ".gallery img{width:100%;height:9rem;object-fit:contain}.gallery b{font-weight:500}"
+    ".gallery img{width:100%;aspect-ratio:4/3;object-fit:contain;background:#fff}"
+    ".gallery b{font-weight:500}"
 )
 
 

@@ -14,8 +14,12 @@ import gallery
 from click.testing import CliRunner
 
 from mechsym import mechanisms
+from mechsym.app.told import KNOWN
 from mechsym.cases.keys import keys
 from mechsym.cli import COMMANDS, mechsym
+from mechsym.cli.results import RESULTS, rows
+from mechsym.quantities.display import without_unit
+from mechsym.quantities.words import key_words
 
 # one example a command whose output is shown; each runs in some seconds
 EXAMPLES = {
@@ -57,6 +61,9 @@ ROOMS = (
     "quantities periodic style page plausible convert native mechanisms cycle sizing machine simulate hinge "
     "torsion forces optimise codesign cases jobs sweep audit papers out"
 ).split()
+_COMMANDS = re.compile(r"```sh\n(?P<lines>(?:mechsym [^\n]+\n)+)```")
+_SHOWN = 16  # lines of what a command prints
+_MEANINGS = 4  # of one word, in different results
 _UNIT = re.compile(r"typing\.Annotated\[([^\[\],]+), '([^']+)'\]")  # of a number in a signature
 
 
@@ -68,6 +75,7 @@ def make(folder: Path) -> None:
         "sections": sections(),
         "mechanisms": equations(),
         "rooms": rooms(),
+        "glossary": glossary(),
     }
     for name, text in pages.items():
         path = folder / f"{name}.md"
@@ -119,12 +127,57 @@ def _block(text: str) -> str:
     return f"````text\n{text}\n````\n"
 
 
+def with_results(text: str, kept: Path) -> str:
+    """A page with what each of its commands prints below it; the first one makes what the others read."""
+    kept.mkdir(exist_ok=True, parents=True)
+    package, first = gallery.digest_of_package(), ""
+
+    def shown(found: re.Match[str]) -> str:
+        nonlocal first
+        parts = [found[0]]
+        for line in found["lines"].splitlines():
+            command = line.removeprefix("mechsym ")
+            printed = _printed(kept, package, *dict.fromkeys(c for c in (first, command) if c)).splitlines()
+            first = first or command
+            short = printed[:_SHOWN] + ["..."] * (len(printed) > _SHOWN)
+            parts.append(_block("\n".join((f"$ {line}", *short))))
+        return "\n\n".join(parts)
+
+    return _COMMANDS.sub(shown, text)
+
+
+def glossary() -> str:
+    """Every number that a command tells: word, meaning, unit and who tells it, from the fields of the results."""
+    entries: dict[str, dict[str, list[str]]] = {}
+    for command in RESULTS:
+        for row in rows(command):
+            if row["about"] and row["unit"]:
+                stem = without_unit(row["path"].rpartition(".")[2].partition("[")[0], row["unit"])
+                if not stem[1:].isidentifier() or row["unit"].startswith(("of ", "in ")):
+                    continue  # columns of any name
+                entry = entries.setdefault(key_words(stem, KNOWN).strip() or stem, {"about": [], "unit": [], "by": []})
+                for name, value in (("about", row["about"]), ("unit", row["unit"]), ("by", command)):
+                    entry[name] += [value] * (value not in entry[name])
+    parts = []
+    for word, entry in sorted({w.lower(): (w, e) for w, e in entries.items()}.values(), key=lambda one: one[0].lower()):
+        units = ", ".join(f"`{unit}`" for unit in entry["unit"] if unit != "-")
+        told = "; ".join(about.rstrip(".") for about in entry["about"][:_MEANINGS])
+        parts.append(f"{word}\n  {_escaped(told)}. {f'Unit {units}. ' if units else ''}"
+                     f"Told by {', '.join(f'`{by}`' for by in entry['by'])}.\n")  # fmt: skip
+    head = "# Glossary\n\nWhat the numbers of results mean, from the results themselves. Units are those of `--json`.\n"
+    return "\n".join([head, ":::{glossary}", *parts, ":::"]) + "\n"
+
+
+def _escaped(text: str) -> str:
+    return re.sub(r"([*_\[\]<>|])", r"\\\1", text)
+
+
 def sections() -> str:
     """The case reference, from the records."""
     parts = ["# Sections of a case\n\nEvery key with unit, range and meaning, as `mechsym sections` prints it.\n"]
-    rows = keys()
-    for section in dict.fromkeys(row["section"] for row in rows):
-        own = [row for row in rows if row["section"] == section]
+    listed = keys()
+    for section in dict.fromkeys(row["section"] for row in listed):
+        own = [row for row in listed if row["section"] == section]
         readers = ", ".join(own[0]["commands"]) or "no command by itself"
         parts.append(f"## [{section}]\n\nRead by: {readers}.\n")
         for variant in dict.fromkeys(row["variant"] for row in own):

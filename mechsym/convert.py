@@ -126,10 +126,7 @@ def free_letters(expressions: Iterable[sp.Basic]) -> list[sp.Basic]:
 def name_of(letter: sp.Basic) -> str:
     """Name of a letter: `q1` for q1(t), `q1d` for its rate, `q1dd` for the rate of that.
 
-    Raises
-    ------
-    BadInput
-        No letter, or a name of which nothing remains
+    Raises BadInput: no letter, or a name of which nothing remains.
     """
     if isinstance(letter, sp.Derivative):
         order = sum(count for _, count in letter.variable_count)
@@ -149,10 +146,7 @@ def name_of(letter: sp.Basic) -> str:
 def names(letters: Sequence[sp.Basic]) -> list[str]:
     """Names of letters, in order.
 
-    Raises
-    ------
-    BadInput
-        Two letters would get one name
+    Raises BadInput: two letters would get one name.
     """
     called = [name_of(s) for s in letters]
     for name in called:
@@ -193,10 +187,7 @@ def evaluate(expression: sp.Basic, letters: Mapping[sp.Basic, ca.SX]) -> ca.SX:
 
     letters: mapping of Basic to SX, a symbol for each free letter; filled up with the values of all parts.
 
-    Raises
-    ------
-    BadInput
-        A node without a counterpart, or a letter without a symbol
+    Raises BadInput: a node without a counterpart, or a letter without a symbol.
     """
     known: dict[sp.Basic, ca.SX] = dict(letters)
     # innermost first, without recursion: equations of motion are deeper than Python's stack

@@ -30,8 +30,6 @@ def suggest(word: str, options: Iterable[str]) -> str:
 
     Returns text: for example ``did you mean 'bore'? allowed are bore, stroke``.
 
-    Examples
-    --------
     >>> suggest("bre", ["bore", "stroke"])
     "did you mean 'bore'? allowed are bore, stroke"
     """

@@ -54,10 +54,7 @@ def make_folder(path: Path) -> Path:
 
     path: folder; its parents are made when they are missing.
 
-    Raises
-    ------
-    BadInput
-        It cannot be made, or nothing can be written into it
+    Raises BadInput: it cannot be made, or nothing can be written into it.
     """
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -176,8 +173,6 @@ def write_summary(folder: Path, numbers: Mapping[str, Any], command: str, read: 
 
     What the run of the same command before left there, as its summary tells, goes when the files of this one appear.
 
-    Notes
-    -----
     `run.id` is the digest of all of them: a folder whose files do not give it holds files of several runs. `run.beside`
     has the files that other commands left in the folder, `run.inputs` those that were `read` for it.
     """
@@ -245,10 +240,7 @@ def write_quantities(
 def write_netcdf(path: Path, data: "xarray.Dataset") -> Path:
     """Write a data set of xarray as netCDF.
 
-    Raises
-    ------
-    MissingExtra
-        xarray or h5netcdf is not installed
+    Raises MissingExtra: xarray or h5netcdf is not installed.
     """
     try:
         import h5netcdf  # type: ignore[import-untyped,unused-ignore]

@@ -66,12 +66,8 @@ def read_text(path: Path | str, option: str = "", way_out: str = "", encoding: s
 
     option: what the path was given for, set before it in the message; way_out: what to give in its place.
 
-    Raises
-    ------
-    BadInput
-        There is no such file, or no text in it
-    OSError
-        The system does not give it: no permission, device broken
+    Raises BadInput: there is no such file, or no text in it. OSError: the system does not give it: no permission,
+    device broken.
     """
     said, more = f"{option} {path}".strip(), f"; {way_out}" if way_out else ""
     try:

@@ -44,10 +44,8 @@ def refuse_foreign(path: Path) -> None:
 
     path: a Python file, resolved.
 
-    Raises
-    ------
-    BadInput
-        A command runs, and the file is neither typed, nor below the working folder, nor in a folder that is known
+    Raises BadInput: a command runs, and the file is neither typed, nor below the working folder, nor in a folder that
+    is known.
     """
     if not _commands:
         return

@@ -29,9 +29,8 @@ from mechsym.jobs.run import run
 TESTS = Path(__file__).parent
 LIMIT = 60  # time of a row by the clock [s]
 OWN = (TESTS.parent / "examples" / "mechanisms", TESTS / "plausible" / "own")
-LISTS = {
-    name: tomllib.loads((TESTS / "plausible" / f"{name}.toml").read_text()) for name in ("hand", "peers", "trackers")
-}
+_NAMES = ("hand", "peers", "trackers", "office")
+LISTS = {name: tomllib.loads((TESTS / "plausible" / f"{name}.toml").read_text()) for name in _NAMES}
 
 
 def half(row):
@@ -135,12 +134,15 @@ def _base(on, folder):
             shutil.copy(file, folder)
         return cases.text(on)
     kind, *sizes = on.split()
+    exchange = kind == "exchange"  # an engine as it is written, with its gas exchange
+    if exchange:
+        kind, *sizes = sizes
     if kind == "own":
         for file in (file for own in OWN for file in own.iterdir() if file.is_file()):
             shutil.copy(file, folder)
         return (folder / f"{sizes[0]}.toml").read_text()
     bore, stroke = (float(size) / 1e3 for size in sizes[:2])
-    if kind not in ("inline", "v"):
+    if exchange or kind not in ("inline", "v"):
         return write_engine(kind, bore, stroke, int(sizes[2]), folder / "engine")[0].read_text()
     # rows name keys of a closed cycle whose pressure falls at once where the exhaust opens
     closed = write_engine(kind, bore, stroke, int(sizes[2]), folder / "engine", gas="closed")[0].read_text()

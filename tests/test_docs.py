@@ -110,6 +110,28 @@ def test_the_site_builds_without_a_warning_and_is_all_local(tmp_path):
             assert (page.parent / link).exists(), f"{page.name}: {link}"
 
 
+@pytest.mark.slow
+def test_a_number_of_a_result_is_found_by_its_word(pages):
+    told = dict(re.findall(r"^(\S.*)\n  (.+)$", pages.glossary(), re.M))
+    assert "(max - min) / mean of the speed over the last period" in told["speed ripple"]
+    assert "`hinge`" in told["speed ripple"] and "Unit `N`" in told["largest roller reaction"]
+    assert len({word.lower() for word in told}) == len(told) > 100 and all("_" not in word for word in told)
+
+
+def test_below_a_command_stands_what_it_prints(pages, monkeypatch, tmp_path):
+    ran = []
+    monkeypatch.setattr(pages, "_run", lambda *lines: ran.append(lines) or "\n".join(f"line {k}" for k in range(40)))
+    text = pages.with_results("```sh\nmechsym new a\n```\nand\n```sh\nmechsym check a\nmechsym b\n```\n", tmp_path)
+    assert ran == [("new a",), ("new a", "check a"), ("new a", "b")]  # each after the first, which makes the file
+    assert re.findall(r"^\$ (.*)$", text, re.M) == ["mechsym new a", "mechsym check a", "mechsym b"]
+    assert "line 15" in text and "line 16" not in text and text.count("\n...\n") == 3
+
+
+def test_the_first_page_shows_a_machine_that_moves():
+    first = re.search(r"```\{image\} (\S+)", (DOCS / "index.md").read_text(encoding="utf-8"))
+    assert "<animate" in (DOCS / first[1]).read_text(encoding="utf-8")
+
+
 SCRIPTS = sorted((DOCS / "gallery").glob("*.py"))
 
 

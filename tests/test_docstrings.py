@@ -98,6 +98,8 @@ def letters(node, doc):
     told, rest = [], []
     for block in re.split(r"\n\s*\n", in_words(doc)):
         text = " ".join(block.split())
+        if re.match(r"Source: |Raises |>>> ", text):
+            continue
         starts = list(ITEM.finditer(text)) if ITEM.match(text.removeprefix("Returns ")) else []
         names = [[n.lstrip("*") for n in m[1].split(", ")] for m in starts]
         if not starts or not (text.startswith("Returns ") or set(names[0]) & set(arguments(node))):

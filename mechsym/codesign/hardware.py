@@ -71,12 +71,8 @@ def roller_inertia(
     rho, drho: path of the roller centres and its derivative; mass: m_h of each roller; inertia: J_r of each roller
     about its pin; radius: of a roller. Returns I_h: about the axis of the guide's shaft.
 
-    Notes
-    -----
     Spring and rollers turn with the shaft and press outwards on tracks around them; the rollers roll without slip.
 
-    Examples
-    --------
     >>> round(roller_inertia(0.7, 0.0, 100.0, 0.0, 0.1, 2), 6)
     98.0
     """

@@ -63,8 +63,6 @@ def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
 
     Returns bound: D_r [kg*m^2], singular values [-], shapes, and how many springs pay.
 
-    Notes
-    -----
     Bilinear: IPOPT starts from the singular vectors; the freedom of mixing shapes is taken away by holding them at r
     angles. Alternating linear programmes get stuck (20.66 for 17.21 in the built-in family from 75 to 142 rpm).
     """

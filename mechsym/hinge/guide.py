@@ -54,13 +54,8 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
     wanted: torque to give with its work: all of it, or the part that was chosen. Returns guide: the path, or status and
     reason.
 
-    Raises
-    ------
-    BadInput
-        The track would not close after a turn of its shaft, or z_margin leaves no spring
+    Raises BadInput: the track would not close after a turn of its shaft, or z_margin leaves no spring.
 
-    Notes
-    -----
     Valid: massless rollers and spring, no friction.
     """
     refuse_open_track(parameters, wanted.period)
@@ -89,10 +84,7 @@ def path(guide: Guide) -> "scipy.interpolate.PPoly":
 
     Returns rho: over the angle of the guide's shaft [m].
 
-    Raises
-    ------
-    BadInput
-        There is no path; the message says why
+    Raises BadInput: there is no path; the message says why.
     """
     if guide.rho is None:
         raise BadInput(f"there is no guide: {guide.reason}")
@@ -150,8 +142,6 @@ def crank_torque(guide: Guide, phi: Radian[Array]) -> NewtonMetre[Array]:
 
     Returns torque: on the crank, positive driving.
 
-    Notes
-    -----
     Source: Zotov et al. (2024), eqs. (12) to (14). For the gauge law it is proportional to p0, for the others not.
     """
     rho, ratio = path(guide), guide.parameters.shaft_ratio

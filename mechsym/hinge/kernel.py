@@ -76,10 +76,7 @@ def design_kernel(
 
     free: fields that differ between designs: `spring.p0`, `guide.rho0`, `rollers.radius`, `limits.closing_share`, .
 
-    Raises
-    ------
-    BadInput
-        A name is no number of these sections
+    Raises BadInput: a name is no number of these sections.
     """
     if spring.state:
         raise BadInput("the limits of many guides at once take springs whose force follows from the closing alone")

@@ -54,10 +54,7 @@ def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
 
     hinge: torque that the other speed needs.
 
-    Raises
-    ------
-    BadInput
-        Unknown criterion
+    Raises BadInput: unknown criterion.
     """
     parts, least = affine(guide, hinge), _least_setting(guide.spring)
     near = max(_least_squares_work(parts), least)

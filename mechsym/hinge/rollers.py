@@ -89,8 +89,6 @@ def parallel(
     roller radius minus cutter radius for the centre of a cutter. Returns x, y: in the frame of the track, x along theta
     = 0.
 
-    Notes
-    -----
     A change of rho by the roller radius is not this curve: it misses by the pressure angle.
     """
     s = np.hypot(rho, drho)
@@ -116,8 +114,6 @@ def reaction(force: Newton[Scalar], rho: Metre[Scalar], drho: MetrePerRadian[Sca
     force: spring force F; rho, drho: path and its derivative. Returns N: along the normal; both rollers of a pair carry
     the same.
 
-    Notes
-    -----
     Virtual work: the tangential part N sin(alpha) at the radius rho is F drho/dtheta for each roller.
     """
     return force * _root(1 + (drho / rho) ** 2)
@@ -157,8 +153,6 @@ def hertz_stress(N: Newton[Array], kappa: Annotated[Array, "1/m"], rollers: Roll
     kappa: curvature of the path. Returns p_H: pressure in the middle of the contact; infinite where the profile is
     undercut, 0 where nothing presses.
 
-    Notes
-    -----
     Source: K. L. Johnson, Contact Mechanics (1985), section 4.2(c), load per unit width N / w. Valid: both bodies of
     one material, contact much narrower than r, no edge loading.
     """
@@ -182,8 +176,6 @@ def contact_force(
     force: spring force F on each roller; rho, drho, d2rho: path and its derivatives; mass: m_h, moving with the roller;
     omega: speed of the guide's shaft. Returns N: along the normal of the track.
 
-    Notes
-    -----
     The torque of the track on the shaft is N sin(alpha) rho less the Coriolis force on the spring's guide; together
     they are F rho' - omega^2 I_h'/2 for each roller. Without the traction that the roller's own inertia asks for.
     """
@@ -211,8 +203,6 @@ def loss_torque(
     N: contact force. rho, drho: path and its derivative. rollers: friction by name; 0 for `none`. Returns M_f: against
     the rotation.
 
-    Notes
-    -----
     A roller whose centre moves by ds turns by ds / r against the track and loses f N ds / r. f is 1e-6 m in the source.
     """
     if rollers.friction == "none":

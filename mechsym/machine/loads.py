@@ -109,8 +109,6 @@ def propeller_torque(
     omega, speed: shaft speed, and the speed of reference; torque: torque at the speed of reference. Returns torque:
     against forward motion.
 
-    Examples
-    --------
     >>> propeller_torque(-2.0, 3.0, 1.0)
     -12.0
     """

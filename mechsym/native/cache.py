@@ -143,10 +143,7 @@ def load(source: str, mode: str) -> ctypes.CDLL:
 
     Returns library: its `_name` is the path of the file.
 
-    Raises
-    ------
-    NoCompiler
-        What the compiler made cannot be loaded, and is not kept
+    Raises NoCompiler: what the compiler made cannot be loaded, and is not kept.
     """
     return _loaded(source, mode, compiler.find(), directory())
 

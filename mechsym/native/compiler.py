@@ -116,10 +116,7 @@ def compile_file(compiler: Compiler, source: Path, target: Path, options: tuple[
 
     source, target: C file to read, shared object to write.
 
-    Raises
-    ------
-    NoCompiler
-        The compiler failed; the message has its first line of complaint
+    Raises NoCompiler: the compiler failed; the message has its first line of complaint.
     """
     call([*compiler.command, *options, str(source), "-o", str(target), "-lm"], source.name, target)
 
@@ -141,10 +138,7 @@ def way_out(command: Sequence[str]) -> tuple[str, str]:
 def call(command: Sequence[str], what: str, target: Path, folder: Path | None = None) -> None:
     """Let a compiler make `target` of `what`, in a folder; it ends in time, and with all processes that it started.
 
-    Raises
-    ------
-    NoCompiler
-        It cannot be run, does not end, fails, or makes nothing
+    Raises NoCompiler: it cannot be run, does not end, fails, or makes nothing.
     """
     name, other = way_out(command)
     try:

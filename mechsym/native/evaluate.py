@@ -46,8 +46,6 @@ def compiled(function: casadi.Function, mode: str = "fast") -> Compiled:
     function: SX function, or an MX function that can be expanded; mode: `strict` (IEEE arithmetic as written) or `fast`
     (contracted products, reciprocals).
 
-    Examples
-    --------
     >>> x = casadi.SX.sym("x")
     >>> compiled(casadi.Function("square", [x], [x * x])).scalar(3.0)
     9.0

@@ -35,10 +35,7 @@ def folder(rate: casadi.Function, method: Method, mode: str = "fast") -> Fold:
 
     Returns fold: y at 0 (states, n), z (values, n), number of steps -> y at the ends of all steps (steps, states, n).
 
-    Raises
-    ------
-    BadInput
-        The inputs are not s, y, z
+    Raises BadInput: the inputs are not s, y, z.
     """
     rates = program(rate, mode)
     integrators.sizes(rates)

@@ -100,8 +100,6 @@ def gauss_tableau(stages: int) -> tuple[Pure[Array], Pure[Array], Pure[Array], P
     Returns a, b, c, ahead: coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a
     step's polynomial.
 
-    Notes
-    -----
     Source: E. Hairer, Ch. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., Springer 2006, section II.1.3.
     """
     roots, weights = legendre.leggauss(stages)

@@ -96,6 +96,9 @@ def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> 
     if "constraints" in problem.mechanism.functions or problem.mechanism.dependents:
         why = "an export takes independent coordinates"
         raise BadInput(f"{problem.mechanism.name} is closed by constraints and {why}; simulate it with mechsym")
+    if problem.unilateral:
+        why = f"{problem.unilateral[0].name} makes events, and an export has none"
+        raise BadInput(f"{problem.mechanism.name}: {why}; simulate it with mechsym")
     given = {law.part: law for law in laws}
     chosen = [given.get(part.name) or law_of(problem, part) for part in problem.parts]
     mechanism, own = _tunable(problem.mechanism)

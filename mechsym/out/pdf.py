@@ -15,10 +15,7 @@ _LONGEST = 120  # that printing may take [s]
 def chromium() -> str:
     """Path of a Chromium.
 
-    Raises
-    ------
-    BadInput
-        None is installed
+    Raises BadInput: None is installed.
     """
     found = next((path for path in map(shutil.which, NAMES) if path), None)
     if found is None:
@@ -32,10 +29,7 @@ def chromium() -> str:
 def to_pdf(text: str, path: Path) -> Path:
     """Print a page of HTML.
 
-    Raises
-    ------
-    BadInput
-        There is no Chromium, or it does not print
+    Raises BadInput: there is no Chromium, or it does not print.
     """
     program = chromium()
     with tempfile.TemporaryDirectory() as folder:

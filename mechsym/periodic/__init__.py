@@ -136,13 +136,9 @@ def fit(
     once. breaks: angles where the function is not smooth, any real numbers. tol: largest error, as a share of the
     largest value of all parts. Returns poly: breaks from 0 to `period`; values of shape (n,), or (n, parts).
 
-    Raises
-    ------
-    BadInput
-        The function is not finite, jumps at an angle that is not among the breaks, or is noisy beyond 1e-9
+    Raises BadInput: the function is not finite, jumps at an angle that is not among the breaks, or is noisy beyond
+    1e-9.
 
-    Notes
-    -----
     Degree 9 through Chebyshev nodes; none lies on a break, so a jump at a break does no harm. The error is measured at
     other points than the nodes. Where the function is rounded more coarsely than `tol`, halving stops at its noise.
     """
@@ -176,8 +172,6 @@ def scalar(poly: "scipy.interpolate.PPoly") -> Callable[[float], tuple[float, fl
     poly: periodic piecewise polynomial with values of shape (n,). Returns function: phi, any real number [rad] ->
     (value, derivative).
 
-    Notes
-    -----
     Bisection and Horner's rule in plain Python, about 1 microsecond; scipy needs about 15 for a single number.
     """
     start, period = float(poly.x[0]), float(poly.x[-1] - poly.x[0])

@@ -11,11 +11,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from mechsym.errors import BadInput
-from mechsym.plausible.ranges import INPUTS, LARGEST, PROPORTIONS, RESULTS, Usual
+from mechsym.plausible.ranges import INPUTS, PROPORTIONS, RESULTS, Usual
 from mechsym.quantities import record
 from mechsym.quantities.units import Metre, Pure, RadPerSecond
 
 _USUAL_RATIO = {"scale": 1.0}  # kinds of other rooms that are doubted on both sides of this [-]
+# how large a letter of any mechanism usually is, by its unit; the largest machines are ships' engines and presses
+_LARGEST = {
+    "m": 100.0, "kg": 1e6, "kg*m": 1e6, "kg*m^2": 1e8, "rad": 1e5, "rad/s": 1e4, "m/s": 1e4, "N": 1e9, "N*m": 1e9,
+    "N/m": 1e12, "N*m/rad": 1e12, "N*s/m": 1e10, "N*m*s/rad": 1e10, "m/s^2": 1e5,
+}  # fmt: skip
 _BY_CODE = {kind.code: kind for kind in PROPORTIONS}
 
 
@@ -45,13 +50,8 @@ def inputs(values: Mapping[str, float], refusing: bool = True) -> tuple[Doubt, .
     values: by dotted key, `section.field` [SI]. refusing: whether nonsense is refused; else it is doubted, as what
     follows from values is.
 
-    Raises
-    ------
-    BadInput
-        A value that no engine has, with what is possible
+    Raises BadInput: a value that no engine has, with what is possible.
 
-    Examples
-    --------
     >>> [d.code for d in inputs({"cycle.compression_ratio": 60.0, "cycle.bore": 0.08})]
     ['compression_ratio']
     """
@@ -77,13 +77,8 @@ def proportion(code: str, quantity: str, value: float, high: float | None = None
     quantity: what it is, with the values that make it, for messages; value: in the unit of its kind [unit]; high: upper
     end of the usual range, where it depends on the machine's size [unit].
 
-    Raises
-    ------
-    BadInput
-        A value that no engine has
+    Raises BadInput: a value that no engine has.
 
-    Examples
-    --------
     >>> [d.usual for d in proportion("spring_area", "spring area / piston area", 4.0)]
     ['at least 0.01 and at most 3']
     """
@@ -97,16 +92,14 @@ def letters(values: Mapping[str, tuple[float, str]]) -> tuple[Doubt, ...]:
 
     values: by letter, the value and its SI unit [SI].
 
-    Examples
-    --------
     >>> [d.quantity for d in letters({"phid": (1e12, "rad/s"), "phi": (1.0, "rad")})]
     ['phid']
     """
     why = _BY_CODE["magnitude"].why
     return tuple(
-        Doubt(code="magnitude", quantity=name, value=value, usual=f"at most {LARGEST[unit]:g} {unit}", why=why)
+        Doubt(code="magnitude", quantity=name, value=value, usual=f"at most {_LARGEST[unit]:g} {unit}", why=why)
         for name, (value, unit) in values.items()
-        if abs(value) > LARGEST.get(unit, math.inf)
+        if abs(value) > _LARGEST.get(unit, math.inf)
     )
 
 
@@ -195,17 +188,10 @@ def proportions(
     radius; None without a rod. omega: speed of operation. fired: whether fuel burns in it; compressors and Stirling
     engines are slower. Returns doubts: `piston_speed`, `process_speed`, `slow_piston`, `rod_ratio` outside 1.8 to 8.
 
-    Raises
-    ------
-    BadInput
-        A mean piston speed above 100 m/s
+    Raises BadInput: a mean piston speed above 100 m/s.
 
-    Notes
-    -----
     Source: Heywood (1988), Internal combustion engine fundamentals, sections 2.2 and 2.6.
 
-    Examples
-    --------
     >>> [f"{d.code} {d.value:.0f} m/s" for d in proportions(0.1, 3.5, 1100.0)]
     ['piston_speed 35 m/s']
     """
@@ -227,18 +213,11 @@ def piston_speed(what: str, stroke: float, omega: float, fired: bool = True) -> 
 
     stroke, omega: travel of the piston and speed [m, rad/s].
 
-    Raises
-    ------
-    BadInput
-        More than 100 m/s
+    Raises BadInput: more than 100 m/s.
 
-    Notes
-    -----
     Source: data sheets: Formula 1, stroke 40 mm, 26 m/s; drag racers, 114 mm, 30.5; aircraft, 165 mm, 18;
     medium-speed diesels, 0.6 m, 10.3; slow ones, 3.5 m, 9.2 m/s.
 
-    Examples
-    --------
     >>> [d.usual for d in piston_speed("speed", 0.4, 135.0)]
     ['at most 16.5 m/s']
     """
@@ -255,17 +234,10 @@ def moving_mass(what: str, mass: float, area: float, bore: Metre, stroke: Metre)
 
     mass, area: mass, and area of the pistons that drive it [kg, m^2].
 
-    Raises
-    ------
-    BadInput
-        A mass that no piston has
+    Raises BadInput: a mass that no piston has.
 
-    Notes
-    -----
     Source: masses of engines in Heywood (1988), chapter 2, and of slow marine engines with crosshead.
 
-    Examples
-    --------
     >>> [f"{d.code} {d.value:.0f}" for d in moving_mass("parameters.m5", 2.5, 2.83e-3, 0.06, 0.052)]
     ['reciprocating_mass 14723']
     """

@@ -10,8 +10,6 @@ from typing import Any
 def load(entry: str) -> Any:
     """What a text `module:name` names.
 
-    Examples
-    --------
     >>> load("math:hypot")(3.0, 4.0)
     5.0
     """

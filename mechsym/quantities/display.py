@@ -52,8 +52,6 @@ def heading(name: str, values: Scalar, asked: bool = False, unit: str | None = N
 def stem_and_unit(name: str) -> tuple[str, str]:
     """A name without the unit that it carries, and that unit; empty where it carries none.
 
-    Examples
-    --------
     >>> stem_and_unit("speed_rpm"), stem_and_unit("verdict")
     (('speed', 'rpm'), ('verdict', ''))
     """
@@ -64,8 +62,6 @@ def stem_and_unit(name: str) -> tuple[str, str]:
 def without_unit(name: str, unit: str) -> str:
     """A name without the unit that it ends with.
 
-    Examples
-    --------
     >>> without_unit("power_kw", "kW"), without_unit("sfc_g_kwh", "g/(kW*h)"), without_unit("torque", "N*m")
     ('power', 'sfc', 'torque')
     """
@@ -79,10 +75,7 @@ def choose(text: str | None) -> None:
 
     text: units divided by commas, each for its kind: `mm, MPa, kN, kN*m, deg, rpm, kW`.
 
-    Raises
-    ------
-    BadInput
-        Unknown unit, or two of one kind
+    Raises BadInput: unknown unit, or two of one kind.
     """
     found: dict[tuple[int, ...], str] = {}
     for unit in filter(None, (part.strip() for part in (text or "").split(","))):
@@ -141,8 +134,6 @@ def quantity_text(value: float | None, unit: str, digits: int = 5) -> str:
 
     value: in SI [unit].
 
-    Examples
-    --------
     >>> quantity_text(1.65511e7, "Pa"), quantity_text(9000.0, "N*m"), quantity_text(0.0129, "m")
     ('16.551 MPa', '9 kN*m', '12.9 mm')
     """
@@ -157,8 +148,6 @@ def in_si(value: float, unit: str) -> tuple[float, str]:
 
     value: in the unit of its name [unit]. Returns number: in that SI unit [unit].
 
-    Examples
-    --------
     >>> in_si(0.25, "kW"), in_si(3.0, "-")
     ((250.0, 'W'), (3.0, '-'))
     """
@@ -173,8 +162,6 @@ def figure(value: Pure | None, digits: int = 5) -> str:
 
     value: in any unit.
 
-    Examples
-    --------
     >>> figure(37809.6), figure(1.5e-7), figure(None), figure(0.1 + 0.2)
     ('37810', '1.5e-07', '-', '0.3')
     """
@@ -195,8 +182,6 @@ def ratio_text(value: Pure | None, digits: int = 3) -> str:
 
     value: pure number.
 
-    Examples
-    --------
     >>> ratio_text(7.1e-12), ratio_text(-4.9e-9), ratio_text(0.02)
     ('0', 'below 1e-8', '0.02')
     """
@@ -210,8 +195,6 @@ def per_cent(share: Pure, digits: int = 3) -> str:
 
     share: of the whole.
 
-    Examples
-    --------
     >>> per_cent(0.2123), per_cent(1.00004)
     ('21.2 %', '100 %')
     """
@@ -223,8 +206,6 @@ def column_text(values: Sequence[object], least: int = _LEAST) -> list[str]:
 
     values: numbers in one unit, or text [unit]; least: digits where no more are needed.
 
-    Examples
-    --------
     >>> column_text([31.02361, None, 194.99431, 12345.0, "yes"])
     ['31.02', '-', '195', '12345', 'yes']
     >>> column_text([100.01, 100.02])

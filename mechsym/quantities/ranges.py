@@ -39,13 +39,8 @@ def read_range(text: str, option: str, unit: str = "-", key: str = "") -> Range:
 
     option, unit, key: where it was written, its unit, and what stands before an equals sign, for messages.
 
-    Raises
-    ------
-    BadInput
-        Neither of the forms, two units, or more values than allowed
+    Raises BadInput: neither of the forms, two units, or more values than allowed.
 
-    Examples
-    --------
     >>> read_range("3..8 MPa:3", "--over", "Pa", "p0")
     Range(kind='grid', values=(3.0, 5.5, 8.0), unit='MPa')
     """
@@ -71,8 +66,6 @@ def values(text: str, unit: str, option: str, plain: str = "", key: str = "", mo
     unit: the SI unit wanted, `"-"` for pure numbers. plain: what a number without a unit is in; SI when left out. most:
     how many there may be where each is a run of its own. Returns values: at least one [unit].
 
-    Examples
-    --------
     >>> values("50,75%", "-", "--loads")
     [0.5, 0.75]
     """
@@ -103,6 +96,9 @@ def _written(text: str, where: str, head: str, unit: str) -> tuple[str, tuple[fl
 def _steps(where: str, first: float, last: float, step: float) -> tuple[float, ...]:
     if not step > 0 or last < first:
         raise BadInput(f"{where}: a:b:step needs a <= b and a step > 0")
+    if step * (1 - 1e-9) > last - first > 0:
+        many = f"; for {step:g} values write {first:g}..{last:g}:{step:g}" if step == int(step) else ""
+        raise BadInput(f"{where}: the step {step:g} is longer than the range, one value is left{many}")
     # the last digits of a float must not cost the last value
     count = (last - first) / step * (1 + 1e-12) + 1e-9 + 1
     _check_count(where, count)

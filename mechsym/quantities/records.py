@@ -89,8 +89,6 @@ def allowed(metadata: Mapping[str, float | None]) -> str:
 
     metadata: metadata of a field made by `quantity`. Returns text: for example ``> 0 and <= 1``.
 
-    Examples
-    --------
     >>> allowed({"above": 0, "high": 1})
     '> 0 and <= 1'
     """
@@ -120,8 +118,6 @@ def record(cls: type[T]) -> type[T]:
 
     A `__post_init__` of the class runs behind that check and may rely on it.
 
-    Examples
-    --------
     >>> @record
     ... class Rod:
     ...     length: float = quantity("m", above=0)
@@ -238,10 +234,7 @@ def check(record: Record) -> None:
 
     record: dataclass instance, fields made by `quantity` and `choice` are checked; others are left alone.
 
-    Raises
-    ------
-    BadInput
-        Names the record's class, field, value, unit and what is allowed
+    Raises BadInput: names the record's class, field, value, unit and what is allowed.
     """
     for field in dataclasses.fields(record):
         check_value(field, getattr(record, field.name))

@@ -173,8 +173,6 @@ def tell(value: object, only: Container[str] | None = None) -> Any:
 
     only: collection of str, optional, names that are wanted; what the others need is not computed.
 
-    Examples
-    --------
     >>> @result
     ... class Wheel:
     ...     inertia: float = quantity("kg*m^2")
@@ -202,8 +200,6 @@ def tell(value: object, only: Container[str] | None = None) -> Any:
 def some(value: object, only: Container[str]) -> Columns:
     """Some of the names that a result tells; what the others need is not computed.
 
-    Examples
-    --------
     >>> @result
     ... class Wheel:
     ...     inertia: float = quantity("kg*m^2")
@@ -218,8 +214,6 @@ def some(value: object, only: Container[str]) -> Columns:
 def leaves(value: object) -> Iterator[Leaf]:
     """Numbers of a result, and lists of numbers as one, in the order in which they are told.
 
-    Examples
-    --------
     >>> @result
     ... class Wheel:
     ...     inertia: float = quantity("kg*m^2")
@@ -272,8 +266,6 @@ def _numeric(value: object) -> bool:
 def declared(kind: type, path: str = "") -> Iterator[Declared]:
     """Numbers that the results of a class tell.
 
-    Examples
-    --------
     >>> @result
     ... class Wheel:
     ...     inertia: float = quantity("kg*m^2", about="about the shaft")
@@ -335,8 +327,6 @@ def on_card(kind: type, name: str) -> Mapping[str, Any]:
 def units_of(value: object) -> dict[str, str]:
     """Units of the names that a class, a result or columns tell; words have none.
 
-    Examples
-    --------
     >>> @result
     ... class Wheel:
     ...     inertia: float = quantity("kg*m^2")

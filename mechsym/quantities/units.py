@@ -124,8 +124,6 @@ def _unit(text: str) -> tuple[float, tuple[int, ...]]:
 def scale(unit: str) -> float:
     """How many SI units one of a unit is [-].
 
-    Examples
-    --------
     >>> scale("bar")
     100000.0
     """
@@ -135,8 +133,6 @@ def scale(unit: str) -> float:
 def exponents(unit: str) -> tuple[int, ...]:
     """Exponents of kg, m, s, K and rad in a unit.
 
-    Examples
-    --------
     >>> exponents("rpm")
     (0, 0, -1, 0, 1)
     """
@@ -148,8 +144,6 @@ def dimension(unit: str) -> tuple[int, ...]:
 
     unit: product of units, `"-"` for a pure number.
 
-    Examples
-    --------
     >>> dimension("N*m")
     (1, 2, -2, 0)
     """
@@ -168,13 +162,8 @@ def parse(value: object, unit: str, key: str = "value") -> float:
     value: a plain number is taken as SI, a text may end in a unit; unit: the SI unit wanted, `"-"` for a pure number;
     key: name of the value, for the message.
 
-    Raises
-    ------
-    BadInput
-        Not a number, not of magnitude 1e-20 to 1e20 (or 0), unknown unit, or a unit of another dimension
+    Raises BadInput: not a number, not of magnitude 1e-20 to 1e20 (or 0), unknown unit, or a unit of another dimension.
 
-    Examples
-    --------
     >>> round(parse("142 rpm", "rad/s"), 6)
     14.870205
     """

@@ -24,8 +24,6 @@ def key_words(key: str, known: Mapping[str, str] | None = None) -> str:
 
     known: words of keys that have their own.
 
-    Examples
-    --------
     >>> key_words("torque_max"), key_words("speeds.phi.mean"), key_words("twist[0].twist_peak")
     ('largest torque', 'speeds, phi, mean', 'twist 1, largest twist')
     >>> key_words("energy_residual"), key_words("load torque")

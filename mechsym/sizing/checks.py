@@ -27,13 +27,8 @@ def require(
     `"-"` for a pure number. above, low, below, high: bounds; `above` and `below` must not be reached [unit]. hint: why
     the bound is there and what to do instead.
 
-    Raises
-    ------
-    BadInput
-        Names the quantity, its worst value, its unit, what is allowed and the hint
+    Raises BadInput: names the quantity, its worst value, its unit, what is allowed and the hint.
 
-    Examples
-    --------
     >>> require("face width b", 0.039, "m", above=0, high=1.02)
     """
     # most are single numbers that are right, and a search asks for thousands
@@ -87,8 +82,6 @@ def at_most(
     value, limit: load and what the part stands [unit]; wanted: safety factor asked for. Returns check: its factor is
     limit / value.
 
-    Examples
-    --------
     >>> at_most("rod", "stress", 50e6, 75e6, "Pa", wanted=1.5, rule="axial stress", source="").safety_factor
     1.5
     """
@@ -107,8 +100,6 @@ def at_least(
     value, limit: what the part has and what it needs [unit]; wanted: safety factor asked for. Returns check: its factor
     is value / limit.
 
-    Examples
-    --------
     >>> at_least("cylinder", "length", 0.170, 0.1698, "m", wanted=1.0, rule="length", source="").safety_factor > 1
     True
     """
@@ -143,8 +134,6 @@ def round_up(size: Metre, step: Metre = 0.5e-3) -> Metre:
     size: size needed; step: step of the sizes made. Returns size: size made, never smaller than needed beyond the last
     digits of a float.
 
-    Examples
-    --------
     >>> round_up(0.02629), round_up(0.0265)
     (0.0265, 0.0265)
     """
@@ -156,8 +145,6 @@ def at_speed(omega: RadPerSecond[Array], index: int) -> str:
 
     omega: crank speeds, shape (k,).
 
-    Examples
-    --------
     >>> import numpy as np
     >>> at_speed(np.array([8000 * np.pi / 30]), 0)
     'worst at 8000 rpm'

@@ -51,12 +51,8 @@ def over_period(theta: Radian[Array], phi: Radian[Array], p: Pascal[Array], rest
     inside -pi .. pi, shape (k, m); p: pressure there, shape (k, m); rest: pressure during the gas exchange. Returns p:
     absolute pressure, shape (k, n).
 
-    Notes
-    -----
     Source: Nunes (2017), ch. 3.4.1, which knows only the closed cycle; the exchange is ideal.
 
-    Examples
-    --------
     >>> phi, p = np.array([[-np.pi, 0.0, np.pi]]), np.array([[1.0, 9.0, 3.0]])
     >>> [float(x) for x in over_period(np.array([0.0, 2 * np.pi]), phi, p, 1.0)[0]]
     [9.0, 1.0]
@@ -72,12 +68,8 @@ def tooth_load_printed(F: Newton[Array], theta: Radian[Array]) -> Newton[Array]:
 
     F: force on the piston, shape (k, n); theta: crank angle from top dead centre. Returns W: load, shape (k, n).
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 2.75; exact for a balanced moment on the planet at constant speed.
 
-    Examples
-    --------
     >>> round(float(tooth_load_printed(np.array([27140.0]), np.radians([20.0]))[0]))
     9282
     """
@@ -91,12 +83,8 @@ def journal_load_massless(F: Newton[Array], theta: Radian[Array]) -> Newton[Arra
 
     F: force on the piston, shape (k, n); theta: crank angle from top dead centre. Returns J: load, shape (k, n).
 
-    Notes
-    -----
     Source: balance of the planet (erratum E21). Print: Nunes (2017), ch. 4.8, assumes no more than F.
 
-    Examples
-    --------
     >>> round(float(journal_load_massless(np.array([9000.0]), np.array([np.pi / 2]))[0]))
     18000
     """
@@ -117,12 +105,8 @@ def side_vectors(
     dead centre. Returns force, teeth, centrifugal: on the crankpin, at the gear from the teeth, at the gear from the
     masses, shape (2, k, n).
 
-    Notes
-    -----
     Source: balance of the planet; x towards the head as in derivations/hypocycloid.py.
 
-    Examples
-    --------
     >>> one = np.ones((1, 1))
     >>> force, teeth, _ = side_vectors(2 * one, 2 * one, 0 * one, np.zeros(1), np.array([np.pi / 2]))
     >>> [round(float(v), 9) + 0.0 for v in (force[0, 0, 0], teeth[0, 0, 0], teeth[1, 0, 0])]
@@ -150,13 +134,9 @@ def side_loads(
     `turning_shaft.outer_shares`; places: those that are wanted of `SIDE`. Returns loads: `inner_journal`,
     `outer_journal`, `main`, `outboard`, shape (k, n).
 
-    Notes
-    -----
     Source: statics. The carrier's counterweight takes the centrifugal force in its own plane. Valid: torque taken off
     at both ends alike (`tooth_share_one_end` says what a single end does), rigid journals without play.
 
-    Examples
-    --------
     >>> spans = Spans(inner=0.043, gear=0.0715, outer=0.1, outboard=0.114)
     >>> one, none = np.ones((1, 1)), np.zeros((1, 1))
     >>> vectors = side_vectors(27140.0 * one, none, none, np.zeros(1), np.zeros(1))
@@ -187,14 +167,10 @@ def tooth_share_one_end(spans: Spans, stiffness_ratio: Pure) -> Pure:
     stiffness_ratio: stiffness of a journal over that of a gear mesh. Returns share: share of one gear; 0.5 would be an
     equal share, above 1 the other gear works against it.
 
-    Notes
-    -----
     Source: balance of a rigid planet on springs, inner and outer journals alike and the pinion midway: the carrier that
     gives no torque can take no tangential force but only a couple, so the gears are left to balance the driving
     journals. Print: Nunes (2017), ch. 4.4.3, halves the load. Valid: z_gear midway between the journals.
 
-    Examples
-    --------
     >>> spans = Spans(inner=0.043, gear=0.0715, outer=0.1, outboard=0.114)
     >>> [f"{tooth_share_one_end(spans, k):.2f}" for k in (1.0, 5.0)]
     ['1.26', '0.89']
@@ -213,14 +189,10 @@ def reversed_tooth_load(W: Newton[Array], returns: int) -> Newton[Array]:
     mesh in a period: 4 for the planet, 2 for the ring. Returns W_eq: equivalent one-sided load; A is the larger load on
     one tooth in one sense, B the largest in the other, shape (k,).
 
-    Notes
-    -----
     Source: Y_M = 1/(1 - 3/7 F_min/F_max), 0.7 for fully reversed load: AGMA 2001-D04, clause 16.2; the line between:
     ISO 6336-3, annex B with M = 0.4; solved for the load. The teeth numbers are in a whole ratio, so each
     tooth always meets the same crank angles.
 
-    Examples
-    --------
     >>> float(reversed_tooth_load(np.array([[9.0, 1.0, -7.0, 0.0]]), 2)[0])
     12.0
     """

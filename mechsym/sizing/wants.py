@@ -78,8 +78,6 @@ def cycles(life: Second, omega: RadPerSecond[Scalar], events_per_turn: Pure) -> 
 
     events_per_turn: of the crank; a tooth of the hypocycloid meets the peak load once in two turns.
 
-    Examples
-    --------
     >>> f"{cycles(3600.0, 8000 * 2 * np.pi / 60, 0.5):.3g}"
     '2.4e+05'
     """

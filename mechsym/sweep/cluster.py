@@ -26,10 +26,7 @@ def on_cluster(
 ) -> Generator[work.Done, None, None]:
     """Chunks on the workers of a scheduler, as they are finished.
 
-    Raises
-    ------
-    BadInput
-        Nobody answers at the address, or a worker runs another program
+    Raises BadInput: Nobody answers at the address, or a worker runs another program.
     """
     client = _client(address)
     try:

@@ -119,9 +119,6 @@ def write_table(result: Sweep, folder: Path) -> Path:
 def write_netcdf(result: Sweep, folder: Path) -> Path:
     """Write the sweep as netCDF.
 
-    Raises
-    ------
-    MissingExtra
-        xarray or h5netcdf is not installed
+    Raises MissingExtra: xarray or h5netcdf is not installed.
     """
     return files.write_netcdf(folder / "sweep.nc", dataset(result))

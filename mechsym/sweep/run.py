@@ -114,10 +114,7 @@ class Layout:
 def layout(plan: Plan) -> Layout:
     """The points of a plan, every key and unit checked against the case.
 
-    Raises
-    ------
-    BadInput
-        An axis is wrong, or a value is named twice
+    Raises BadInput: an axis is wrong, or a value is named twice.
     """
     taken = {}
     for key in plan.overrides:
@@ -160,8 +157,6 @@ def forecast(plan: Plan, count: int) -> Second:
 
     count: how many points `layout` found for the plan. Returns seconds: rough, of a usual machine.
 
-    Examples
-    --------
     >>> forecast(Plan(case="nunes-slider-crank", over=("speed_rpm=1000..8000:5",)), 5)
     0.01
     """
@@ -177,10 +172,7 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
     progress: called with the number of points that were done. means: processes and store; in this process without a
     store where it is left away.
 
-    Raises
-    ------
-    BadInput
-        The case or an axis is bad, or every point fails for one and the same reason
+    Raises BadInput: the case or an axis is bad, or every point fails for one and the same reason.
     """
     means = means or Means()
     with inputs.reads() as read:

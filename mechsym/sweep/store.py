@@ -50,10 +50,7 @@ def opened(folder: Path, key: str, fresh: bool = False) -> Iterator[Store]:
 
     key: what is swept, see `identity`; a store of anything else is set aside. fresh: forget what is kept of this sweep.
 
-    Raises
-    ------
-    BadInput
-        It is no store, or another process is writing it
+    Raises BadInput: it is no store, or another process is writing it.
     """
     path = folder / NAME
     with _told(path):

@@ -56,8 +56,6 @@ class Study:
 def built_in() -> list[str]:
     """Names of the studies that come with the program.
 
-    Examples
-    --------
     >>> built_in()
     ['nunes2017-chapter-6']
     """
@@ -67,10 +65,7 @@ def built_in() -> list[str]:
 def read(name: str) -> Study:
     """A study out of a TOML file, or one that comes with the program.
 
-    Raises
-    ------
-    BadInput
-        No such file, no TOML, or a key that is missing, unknown or of another type
+    Raises BadInput: no such file, no TOML, or a key that is missing, unknown or of another type.
     """
     text, beside = _text(name)
     try:

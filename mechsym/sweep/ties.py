@@ -51,10 +51,7 @@ class Ties:
         here: values of the axes, as `--set` takes them. Returns values: `here` and every tied value by `section.field`
         [SI].
 
-        Raises
-        ------
-        BadInput
-            A formula has no value here
+        Raises BadInput: a formula has no value here.
         """
         values: dict[str, Value] = {
             _name(self.places[key]): _si(self.places[key], value) for key, value in here.items()
@@ -92,10 +89,7 @@ def ties(case: str, overrides: Mapping[str, object], texts: tuple[str, ...], axe
 
     axes: keys that the sweep runs over.
 
-    Raises
-    ------
-    BadInput
-        No formula, a name that neither the case nor a tie before it has, or a letter that nothing uses
+    Raises BadInput: no formula, a name that neither the case nor a tie before it has, or a letter that nothing uses.
     """
     places, letters, found = dict(axes), {"pi"}, []
     for text in texts:

@@ -149,8 +149,6 @@ def critical_speeds(modes: Modes, excitation: Orders, damping: Annotated[Array, 
     damping: damping matrix, shape (n, n). Returns criticals: from the highest speed down; orders without force are left
     out.
 
-    Notes
-    -----
     At resonance the modal speed is f / d, so the mean power into the vibration is f^2 / (2 d); it comes from the
     shaft, as a mean torque at speed omega. A drive that is weaker cannot pass (Sommerfeld effect).
     """

@@ -164,7 +164,7 @@ SECTIONS = {
     "start": "", "report": "", "drive": 'torque = "1 N*m"', "startup": "",
     "optimise": 'objective = "power"\ngoal = "maximise"\nvariables = { e = { low = 0.01, high = 0.02 } }',
 }  # fmt: skip
-ALWAYS = {"parameters", "report", "flywheel", "drive", "simulation", "inputs", "start"}  # read of every case
+ALWAYS = {"parameters", "report", "flywheel", "drive", "simulation", "inputs", "start", "motion"}  # read of every case
 
 
 def text_of(section):

@@ -9,7 +9,7 @@ _FAST = 6  # one light row of so many runs with the fast tests
 
 
 def rows(kind):
-    of_peers = [row for name in ("peers", "trackers") for row in LISTS[name][kind] if half(row) == "seen"]
+    of_peers = [row for name in ("peers", "trackers", "office") for row in LISTS[name][kind] if half(row) == "seen"]
     for row in (*LISTS["hand"][kind], *of_peers):
         command = row.get("run", row.get("line")).split()[0]
         light = command in ("check", "forces", "cycle", "new") and zlib.crc32(name(row).encode()) % _FAST == 0

@@ -37,6 +37,7 @@ def test_values_in_si(text, unit, plain, found):
         ("1,two", "takes numbers"),
         ("nan", "takes numbers"),
         ("1..2:2.5", "takes numbers"),
+        ("0.1:0.3:3", "the step 3 is longer than the range, one value is left; for 3 values write 0.1..0.3:3"),
         ("1:2", "takes numbers"),
         ("1..2", "--any: 1..2 does not say how many; write 1..2:5 or a list"),
         ("1+-2", "does not say how many"),

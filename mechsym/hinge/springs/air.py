@@ -208,12 +208,8 @@ def gauge_pressure(z: Metre[Scalar], H: Metre[Scalar], p0: Pascal[Scalar], n: Pu
 
     z, H: closing and free height; p0: excess pressure at free height; n: polytropic index.
 
-    Notes
-    -----
     Source: Zotov et al. (2024), eq. (9).
 
-    Examples
-    --------
     >>> gauge_pressure(0.5, 1.0, 5e6, 1.0)
     10000000.0
     """
@@ -230,8 +226,6 @@ def absolute_pressure(
     z, H: closing and free height; p0, pa: excess pressure at free height, and the pressure outside; n: polytropic
     index.
 
-    Examples
-    --------
     >>> absolute_pressure(0.5, 1.0, 5e6, 1.0, 1e5)
     10100000.0
     """

@@ -100,8 +100,6 @@ class AirThermal(Spring):
 
         z: closing over one period without its end; step: angle from each to the next.
 
-        Notes
-        -----
         Small strokes: n* = 1 + (gamma - 1)(x^2 + i x)/(1 + x^2), x = omega tau; loss pi Im(n*) p V (dV/V)^2. In a turn
         the gas gives as heat what it keeps of the work: slow exchange is summed as heat, where the work would cancel,
         fast exchange as work, where the difference of temperature would.
@@ -169,8 +167,6 @@ def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParamete
 
     wanted: torque to give at its own speed.
 
-    Notes
-    -----
     Source: first law of a closed gas with heat flow in proportion to T - T_w, see `gas_heat`. Valid: one temperature in
     the gas, steady running at the speed of the design.
     """

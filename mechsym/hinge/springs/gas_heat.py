@@ -31,12 +31,8 @@ def thermal_pressure(
     z, H: closing and free height; p0, pa: excess pressure of the full column at the wall's temperature, and the
     pressure outside.
 
-    Notes
-    -----
     Source: ideal gas of constant mass.
 
-    Examples
-    --------
     >>> thermal_pressure(0.5, 1.0, 5e6, 1e5, 1.0)
     10100000.0
     """
@@ -55,13 +51,9 @@ def gas_temperature(
     volume: V over one period without its end, in any unit. step: angle from each to the next; the last one closes the
     period. x: omega tau. gamma: ratio of specific heats.
 
-    Notes
-    -----
     Source: first law of a closed gas with heat flow in proportion to T - T_w. Valid: one temperature in the gas, wall
     of constant temperature, ideal gas.
 
-    Examples
-    --------
     >>> still = gas_temperature(np.ones(4), np.full(4, np.pi / 2), 1.0, 1.4, 320.0)
     >>> np.round(still, 6).tolist()
     [320.0, 320.0, 320.0, 320.0]
@@ -101,8 +93,6 @@ def x_of_index(n: Pure, gamma: Pure = 1.4) -> Radian:
 
     n: index, above 1 and below gamma; gamma: ratio of specific heats.
 
-    Examples
-    --------
     >>> round(x_of_index(1.25), 2)
     1.29
     """

@@ -83,10 +83,7 @@ def track(guide: Guide, rollers: RollerParameters, tolerance: Metre, kinks: Sequ
 
     tolerance: largest distance from the true curve; kinks: angles of the guide's shaft where the curvature jumps.
 
-    Raises
-    ------
-    BadInput
-        No path, a wall that crosses itself, or a tolerance that rounding does not allow
+    Raises BadInput: no path, a wall that crosses itself, or a tolerance that rounding does not allow.
     """
     rho = path(guide)
     if not 1e-10 <= tolerance <= 1e-3:

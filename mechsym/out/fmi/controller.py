@@ -30,10 +30,8 @@ _TURNS = 20.0  # of the run that the file proposes
 def controller(name: str, wanted: Hinge, guide: Guide, load: Load) -> tuple[Block, dict[str, str]]:
     """The ports of the controller of a guide, and the C that is its own: file name to text.
 
-    Raises
-    ------
-    BadInput
-        The load is a table, or the gas of the spring exchanges heat: a pascal gives no function of the angle then
+    Raises BadInput: the load is a table, or the gas of the spring exchanges heat: a pascal gives no function of the
+    angle then.
     """
     if guide.spring.state:
         raise BadInput("the pressure controller takes springs whose force follows from the closing alone")

@@ -26,10 +26,7 @@ class Written:
 def of_mechanism(name: str) -> Written:
     """The functions of a derived mechanism: coordinates, velocities, inputs and parameters are arguments.
 
-    Raises
-    ------
-    BadInput
-        No such mechanism, or one that is put together from data
+    Raises BadInput: no such mechanism, or one that is put together from data.
     """
     mechanism = bind(name, {p: ca.SX.sym(p) for p in generated(name).PARAMETERS})
     known = listing(name)

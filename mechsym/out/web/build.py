@@ -51,10 +51,7 @@ class WrittenPage:
 def page(block: Block, scenes: Sequence[Json] = ()) -> str:
     """The text of an HTML file that simulates a block; at its head what turns.
 
-    Raises
-    ------
-    MissingExtra
-        There is no compiler for WebAssembly that works
+    Raises MissingExtra: there is no compiler for WebAssembly that works.
     """
     room = resources.files("mechsym.out.web")
     code = base64.b64encode(webassembly(block)).decode("ascii")

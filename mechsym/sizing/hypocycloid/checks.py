@@ -114,8 +114,6 @@ def fastest_run(held: Pure[Array]) -> tuple[int, int]:
 
     held: True at least once, shape (k,).
 
-    Examples
-    --------
     >>> fastest_run(np.array([True, True, False, True, False]))
     (3, 3)
     """

@@ -55,17 +55,10 @@ def catalogue(extra: str | Path | None = None) -> dict[str, Bearing]:
 
     extra: file with more bearings; a designation that exists already is replaced.
 
-    Raises
-    ------
-    BadInput
-        File not readable, a column missing or not known, a value out of range
+    Raises BadInput: file not readable, a column missing or not known, a value out of range.
 
-    Notes
-    -----
     Source: Nunes (2017), table 4.16, and what `bearings.csv` names.
 
-    Examples
-    --------
     >>> catalogue()["6013 M"].C
     31900.0
     """
@@ -105,12 +98,8 @@ def life_exponent(kind: str) -> Pure:
 
     Returns p: 3 for balls, 10/3 for rollers.
 
-    Notes
-    -----
     Source: ISO 281.
 
-    Examples
-    --------
     >>> life_exponent("ball")
     3.0
     """
@@ -125,12 +114,8 @@ def equivalent_load(F: Newton[Array], kind: str, turns: Radian[Array] | None = N
     F: radial load at equal steps over a period, shape (..., n); turns: turning of the bearing in each step, equal when
     not given. Returns P: equivalent dynamic load, shape (...).
 
-    Notes
-    -----
     Source: ISO 281 with the linear damage rule. Valid: pure radial load.
 
-    Examples
-    --------
     Half of the turns at 8 kN, half unloaded, in a ball bearing: 8 / 2^(1/3).
 
     >>> f"{equivalent_load(np.array([8000.0, 0.0]), 'ball'):.0f}"
@@ -149,12 +134,8 @@ def set_rating(C: Newton, count: int, kind: str) -> Newton:
 
     C: rating of one bearing. Returns C_i: rating of the set.
 
-    Notes
-    -----
     Source: ISO 281, clauses 5.1.2 and 7.1.2. Print: Nunes (2017), ch. 4.8, adds the dynamic ratings (30.2 kN for two).
 
-    Examples
-    --------
     >>> f"{set_rating(15100.0, 2, 'drawn-cup'):.0f}"
     '25889'
     """
@@ -170,12 +151,8 @@ def life_revolutions(C: Newton, P: Newton[Scalar], kind: str, reliability: Pure 
     C: dynamic rating; P: equivalent load, at most C / 2 for the life to be meant literally; reliability: 0.90, 0.95,
     0.96, 0.97, 0.98 or 0.99. Returns L: revolutions that this share of bearings survives.
 
-    Notes
-    -----
     Source: ISO 281:2007, table 12 for a_1.
 
-    Examples
-    --------
     Shigley, problem 11-3 (8th ed.): 10.279 kN for 1440e6 revolutions needs C = 91.1 kN in a roller bearing.
 
     >>> f"{life_revolutions(91.1e3, 10.279e3, 'roller'):.3g}"
@@ -194,12 +171,8 @@ def required_rating(P: Newton, revolutions: Pure, kind: str) -> Newton:
 
     P: equivalent load.
 
-    Notes
-    -----
     Source: ISO 281.
 
-    Examples
-    --------
     >>> f"{required_rating(10.279e3, 1440e6, 'roller') / 1e3:.1f}"  # Shigley, problem 11-3 (8th ed.)
     '91.1'
     """
@@ -215,12 +188,8 @@ def life_hours(revolutions: Pure[Scalar], omega: RadPerSecond[Scalar]) -> Annota
 
     omega: speed of one ring relative to the other.
 
-    Notes
-    -----
     Source: ISO 281.
 
-    Examples
-    --------
     >>> f"{life_hours(540e6, 300 * 2 * np.pi / 60):.0f}"  # Shigley, problem 11-1 (8th ed.): 30000 h
     '30000'
     """

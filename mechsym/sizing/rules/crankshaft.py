@@ -39,12 +39,8 @@ def slider_crank_chain(F: Newton[Array], theta: Radian[Array], r: Metre, l: Metr
     F: force on the piston pin, positive away from the head, shape (k, n); theta: crank angle from top dead centre; r,
     l: crank radius and rod length. Returns chain: `rod`, `side`, `tangential`, `radial`, shape (k, n).
 
-    Notes
-    -----
     Source: Nunes (2017), eqs. 2.65 to 2.67. Valid: r < l.
 
-    Examples
-    --------
     >>> chain = slider_crank_chain(np.array([[1000.0]]), np.array([np.pi / 2]), 0.026, 0.09)
     >>> round(float(chain["tangential"][0, 0])), round(float(chain["side"][0, 0]))
     (1000, 302)
@@ -67,13 +63,9 @@ def bearing_reaction(F: Newton, d_force: Metre, d_bearing: Metre) -> Newton:
 
     d_force: from the other bearing to the load; d_bearing: between the two bearings.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.31. Print: F = 27410 N has two digits exchanged; it is 27140 N, R = 13570 N.
     Valid: two bearings, each free to tilt, all loads in one plane.
 
-    Examples
-    --------
     >>> bearing_reaction(27140.0, 0.043, 0.086)
     13570.0
     """
@@ -89,12 +81,8 @@ def crankpin_diameter(R: Newton, arm: Metre, sigma_b: Pascal) -> Metre:
 
     R: reaction at the bearing; arm: from the bearing to the middle of the pin; sigma_b: allowable bending stress.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.32. Valid: crank at dead centre, no torsion in the pin.
 
-    Examples
-    --------
     >>> [f"{crankpin_diameter(F / 2, 0.043, 454.7125e6) * 1e3:.2f}" for F in (27410.0, 27140.0)]
     ['23.63', '23.56']
     """
@@ -111,12 +99,8 @@ def web_width(d_pin: Metre) -> Metre:
 
     d_pin: diameter of the crankpin.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.33. Valid: a start for small forged crankshafts; the stress decides (`web_stress`).
 
-    Examples
-    --------
     >>> f"{web_width(0.025) * 1e3:.2f}"
     '40.83'
     """
@@ -132,14 +116,10 @@ def web_stress(R: Newton, arm: Metre, l_pin: Metre, t: Metre, w: Metre) -> Pasca
     R: reaction at the bearing; arm: from the bearing to the middle of the pin; l_pin: length of the crankpin; t, w:
     thickness and width of the web.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.34. Print: 118.074 MPa holds for F = 27410 N and w = 65 mm; the printed mass of the
     crankshaft leaves webs of 614 mm2: the outline of pin and shaft (`masses.web_outline`), not a disc of 65 mm.
     Valid: crank at dead centre, rectangular web, fillets without effect.
 
-    Examples
-    --------
     >>> f"{web_stress(27410.0 / 2, 0.043, 0.034, 0.015, 0.065) / 1e6:.3f}"
     '118.074'
     """
@@ -156,13 +136,9 @@ def shaft_diameter(T: NewtonMetre, tau: Pascal) -> Metre:
 
     T: largest torque; tau: allowable shear stress.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.35. Print: 7.82 mm is not what 243.6 N.m and 1250/1.5 MPa give; 78.2 N.m would.
     Valid: round solid shaft, torsion alone, elastic.
 
-    Examples
-    --------
     >>> [f"{shaft_diameter(T, 1250e6 / 1.5) * 1e3:.2f}" for T in (243.6, 78.2)]
     ['11.42', '7.82']
     """
@@ -178,12 +154,8 @@ def bending_stress(M: NewtonMetre[Scalar], d: Metre) -> Pascal[Scalar]:
 
     M: bending moment; d: diameter. Returns sigma: stress at the surface.
 
-    Notes
-    -----
     Source: beam theory; eq. 4.32 of Nunes (2017) solved for the stress. Valid: round solid section, elastic.
 
-    Examples
-    --------
     >>> f"{bending_stress(13570 * 0.043, 0.025) / 1e6:.1f}"
     '380.4'
     """
@@ -198,13 +170,9 @@ def torsion_stress(T: NewtonMetre[Scalar], d: Metre) -> Pascal[Scalar]:
 
     d: diameter. Returns tau: stress at the surface.
 
-    Notes
-    -----
     Source: eq. 4.35 of Nunes (2017) solved for the stress: his 8 mm shaft has 2423 MPa against 1250 MPa ultimate.
     Valid: round solid section, elastic.
 
-    Examples
-    --------
     >>> f"{torsion_stress(243.6, 0.008) / 1e6:.0f}"
     '2423'
     """
@@ -219,14 +187,10 @@ def specific_pressure(F: Newton, length: Metre, width: Metre) -> Pascal:
 
     F: largest load; length, width: length, and diameter of a pin or width of a shoe. Returns p: specific pressure.
 
-    Notes
-    -----
     Source: definition; usual limits after K. Maass, H. Klier, Kraefte, Momente und deren Ausgleich in der
     Verbrennungskraftmaschine (1981), and Woodyard, Pounder's Marine Diesel Engines (2009), ch. 9. Valid: load spread
     over the whole length.
 
-    Examples
-    --------
     >>> round(specific_pressure(500e3, 0.3, 0.2) / 1e6, 2)
     8.33
     """
@@ -246,14 +210,10 @@ def squeeze_time(
     arc: angle of the bearing shell that carries; mu: viscosity of the oil; h_1, h_2: film at the start and at the end,
     h_1 above h_2.
 
-    Notes
-    -----
     Source: O. Reynolds (1886), parallel plates l by b; k for the oil that leaves at the ends: Poisson's equation on a
     rectangle, D. F. Hays, J. Basic Eng. 83 (1961) 579; 1 for a long pin, 0.42 for l = b. Valid: film even over the
     arc (clearance small against h_2: a pin in a wider shell is squeezed sooner), rigid surfaces.
 
-    Examples
-    --------
     >>> round(squeeze_time(500e3, 0.3, 0.2, 2.0, 0.03, 60e-6, 10e-6), 3)
     0.411
     """
@@ -273,13 +233,9 @@ def rectangle_stress(moment: NewtonMetre, F: Newton, width: Metre, thickness: Me
     moment: bending moment about the web's weak axis. F: force along the web. width, thickness: section: w across, t
     along the shaft. Returns sigma: nominal stress.
 
-    Notes
-    -----
     Source: beam theory; R. S. Khurmi, J. K. Gupta, A Textbook of Machine Design (2005), ch. 32. Valid: fillets are left
     out, so the wanted factor must hold their notch effect.
 
-    Examples
-    --------
     >>> round(rectangle_stress(40e3, 250e3, 0.4, 0.12) / 1e6, 2)
     46.88
     """
@@ -296,13 +252,9 @@ def wear_index(p: Pascal[Array], sliding: MetrePerSecond[Array], phi: Radian[Arr
     p: specific pressure over the turn; phi: crank angles of a whole turn, first and last point the same. Returns index:
     mean product; wear of a given pair grows with it and the hours.
 
-    Notes
-    -----
     Source: J. F. Archard, J. Appl. Phys. 24 (1953) 981: worn depth is k p s. Valid for comparing designs of the same
     pair and lubrication.
 
-    Examples
-    --------
     >>> turn = np.linspace(0, 2 * np.pi, 721)
     >>> round(wear_index(np.full(721, 1e6), np.sin(turn), turn) / 1e6, 4)
     0.6366

@@ -28,12 +28,8 @@ def endurance_limit(S_ut: Pascal, d: Metre, surface: str) -> Pascal:
 
     S_ut: ultimate strength, up to 2400 MPa; d: diameter, up to 254 mm.
 
-    Notes
-    -----
     Source: Shigley, eqs. 6-8, 6-18 to 6-20. Valid: steels, 50 % reliability, room temperature.
 
-    Examples
-    --------
     Shigley, example 7-1: k_a = 0.787, k_b = 0.870 and S_ut = 105 kpsi give 35.95 kpsi
     before the reliability; the factors unrounded give 35.99.
 
@@ -57,12 +53,8 @@ def fillet_factor_bending(r: Metre, d: Metre, D: Metre) -> Pure:
     r: radius of the fillet, 0.01 to 0.3 of d; d, D: smaller and larger diameter. Returns K_t: factor; used for K_f,
     which is on the safe side.
 
-    Notes
-    -----
     Source: Norton's fit of Peterson's chart; D/d is taken at the next larger line of the chart, above 3 as 3.
 
-    Examples
-    --------
     >>> f"{fillet_factor_bending(0.11, 1.1, 1.65):.2f}"  # Shigley, example 7-1, reads 1.68
     '1.70'
     """
@@ -76,12 +68,8 @@ def fillet_factor_torsion(r: Metre, d: Metre, D: Metre) -> Pure:
 
     r: radius of the fillet, 0.01 to 0.3 of d; d, D: smaller and larger diameter. Returns K_ts: factor; used for K_fs.
 
-    Notes
-    -----
     Source: Norton's fit of Peterson's chart; D/d is taken at the next larger line of the chart, above 2 as 2.
 
-    Examples
-    --------
     >>> f"{fillet_factor_torsion(0.11, 1.1, 1.33 * 1.1):.2f}"  # Shigley, example 7-1, reads 1.42
     '1.45'
     """
@@ -96,12 +84,8 @@ def stress_cycle(stress: Pascal[Array]) -> tuple[Pascal[Array], Pascal[Array]]:
     stress: signed stress over a period, shape (..., n). Returns amplitude, mean: of the largest cycle in the history,
     shape (...).
 
-    Notes
-    -----
     Source: Shigley, eq. 6-36. The largest cycle of a period decides infinite life; smaller ones lie inside it.
 
-    Examples
-    --------
     >>> [float(x) for x in stress_cycle(np.array([0.0, 3.0, -1.0]))]
     [2.0, 1.0]
     """
@@ -118,12 +102,8 @@ def goodman_factor(sigma_a: Pascal[Scalar], sigma_m: Pascal[Scalar], S_e: Pascal
     sigma_a, sigma_m: amplitude and mean of the equivalent stress, notches included; a mean of compression counts as 0.
     S_e: endurance limit. S_ut: ultimate strength. Returns n: safety factor against load, both parts growing alike.
 
-    Notes
-    -----
     Source: Shigley, eqs. 6-46 and 7-7 (DE-Goodman).
 
-    Examples
-    --------
     Shigley, problem 7-1 (8th ed.), d = 1.073 in for n = 2: both parts as 16/(pi d^3) times 2920 and 2391 lbf.in.
 
     >>> per = 16 / (np.pi * 1.073**3)
@@ -152,12 +132,8 @@ def shaft_diameter_goodman(
     moments: M_a, M_m, T_a, T_m: amplitude and mean of bending moment and torque. S_e, S_ut: endurance limit and
     ultimate strength. n: wanted safety factor. K_f, K_fs: notch factors in bending and torsion.
 
-    Notes
-    -----
     Source: Shigley, eq. 7-8 (DE-Goodman).
 
-    Examples
-    --------
     Shigley, problem 7-1 (8th ed.): d = 1.073 in (in pounds and inches).
 
     >>> f"{shaft_diameter_goodman((600, 500, 400, 300), 30e3, 100e3, 2.0, K_f=2.2, K_fs=1.8):.3f}"

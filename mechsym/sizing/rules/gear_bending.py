@@ -44,17 +44,10 @@ def bending_geometry_factor(pair: Pair, member: int) -> Pure:
 
     pair: the pair; a ring gear counts as an external gear of the same teeth, which is on the safe side.
 
-    Raises
-    ------
-    BadInput
-        Contact ratio outside 1 to 2, or no critical section in the fillet (undercut or pointed tooth)
+    Raises BadInput: Contact ratio outside 1 to 2, or no critical section in the fillet (undercut or pointed tooth).
 
-    Notes
-    -----
     Source: AGMA 908-B89, section 5 (spur gears, m_N = 1, C_psi = K_psi = 1).
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
     >>> [round(bending_geometry_factor(pair, member), 2) for member in (1, 2)]
     [0.44, 0.49]
@@ -78,12 +71,8 @@ def load_height(pair: Pair, member: int) -> tuple[Radian, Pure]:
     Returns phi_L: angle between the load and the tooth's normal; r_L: distance of the load point from the gear's
     centre, in modules.
 
-    Notes
-    -----
     Source: AGMA 908-B89, section 5 (highest point of single tooth contact).
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
     >>> "{:.3f} {:.3f}".format(*load_height(pair, 1))
     '0.432 12.972'
@@ -104,17 +93,10 @@ def critical_section(pair: Pair, member: int) -> tuple[Pure, Pure]:
 
     Returns h_F, s_F: height of the load point above the section, thickness of the section, in modules.
 
-    Raises
-    ------
-    BadInput
-        The fillet has no such point
+    Raises BadInput: the fillet has no such point.
 
-    Notes
-    -----
     Source: AGMA 908-B89, section 5. (xi, eta) are half thickness and height of a point of the fillet.
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
     >>> "{:.3f} {:.3f}".format(*critical_section(pair, 1))
     '1.184 2.201'
@@ -147,12 +129,8 @@ def fillet(pair: Pair, member: int, t: Radian) -> tuple[Pure, Pure]:
     t: angle of the contact normal against the tooth's height, 0 at the root to pi/2 - phi at the flank. Returns xi,
     eta: half thickness there and height above the gear's centre, in modules.
 
-    Notes
-    -----
     Source: rack generation (AGMA 908-B89, section 5): the contact normal passes through the pitch point.
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
     >>> "{:.3f} {:.3f}".format(*fillet(pair, 1, 0.02))
     '1.408 11.539'
@@ -175,12 +153,8 @@ def stress_correction_factor(pair: Pair, member: int) -> Pure:
 
     with H = 0.331 - 0.436 phi, L = 0.324 - 0.492 phi, M = 0.261 + 0.545 phi.
 
-    Notes
-    -----
     Source: AGMA 908-B89, section 5; h is the depth of the tool below the pitch circle.
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
     >>> f"{stress_correction_factor(pair, 1):.3f}"
     '1.803'
@@ -212,12 +186,8 @@ def table() -> tuple[Json, ...]:
     Returns lines: tuple of dict, keys `shift_pinion, teeth_pinion, teeth_gear, I, J_pinion, J_gear` (numbers, None
     where the table marks the pair undercut or pointed) and `reading`.
 
-    Notes
-    -----
     Source: Nunes (2017), annex A.2 to A.4.
 
-    Examples
-    --------
     >>> len(table()), sum(line["reading"] == "clear" for line in table())
     (108, 69)
     """
@@ -235,17 +205,10 @@ def interpolated(quantity: str, shift: Pure, teeth_1: Pure, teeth_2: Pure) -> Pu
     shift: addendum modification of the pinion: 0, 0.25 or 0.5. teeth_1, teeth_2: teeth of pinion and gear, inside the
     table.
 
-    Raises
-    ------
-    BadInput
-        Outside the tables, or next to a pair that they mark undercut or pointed
+    Raises BadInput: Outside the tables, or next to a pair that they mark undercut or pointed.
 
-    Notes
-    -----
     Source: Nunes (2017), table 4.8: this gives its 18 values.
 
-    Examples
-    --------
     >>> f"{interpolated('J_pinion', 0.0, 26, 52):.4f}"  # table 4.8
     '0.4385'
     """

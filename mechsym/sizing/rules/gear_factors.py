@@ -36,12 +36,8 @@ def accuracy_exponent(A_v: Pure) -> Pure:
 
     A_v: transmission accuracy grade, 6 to 12.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.27 (AGMA 2001-D04). Valid: 6 <= A_v <= 12.
 
-    Examples
-    --------
     >>> accuracy_exponent(6.0)
     0.25
     """
@@ -60,17 +56,10 @@ def dynamic_factor(
     feet: feet per minute in one m/s; AGMA 2101-C95 and the text of the source round it to 200. Returns K_v: dynamic
     factor, at least 1.
 
-    Raises
-    ------
-    BadInput
-        Faster than the grade allows, v > (C + 14 - A_v)^2 / 200 (eq. 4.29)
+    Raises BadInput: faster than the grade allows, v > (C + 14 - A_v)^2 / 200 (eq. 4.29).
 
-    Notes
-    -----
     Source: Nunes (2017), eqs. 4.25 to 4.29. Print: the text and tables 4.11 and 4.12 use 200, table 4.10 uses 196.85.
 
-    Examples
-    --------
     >>> f"{dynamic_factor(10.891, 6.0):.4f}"  # table 4.10, pinion at 8000 rpm
     '1.1073'
     """
@@ -90,12 +79,8 @@ def pinion_proportion_factor(b: Metre, d: Metre) -> Pure:
 
     b: face width, up to 0.432 m and twice d; d: pitch diameter of the pinion.
 
-    Notes
-    -----
     Source: Nunes (2017), eqs. 4.22 and 4.23 (AGMA 2101-C95). Valid: b <= 2 d, b <= 0.432 m.
 
-    Examples
-    --------
     >>> round(pinion_proportion_factor(0.052, 0.026), 6)
     0.188084
     """
@@ -112,12 +97,8 @@ def mesh_alignment_factor(b: Metre, enclosure: str) -> Pure:
 
     b: face width FW.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.24 for extra-precision; the other coefficients from AGMA 2101. Valid: b <= 1.02 m.
 
-    Examples
-    --------
     >>> round(mesh_alignment_factor(0.052, "extra-precision"), 6)
     0.058561
     """
@@ -137,13 +118,9 @@ def load_distribution_factor(b: Metre, d: Metre, C_pm: Pure, enclosure: str, C_e
     its middle, else 1.1; C_e: 0.8 when adjusted at assembly or lapped, else 1. Returns K_m: factor, the same for both
     members of the mesh.
 
-    Notes
-    -----
     Source: Nunes (2017), eqs. 4.19 to 4.24 (AGMA 2101-C95). Print: the source gives the ring a K_m of its own, made
     with the ring's diameter; the factor belongs to the mesh. Valid: b <= 2 d, members between bearings.
 
-    Examples
-    --------
     >>> round(load_distribution_factor(0.052, 0.026, 1.1, "extra-precision", 0.8), 4)  # table 4.10
     1.2537
     """
@@ -159,12 +136,8 @@ def elastic_coefficient(E_1: Pascal, nu_1: Pure, E_2: Pascal, nu_2: Pure) -> Ann
 
     E_1, E_2: moduli of elasticity; nu_1, nu_2: Poisson's ratios.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.30. Print: table 4.10 gives the number in (N/mm2)^0.5; it is in Pa^0.5.
 
-    Examples
-    --------
     >>> f"{elastic_coefficient(200e9, 0.3, 200e9, 0.3):.5g}"
     '1.8703e+05'
     """
@@ -180,12 +153,8 @@ def rim_factor(t_R: Metre, h_t: Metre) -> Pure:
 
     t_R: thickness of the rim below the tooth root; h_t: whole depth of the tooth. Returns K_B: factor, at least 1.
 
-    Notes
-    -----
     Source: AGMA 2001-D04, fig. B.1; Nunes (2017), ch. 4.4.2 uses its upper branch. Valid: t_R >= 0.5 h_t.
 
-    Examples
-    --------
     >>> rim_factor(3.15e-3, 2.35e-3)
     1.0
     """
@@ -211,12 +180,8 @@ def life_factor_bending(N: Pure, surface: str = "nitrided") -> Pure:
     N: number of load cycles of one tooth, 1e3 to 1e10. surface: curve below 3e6 cycles: `160 HB`, `250 HB`, `400 HB`,
     `nitrided` or `carburized`. Returns Y_N: factor, about 1 at 1e7 cycles.
 
-    Notes
-    -----
     Source: AGMA 2001-D04, fig. 17 (upper curve above 3e6 cycles), as printed in Shigley, fig. 14-14.
 
-    Examples
-    --------
     >>> round(life_factor_bending(1e8, "250 HB"), 3)  # Shigley, example 14-4
     0.977
     """
@@ -237,12 +202,8 @@ def life_factor_contact(N: Pure, surface: str = "nitrided") -> Pure:
     N: number of load cycles of one tooth, 1e4 to 1e10. surface: curve below 1e7 cycles: `nitrided` (1.249 N^-0.0138) or
     `steel` (2.466 N^-0.056). Returns Z_N: factor, 1 at 1e7 cycles.
 
-    Notes
-    -----
     Source: AGMA 2001-D04, fig. 18 (upper curve above 1e7 cycles), as printed in Shigley, fig. 14-15.
 
-    Examples
-    --------
     >>> round(life_factor_contact(1e8, "steel"), 3)  # Shigley, example 14-4
     0.948
     """
@@ -261,12 +222,8 @@ def reliability_factor(R: Pure) -> Pure:
 
     R: reliability, 0.5 to 0.9999.
 
-    Notes
-    -----
     Source: fit of AGMA 2001-D04, table 11, as printed in Shigley, eq. 14-38.
 
-    Examples
-    --------
     >>> round(reliability_factor(0.99), 2), round(reliability_factor(0.9999), 2)
     (1.0, 1.5)
     """

@@ -55,12 +55,8 @@ def action_line(pair: Pair) -> tuple[Pure, Pure, Pure]:
     pair: the pair; the upper sign is for an external, the lower for an internal one. Returns start, end, pitch: where
     the gear's tip and the pinion's tip end contact, and the base pitch, in modules.
 
-    Notes
-    -----
     Source: AGMA 908-B89, section 4 (C_1, C_5, p_b).
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824)
     >>> "{:.4f} {:.4f} {:.4f}".format(*action_line(pair))
     '3.3011 7.5620 2.8472'
@@ -80,12 +76,8 @@ def contact_ratio(pair: Pair) -> Pure:
 
     Returns m_p: mean number of tooth pairs in contact.
 
-    Notes
-    -----
     Source: AGMA 908-B89, section 4. A pair wants at least 1.2.
 
-    Examples
-    --------
     >>> pair = Pair(kind="internal", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824)
     >>> f"{contact_ratio(pair):.3f}"
     '1.653'
@@ -102,18 +94,11 @@ def pitting_geometry_factor(pair: Pair) -> Pure:
 
     pair: the pair; upper signs for an external, lower for an internal one.
 
-    Raises
-    ------
-    BadInput
-        Contact ratio below 1 or not below 2
+    Raises BadInput: Contact ratio below 1 or not below 2.
 
-    Notes
-    -----
     Source: AGMA 908-B89, section 4, spur gears. It gives every legible I of the source's annex (tables A.2 to A.4) to
     the printed digit. Print: Nunes (2017) takes I of an external pair for the internal one. Valid: 1 <= m_p < 2.
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
     >>> round(float(pitting_geometry_factor(pair)), 3)
     0.119
@@ -133,12 +118,8 @@ def tooth_thickness(pair: Pair, member: int) -> Pure:
 
     .. math:: s = \pi/2 \pm 2 x \tan\varphi - \Delta s
 
-    Notes
-    -----
     Source: AGMA 908-B89, section 5.
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824)
     >>> round(float(tooth_thickness(pair, 1)), 4)
     1.5468
@@ -161,12 +142,8 @@ def top_land(pair: Pair) -> Pure:
 
     Returns s_a: top land of the pinion.
 
-    Notes
-    -----
     Source: involute geometry. AGMA 908-B89 calls a tooth below 0.3 pointed.
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=17, teeth_2=35, pressure_angle=0.4363323129985824, shift=0.5)
     >>> top_land(pair) < 0.3  # table A.4 marks it T
     True
@@ -185,12 +162,8 @@ def undercut_shift(pair: Pair) -> Pure:
     pair: the pair; h_a is the tool's addendum (whole depth - 1). Returns x_min: smallest shift of the pinion without
     undercut.
 
-    Notes
-    -----
     Source: rack generation (AGMA 908-B89, section 7). Valid: teeth cut by a rack or hob.
 
-    Examples
-    --------
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=12, teeth_2=26, pressure_angle=0.4363323129985824)
     >>> undercut_shift(pair) > 0  # table A.2 marks 12 teeth U
     True

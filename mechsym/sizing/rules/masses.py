@@ -23,12 +23,8 @@ def cylinder_mass(density: Annotated[float, "kg/m^3"], d: Metre, length: Metre, 
 
     d, length: outer diameter and length; bore: inner diameter.
 
-    Notes
-    -----
     Source: geometry; the shaft of table 4.15 (15 mm, 77 mm, 6675 kg/m3) has 90.8 g.
 
-    Examples
-    --------
     >>> f"{cylinder_mass(6675.0, 0.015, 0.077) * 1e3:.1f}"
     '90.8'
     """
@@ -45,12 +41,8 @@ def web_outline(d_1: Metre, d_2: Metre, e: Metre, points: int = 256) -> tuple[Me
     d_1, d_2: diameters of the circles around crankpin and shaft; e: distance of their centres. Returns x, y: points,
     the crankpin at the origin, the shaft at (e, 0), shape (points,).
 
-    Notes
-    -----
     Source: geometry.
 
-    Examples
-    --------
     >>> x, y = web_outline(0.025, 0.015, 0.013)
     >>> f"{x.max() * 1e3:.2f}"
     '20.50'
@@ -71,13 +63,9 @@ def area_and_centre(x: Metre[Array], y: Metre[Array]) -> tuple[Area, Metre]:
 
     x, y: corners in order.
 
-    Notes
-    -----
     Source: geometry. Print: the masses of table 4.14 of Nunes (2017) leave 614 mm2 for each web; the outline of bare
     pin and shaft has 613 mm2, the printed disc of 65 mm has 3318.
 
-    Examples
-    --------
     >>> area, centre = area_and_centre(*web_outline(0.025, 0.015, 0.013))
     >>> f"{area * 1e6:.0f} {centre * 1e3:.1f}"
     '613 3.0'
@@ -95,12 +83,8 @@ def roll_up(parts: Mapping[str, tuple[float, int]]) -> Kilogram:
 
     parts: part to its mass [kg] and how many there are [-].
 
-    Notes
-    -----
     Source: Nunes (2017), ch. 5.1.2.
 
-    Examples
-    --------
     >>> f"{roll_up({'piston': (0.2947, 2), 'cylinder': (1.9024, 1)}):.4f}"
     '2.4918'
     """
@@ -115,12 +99,8 @@ def power_to_weight(power: Watt[Scalar], mass: Kilogram) -> Annotated[Scalar, "W
 
     Returns ratio: power to weight.
 
-    Notes
-    -----
     Source: Nunes (2017), fig. 5.13.
 
-    Examples
-    --------
     >>> f"{power_to_weight(31.009e3, 13.4066) / 1e3:.3f}"
     '2.313'
     """
@@ -135,13 +115,9 @@ def unbalance(parts: Sequence[tuple[float, float]]) -> Annotated[float, "kg*m"]:
 
     parts: mass [kg] and signed distance of its centre from the axis [m].
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.37. Print: "g.mm/s2" is g.mm; the force is U omega^2, and the acceleration that the
     parts share is the centripetal one, not an angular acceleration.
 
-    Examples
-    --------
     Table 4.15: shaft, two needle bearings and pinion at 13 mm, the output shaft set at -3.81 mm.
 
     >>> moving = [(0.0908, 0.013), (0.014, 0.013), (0.014, 0.013), (0.0953, 0.013)]

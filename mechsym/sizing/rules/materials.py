@@ -43,13 +43,8 @@ def load(extra: str | Path | None = None) -> dict[str, Material]:
 
     extra: file with more materials; a key that exists already is replaced.
 
-    Raises
-    ------
-    BadInput
-        File not readable, key not known, or a value out of range
+    Raises BadInput: file not readable, key not known, or a value out of range.
 
-    Examples
-    --------
     >>> load()["ferrium-s53"].ultimate_shear
     1250000000.0
     """
@@ -74,13 +69,8 @@ def need(material: Material, field: str) -> float:
 
     Returns value: its value [SI].
 
-    Raises
-    ------
-    BadInput
-        The material has no such value
+    Raises BadInput: the material has no such value.
 
-    Examples
-    --------
     >>> need(load()["al-242-t571"], "fatigue")
     75000000.0
     """

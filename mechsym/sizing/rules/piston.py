@@ -27,12 +27,8 @@ def head_thickness_strength(p: Pascal, B: Metre, sigma_t: Pascal) -> Metre:
 
     p: largest pressure on the head; B: bore; sigma_t: allowable bending stress at the head's temperature.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.2.
 
-    Examples
-    --------
     >>> f"{head_thickness_strength(9.604e6, 0.060, 60e6) * 1e3:.2f}"
     '10.39'
     """
@@ -49,12 +45,8 @@ def head_stress(p: Pascal, B: Metre, t_H: Metre) -> Pascal:
 
     B: bore.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.2. Valid: t_H < B / 2.
 
-    Examples
-    --------
     >>> f"{head_stress(9.604e6, 0.060, 0.01375) / 1e6:.1f}"
     '34.3'
     """
@@ -71,12 +63,8 @@ def head_heat(fuel_flow: MassFlow, heating_value: Annotated[float, "J/kg"], shar
     fuel_flow: fuel burnt for this piston: half the cylinder's in an opposed-piston engine. heating_value: heating value
     of the fuel. share: share C of the heat that goes through the head. Returns H: heat flow.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.4. Print: the symbol is not explained; the printed 13.74 mm needs HALF the fuel flow.
 
-    Examples
-    --------
     >>> f"{head_heat(2.3923e-5 * 8000 / 120 / 2, 43.5e6):.0f}"
     '1734'
     """
@@ -94,12 +82,8 @@ def head_thickness_heat(H: Watt, k: Annotated[float, "W/(m*K)"], dT: Kelvin) -> 
     H: heat flow through the head; k: thermal conductivity; dT: temperature of the middle above the edge, 75 K for
     aluminium.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.3, which prints 12.56 for 4 pi.
 
-    Examples
-    --------
     >>> f"{head_thickness_heat(1734.4, 134.0, 75.0) * 1e3:.2f}"
     '13.73'
     """
@@ -117,12 +101,8 @@ def ring_radial_thickness(B: Metre, p_w: Pascal, sigma_t: Pascal) -> Metre:
     B: bore; p_w: pressure of the ring on the wall, 0.025 to 0.042 MPa; sigma_t: allowable bending stress, 85 to 110 MPa
     for cast iron.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.6. Valid: the ranges above.
 
-    Examples
-    --------
     >>> [f"{ring_radial_thickness(0.060, *x) * 1e3:.2f}" for x in ((0.025e6, 110e6), (0.042e6, 85e6))]
     ['1.57', '2.31']
     """
@@ -138,12 +118,8 @@ def ring_axial_thickness(B: Metre, n_rings: int) -> Metre:
 
     B: bore.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.7.
 
-    Examples
-    --------
     >>> ring_axial_thickness(0.060, 3)
     0.002
     """
@@ -158,12 +134,8 @@ def barrel_thickness(B: Metre, t_1: Metre) -> Metre:
 
     B: bore; t_1: radial thickness of the rings.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.9: groove depth t_1 + 0.4 mm (eq. 4.8) plus 4.5 mm.
 
-    Examples
-    --------
     >>> f"{barrel_thickness(0.060, 0.002) * 1e3:.1f}"
     '8.7'
     """
@@ -179,12 +151,8 @@ def head_height(b_1: Metre, b_2: Metre, t_2: Metre, n_rings: int) -> Metre:
 
     b_1, b_2: top land (t_H to 1.2 t_H) and the other lands (0.75 t_2 to t_2); t_2: axial thickness of a ring.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.10.
 
-    Examples
-    --------
     >>> f"{head_height(0.01375, 0.0015, 0.002, 3) * 1e3:.2f}"
     '24.25'
     """
@@ -199,13 +167,9 @@ def rod_diameter(F: Newton, sigma: Pascal) -> Metre:
 
     F: largest axial load; sigma: allowable stress.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.5. Print: the text allows 60 MPa (24.00 mm); the printed 26.29 mm needs 75/1.5 = 50 MPa.
     Valid: short rod, loaded along its axis; a long one buckles first (`rod_buckling_load`).
 
-    Examples
-    --------
     >>> f"{rod_diameter(27140.0, 50e6) * 1e3:.2f}"
     '26.29'
     """
@@ -222,13 +186,9 @@ def rod_buckling_load(d: Metre, length: Metre, E: Pascal, yield_strength: Pascal
 
     d: diameter; E: modulus of elasticity; yield_strength: yield strength R_e. Returns F: buckling load.
 
-    Notes
-    -----
     Source: Shigley, eqs. 4-42 and 4-43 (Euler and J. B. Johnson columns). Valid: straight round rod, ends free to turn,
     load along its axis.
 
-    Examples
-    --------
     >>> f"{rod_buckling_load(0.0265, 0.0834, 71e9, 207e6) / 1e3:.0f}"
     '113'
     """
@@ -248,18 +208,11 @@ def rod_length(reach: Metre, e: Metre, d_TDC: Metre, t_H: Metre, ID_cap: Metre) 
     quarter of the piston's stroke: S/4 = 2 e of the source's S. d_TDC: distance between the two piston heads at top
     dead centre. t_H: thickness of the head. ID_cap: inner diameter of the rod's cap.
 
-    Raises
-    ------
-    BadInput
-        The rod has no length left
+    Raises BadInput: the rod has no length left.
 
-    Notes
-    -----
     Source: Nunes (2017), eq. 4.12. Print: 88.6 mm comes from d_TDC = 1.2 mm, which is 11.56 mm (`cylinder.tdc_gap`).
     Valid: the opposed pistons of the thesis, each at its top dead centre.
 
-    Examples
-    --------
     >>> [f"{rod_length(0.145, 0.013, gap, 0.01375, 0.032) * 1e3:.1f}" for gap in (0.0012, 0.01156)]
     ['88.6', '83.5']
     """

@@ -56,13 +56,9 @@ def fatigue_factor(
     turn: angle of the section in that frame; T: torque in the section, shape (k, n). Returns n: safety factor at each
     speed, shape (k,).
 
-    Notes
-    -----
     Source: Shigley, eq. 7-7 (DE-Goodman), fibre by fibre. A constant moment on a turning shaft is fully reversed, a
     constant moment on a standing one is a mean stress.
 
-    Examples
-    --------
     >>> section, angle = Section(d=0.01, S_e=1e8, S_ut=4e8), np.linspace(0, 2 * np.pi, 360, endpoint=False)
     >>> M, none = np.full((1, 360), np.pi * 0.01**3 / 32 * 5e7), np.zeros((1, 360))
     >>> [f"{fatigue_factor(section, M, none, turn, none)[0]:.2f}" for turn in (angle, 0 * angle)]
@@ -95,12 +91,8 @@ def static_factor(
     M_x, M_y, T: bending moment and torque, shape (k, n); strength: yield or ultimate strength R. Returns n: safety
     factor at each speed, shape (k,).
 
-    Notes
-    -----
     Source: Shigley, eq. 7-15, without notches.
 
-    Examples
-    --------
     >>> section, none = Section(d=0.008, S_e=7e8, S_ut=1.985e9), np.zeros((1, 1))
     >>> f"{static_factor(section, none, none, np.full((1, 1), 243.6), 1.565e9)[0]:.2f}"
     '0.37'
@@ -148,12 +140,8 @@ def outer_shares(shaft: Shaft) -> tuple[Pure, Pure]:
 
     Returns force, tooth: s_F of the pin's half force (in its own sense) and s_T of the load at the gear (against it).
 
-    Notes
-    -----
     Source: unit load method.
 
-    Examples
-    --------
     A uniform shaft with thin webs and journals at 1 and 3, gear at 2: s_F = 1/(4 + 8/3), s_T = (2 + 5/6)/(4 + 8/3).
 
     >>> spans = Spans(inner=1.0, gear=2.0, outer=3.0, outboard=4.0)
@@ -183,12 +171,8 @@ def moment(
     z: place, up to the inner journal, or the gear itself; force, pull: half of the crankpin's force, and the load at
     the gear of one side, shape (2, k, n). Returns M: moment, shape (2, k, n).
 
-    Notes
-    -----
     Source: statics with the redundant reaction of `outer_shares`.
 
-    Examples
-    --------
     >>> spans = Spans(inner=1.0, gear=2.0, outer=3.0, outboard=4.0)
     >>> float(moment(0.0, spans, (0.15, 0.425), np.array(-10.0), np.array(0.0)))
     7.0
@@ -216,12 +200,8 @@ def inner_slope(shaft: Shaft, E: Pascal, moment_at: Callable[[float], np.ndarray
     E: modulus of elasticity; moment_at: distance from the middle [m] -> moment (2, k, n) [N*m]. Returns beta: slope,
     shape (k, n).
 
-    Notes
-    -----
     Source: beam theory. Shigley, table 7-2, allows 0.0008 to 0.0012 rad for rollers under a steady load.
 
-    Examples
-    --------
     >>> spans = Spans(inner=1.0, gear=2.0, outer=3.0, outboard=4.0)
     >>> shaft = Shaft(spans=spans, pin=1.0, pin_bore=0.0, pin_half=0.5, web=1e-9, seat=1.0, seat_end=1.0, thin=1.0)
     >>> uniform = lambda z: np.full((2, 1, 1), np.pi / 64) * np.array([1, 0])[:, None, None]
