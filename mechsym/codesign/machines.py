@@ -9,7 +9,7 @@ import scipy
 from mechsym import periodic
 from mechsym.codesign.hardware import Hardware
 from mechsym.codesign.points import Function, Point
-from mechsym.cycle.unfired import unfired, unfired_kinks
+from mechsym.cycle.gas import unfired, unfired_kinks
 from mechsym.errors import BadInput
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.rollers import RollerParameters

@@ -20,7 +20,7 @@ _NAMES = {
     "ClosedEngine": "mechsym.cycle.closed.model:ClosedEngine",
     "Gas": "mechsym.cycle.gas:Gas",
     "KINDS": "mechsym.cycle.kinds:KINDS",
-    "Pressure": "mechsym.cycle.pressure:Pressure",
+    "Pressure": "mechsym.cycle.gas:Pressure",
     "columns": "mechsym.cycle.engine:columns",
     "curves": "mechsym.cycle.engine:curves",
     "gas_in_cylinder": "mechsym.cycle.kinds:gas_in_cylinder",

@@ -12,7 +12,7 @@ from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.cases.settings import Speeds
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.figures import CycleFigures
+from mechsym.cycle.columns import CycleFigures
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
 from mechsym.cycle.kinds import KINDS, four_stroke, kind_of
 from mechsym.cycle.motion import from_top, slopes

@@ -12,8 +12,7 @@ from mechsym.cases import Case
 from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import in_words, lacking
 from mechsym.cases.outcomes import of_cycle, of_forces, of_gas
-from mechsym.cycle.columns import AFTER_FRICTION, WORDS, CycleColumns
-from mechsym.cycle.figures import CycleFigures
+from mechsym.cycle.columns import AFTER_FRICTION, WORDS, CycleColumns, CycleFigures
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.measured.shown import bars
 from mechsym.errors import BadInput

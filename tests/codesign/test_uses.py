@@ -20,7 +20,7 @@ from mechsym.codesign.real import with_losses
 from mechsym.codesign.realise import realise
 from mechsym.codesign.schedule import ripple_map
 from mechsym.codesign.uncertainty import worst
-from mechsym.cycle.unfired import unfired
+from mechsym.cycle.gas import unfired
 from mechsym.errors import BadInput
 from mechsym.hinge.losses import HingeLosses
 from mechsym.jobs.codesign import points as points_of

@@ -8,7 +8,7 @@ import pytest
 from hinges import monotone_seal_torque
 
 from mechsym import cases, jobs
-from mechsym.cycle.unfired import unfired
+from mechsym.cycle.gas import unfired
 from mechsym.hinge.fitted import fitted
 from mechsym.hinge.guide import cut
 from mechsym.hinge.losses import HingeLosses
