@@ -27,7 +27,7 @@ RESULTS = {
     "sweep": ("mechsym.sweep.numbers:SweepNumbers",),
     "simulate": ("mechsym.torsion.finished:FinishedRun",),
     "hinge": ("mechsym.hinge.summary:HingeNumbers",),
-    "codesign": ("mechsym.codesign.summary:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
+    "codesign": ("mechsym.codesign.result:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
     "flywheel": ("mechsym.jobs.flywheel:FlywheelDesign",),
     "forces": ("mechsym.jobs.forces:ForceReport", "mechsym.forces.driven:DrivenNumbers"),
     "fmu": ("mechsym.out.fmi.build:UnitFile",),

@@ -8,11 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.files import to_json, write_quantities, write_text
-from mechsym.hinge.findings import of_design
-from mechsym.hinge.moving import readouts, scenes
+from mechsym.hinge.guide import setting_text
 from mechsym.hinge.result import Design
-from mechsym.hinge.setting import setting_text
-from mechsym.hinge.shown import cards, pictures
+from mechsym.hinge.shown import cards, of_design, pictures, readouts, scenes
 from mechsym.hinge.summary import HingeNumbers, guide_columns, guide_turn, hinge_columns
 from mechsym.mechanisms.record import listing
 from mechsym.mechanisms.turning import rules

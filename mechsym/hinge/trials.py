@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.hinge.contact import at_angles
-from mechsym.hinge.fitted import fitted
+from mechsym.hinge.guide import fitted
 from mechsym.hinge.in_time import KINDS, RealHinge, is_real, with_real_hinge
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import friction

@@ -6,7 +6,7 @@ from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.hinge.guide import Guide
-from mechsym.hinge.moving import hinge_scene
+from mechsym.hinge.shown import hinge_scene
 from mechsym.jobs.gas import gas
 from mechsym.jobs.machine import one_coordinate
 from mechsym.mechanisms.drawing import Shapes, drawn

@@ -15,14 +15,12 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.hinge import steady
 from mechsym.hinge.contact import Contact, at_pieces
-from mechsym.hinge.guide import Guide, path, refit
+from mechsym.hinge.guide import Guide, path, refit, setting_of, with_setting
 from mechsym.hinge.limits import Verdict, judge
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.result import AtLoad, Design, Origin
-from mechsym.hinge.retune import retune
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.setting import setting_of, with_setting
-from mechsym.hinge.steady import sensitivities, with_guide
+from mechsym.hinge.steady import retune, sensitivities, with_guide
 from mechsym.hinge.torque import torque
 from mechsym.hinge.ways import offers
 from mechsym.jobs.machine import kept_flywheel, machine

@@ -22,8 +22,7 @@ from mechsym.cases import Case
 from mechsym.cases.runs import TURN_POINTS, count_times, count_turns, guesses, simulation_of
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
-from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import Guide, cut
+from mechsym.hinge.guide import Guide, cut, fitted
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.gas import at_recorded_speed
 from mechsym.jobs.machine import (

@@ -21,8 +21,8 @@ from mechsym.forces.friction import AUXILIARIES, NO_PLACE
 from mechsym.forces.report import borne
 from mechsym.forces.result import Forces
 from mechsym.forces.summary import half
-from mechsym.hinge.moving import scenes
 from mechsym.hinge.result import complete
+from mechsym.hinge.shown import scenes
 from mechsym.hinge.summary import HingeNumbers
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.forces import forces, told

@@ -38,7 +38,7 @@ def size(case: Case) -> Json:
 
 def codesign(case: Case) -> Columns:
     """Figures of `mechsym codesign`; of a list over speeds and loads the smallest and the largest value."""
-    from mechsym.codesign.summary import CoDesignNumbers, numbers_of
+    from mechsym.codesign.result import CoDesignNumbers, numbers_of
     from mechsym.jobs.codesign import codesign as design
     from mechsym.jobs.codesign import settings_of
 

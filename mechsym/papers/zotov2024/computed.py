@@ -17,10 +17,10 @@ from mechsym.hinge.balance import Balance, balance
 from mechsym.hinge.choices import GuideParameters, Limits
 from mechsym.hinge.guide import Guide, cut
 from mechsym.hinge.limits import Verdict, judge
-from mechsym.hinge.retune import Retuning, at_setting, retune
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.air import AirGauge
 from mechsym.hinge.springs.face import Spring
+from mechsym.hinge.steady import Retuning, at_setting, retune
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.machine import machine
 from mechsym.machine.record import Machine, gas_of
