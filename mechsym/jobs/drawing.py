@@ -1,20 +1,17 @@
 """The moving machine of a case: its bodies over the crank angle, to scale."""
 
-import math
 from collections.abc import Callable
 
-import numpy as np
-
 from mechsym.cases import Case
-from mechsym.cycle.motion import travel_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
+from mechsym.forces.moving import charged
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.moving import hinge_scene
 from mechsym.jobs.gas import gas
 from mechsym.jobs.machine import acting_on, drive_of, one_coordinate
 from mechsym.mechanisms.drawing import Shapes, drawn
-from mechsym.mechanisms.turning import FRAMES, Charge, filled, scene
+from mechsym.mechanisms.turning import FRAMES, scene
 
 
 def drawing(case: Case) -> Callable[[float], Shapes] | None:
@@ -22,30 +19,21 @@ def drawing(case: Case) -> Callable[[float], Shapes] | None:
     try:
         acting = gas(case)
         bore = None if acting is None else float(acting.chamber.bore)
-        return drawn(case.mechanism, case.need("parameters"), one_coordinate(case), bore)
+        return drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
     except BadInput:
         return None
 
 
-def charged(scenes: list[Json], case: Case) -> list[Json]:
+def with_gas(scenes: list[Json], case: Case) -> list[Json]:
     """Scenes of a case whose first shows what the gas of its cycle does; as they are where there is none."""
+    if not scenes or "cycle" not in case.sections:
+        return scenes
     try:
         drive = drive_of(case)
-        acting = acting_on(case, drive) if "cycle" in case.sections else ()
+        acting = acting_on(case, drive)
     except BadInput:
         return scenes
-    if not scenes or not acting:
-        return scenes
-    first, *others = scenes
-    phi = np.linspace(0, 2 * math.pi * first["turns"], first["count"], endpoint=False)[None, :]
-    turns = max(round(one.gas.pressure.period / (2 * math.pi)) for one in acting)
-    whole = np.linspace(0, 2 * math.pi * turns, turns * FRAMES, endpoint=False)
-    charges = [
-        Charge(travel=one.face.sense * np.asarray(travel_of(drive.mechanism, one.face.travel)(phi)[0]).ravel(),
-               force=one.face.sense * one.force(whole))
-        for one in acting
-    ]  # fmt: skip
-    return [filled(first, charges), *others]
+    return [charged(scenes[0], drive, acting), *scenes[1:]]
 
 
 def turning(case: Case, guide: Guide | None = None) -> list[Json]:
@@ -56,4 +44,4 @@ def turning(case: Case, guide: Guide | None = None) -> list[Json]:
         found.append(scene(shapes, "the machine to scale", turns, turns * FRAMES))
     if guide is not None:
         found.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
-    return charged(found, case)
+    return with_gas(found, case)

@@ -68,14 +68,14 @@ def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames
 
 
 @record
-class Charge:
+class Pushed:
     """What the gas does to a piston."""
 
     travel: np.ndarray  #: From the head, at the frames of a scene, shape (n,) [m]
     force: np.ndarray  #: Net force away from the head over the whole period of the gas, shape (m,) [N]
 
 
-def filled(shown: Json, charges: Sequence[Charge]) -> Json:
+def filled(shown: Json, charges: Sequence[Pushed]) -> Json:
     """A scene whose cylinders say what their gas does, as shares of the largest force.
 
     A piston that is drawn is the one that moves as it does; of several that move alike the first that is not yet drawn.
@@ -128,8 +128,8 @@ def rules() -> str:
         for role, (line, width, fill) in STYLES.items()
     )
     light += "".join(f".{role}.open{{stroke-width:{_BODY * STYLES[role][1]:g}}}" for role in _BODIES)
-    light += f".gas{{fill:color-mix(in srgb,{RED} var(--share,0%),{GAS})}}"
-    dark += f".gas{{fill:color-mix(in srgb,{DARK[RED]} var(--share,0%),{DARK[GAS]})}}"
+    light += f".gas{{fill:color-mix(in srgb,{RED} calc(.6*var(--share,0%)),{GAS})}}"
+    dark += f".gas{{fill:color-mix(in srgb,{DARK[RED]} calc(.6*var(--share,0%)),{DARK[GAS]})}}"
     return f"{light}@media screen and (prefers-color-scheme:dark){{{dark}}}"
 
 

@@ -79,21 +79,26 @@ def _panel(figure: "Figure", axis: "Axes") -> Json:
     at = sorted(float(_points(line)[0][0]) for line in axis.lines if _mark(line))
     # a name is moved aside where there is no room: names and places have one order
     named = dict(zip(at, [names[k] for k in sorted(names)], strict=True)) if len(at) == len(names) else {}
+    up = _words(axis.get_ylabel())
     lines = [line for line in axis.lines if _curve(line)]
-    labels = [str(line.get_label()) for line in lines]
     return {
-        "curves": [
-            [int(str(line.get_gid())[len(CURVE) :]), "" if label.startswith("_") else label]
-            for line, label in zip(lines, labels, strict=True)
-        ],
+        "curves": [[int(str(line.get_gid())[len(CURVE) :]), _named(line, up.partition(" [")[0])] for line in lines],
         "at": [round(v, 3) for v in corners],
         "x": [float(v) for v in axis.get_xlim()],
         "y": [float(v) for v in axis.get_ylim()],
         "across": _words(axis.get_xlabel() or _below(figure, axis)),
-        "up": _words(axis.get_ylabel()),
+        "up": up,
         "head": _words(axis.get_title("left")),
         "marks": [[x, named.get(x, "")] for x in at],
     }
+
+
+def _named(line: "Line2D", else_: str) -> str:
+    """The name of a curve; none of a level that nobody has named."""
+    label = str(line.get_label())
+    if not label.startswith("_"):
+        return label
+    return else_ if len(_points(line)[0]) > 2 else ""
 
 
 def _below(figure: "Figure", axis: "Axes") -> str:

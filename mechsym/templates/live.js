@@ -56,7 +56,7 @@
              { label: p.up, stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, size: 58, labelSize: 20, font: "11px system-ui", labelFont: "12px system-ui",
                values: (_, ticks) => ticks.map(v => String(+v.toPrecision(6))) }],
       series: [{ label: p.across, value: (_, v) => read(v, ...p.x) },
-        ...p.curves.map(([, name], k) => ({ label: name || p.up, class: name || p.curves.length === 1 ? "u-named" : "u-level", value: (_, v) => read(v, ...p.y), spanGaps: false,
+        ...p.curves.map(([, name], k) => ({ label: name, class: name ? "u-named" : "u-level", value: (_, v) => read(v, ...p.y), spanGaps: false,
           stroke: () => look(k).stroke, width: Math.max(1, 1.2 * parseFloat(look(k).strokeWidth)),
           dash: /\d/.test(look(k).strokeDasharray) ? look(k).strokeDasharray.match(/[\d.]+/g).map(v => 1.3 * v) : undefined, points: { show: false } }))],
       cursor: { sync: { key: p.across }, drag: { x: true, y: false }, points: { size: 6 } },

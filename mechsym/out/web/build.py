@@ -59,6 +59,9 @@ def page(block: Block, scenes: Sequence[Json] = ()) -> str:
     text = (room / "page.html").read_text(encoding="utf-8")
     title = block.name.replace("&", "&amp;").replace("<", "&lt;")
     text = text.replace("{{title}}", title).replace("{{data}}", data).replace("{{code}}", code)
+    for name in ("uplot.css", "uplot.js"):
+        kept = resources.files("mechsym.templates") / name
+        text = text.replace(f"{{{{{name}}}}}", kept.read_text(encoding="utf-8"))
     return text.replace("{{machine}}", template("machine.html", scenes=scenes, rules=rules()) if scenes else "")
 
 
