@@ -27,10 +27,7 @@ _SPARK = "[cycle] kind = 'spark-ignition'"
 
 
 def require(case: Any, command: str, given: str = "") -> None:
-    """Refuse a case that lacks what a command needs.
-
-    given: what an option of the command gives in place of the case. Raises MissingSection: names all that is missing.
-    """
+    """Refuse a case that lacks what a command needs. given: by an option in its place. Raises MissingSection: all."""
     facts = facts_of(case.mechanism, case.sections)
     missing = COMMANDS[command].lacks(facts)
     if missing := [what for what in dict.fromkeys(missing) if what != given]:

@@ -102,10 +102,7 @@ def file_in(out: Path | None, usual: str, *endings: str) -> Path:
 
 
 def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
-    """KEY=VALUE texts as a mapping.
-
-    option: the option's name, for the message. Returns values: key to text, in the order given.
-    """
+    """KEY=VALUE texts as a mapping, in the order given. option: the option's name, for the message."""
     values: dict[str, str] = {}
     for text in texts:
         key, sign, value = text.partition("=")
@@ -265,10 +262,7 @@ def _told(doubt: Doubt) -> str:
 
 
 def progress(total: int, label: str) -> Any:
-    """A progress bar on standard error, silent when that is no terminal.
-
-    Returns bar: context manager, call `update(1)` on it after each step.
-    """
+    """A progress bar on standard error, silent where that is no terminal; call `update(1)` on it after each step."""
     return click.progressbar(length=total, label=label, file=sys.stderr, hidden=not sys.stderr.isatty())
 
 

@@ -62,10 +62,7 @@ def _pattern(name: str) -> re.Pattern[str]:
 
 
 def rows(command: str | None = None) -> list[Json]:
-    """Rows of `mechsym sections --results`: `command`, `path`, `unit`, `about`.
-
-    Raises BadInput: no command of that name tells numbers.
-    """
+    """Rows of `sections --results`: `command`, `path`, `unit`, `about`. Raises BadInput: such a command tells none."""
     if command is not None and command not in RESULTS:
         raise BadInput(f"command {command!r} has no list of results; {suggest(command, list(RESULTS))}")
     wanted = RESULTS if command is None else {command: RESULTS[command]}

@@ -71,10 +71,7 @@ def swing_per_inertia(ripple: Pure, by: str = "mean") -> Pure:
 
 
 def proofs(points: Sequence[Point], phi: Radian[Array], q: Pure, terms: Terms, springs: int) -> tuple[Proof, ...]:
-    """The best bound on total inertia for 1 to some springs.
-
-    phi: any ascending angles of a period: works are looked at there. q: see `swing_per_inertia`.
-    """
+    """The best bound on total inertia for 1 to some springs. phi: ascending, of a period. q: `swing_per_inertia`."""
     omega, period = np.array([p.omega for p in points]), points[0].period
     lag = np.array([abs(p.load_torque) * period / 2 if p.law == "propeller" else 0.0 for p in points])
     facts = _Facts(

@@ -43,10 +43,7 @@ class Real:
 def friction(
     track: Track, path: Path, force: Newton[Scalar], omega: RadPerSecond, given: HingeLosses
 ) -> dict[str, Scalar]:
-    """Torques on the crank that bearings, seals and guides take, arrays or numbers as the force is [N*m].
-
-    force: of the spring on each roller.
-    """
+    """Torques on the crank that bearings, seals and guides take [N*m]. force: of the spring on each roller."""
     h = track.hardware
     speed = h.shaft_ratio * omega
     N = contact_force(force, path.rho, path.drho, path.d2rho, h.moving_mass, speed)

@@ -160,10 +160,7 @@ class Held:
 
 
 def pressure_error(machine: Running, turn: TimeRun) -> np.ndarray:
-    """Error of each pressure that a turn of the speed shows, shape (springs,) [Pa].
-
-    machine: as designed: its pressures are those wanted.
-    """
+    """Error of each pressure that a turn of the speed shows, shape (springs,) [Pa]. machine: as designed."""
     phi, omega = turn.phi, turn.omega
     load = np.asarray(load_torque(machine.load, omega))
     mean = np.trapezoid(load, phi) / np.ptp(phi)

@@ -167,10 +167,7 @@ def even_firing(count: int, period: float) -> tuple[float, ...]:
 
 
 def together(point: Point, angles: Sequence[float], factors: Sequence[Pure] | None = None) -> Point:
-    """A point of a machine whose cylinders fire at some crank angles [rad].
-
-    factors: gas work of each cylinder by that of the point, for a spread of their pressures.
-    """
+    """A point of a machine whose cylinders fire at some angles [rad]. factors: gas work of each by the point's."""
     shares = list(factors) if factors is not None else [1.0] * len(angles)
     half = point.omega**2 / 2
 

@@ -162,10 +162,7 @@ class Verified:
 
 
 def verify(found: CoDesign) -> Verified:
-    """Run a co-design as built at all its points.
-
-    Returns verified: ripples and residuals [-], contact, limits that are passed.
-    """
+    """Run a co-design as built at all its points: ripples and residuals [-], contact, limits that are passed."""
     steady, time_ripple, residual = [], [], []
     for k, point in enumerate(found.task.points):
         machine = machine_at(found, k)

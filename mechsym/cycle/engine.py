@@ -32,10 +32,7 @@ _STEP = math.radians(0.25)  # of the tabulated cycle
 
 
 def over_speeds(engine: ClosedEngine, omega: RadPerSecond[Array], progress: Progress = unseen) -> Performance:
-    """Figures over the speeds, by the method that the cycle names.
-
-    progress: called with the number of points done after each block of them.
-    """
+    """Figures over the speeds, by the method that the cycle names. progress: called after each block of points."""
     return over_design(engine, {"omega": omega}, progress)
 
 
@@ -71,10 +68,7 @@ def _joined(parts: list[Performance]) -> Performance:
 
 
 def columns(found: Performance) -> Json:
-    """Figures under the names and units of the command line.
-
-    Returns columns: `speed_rpm`, `torque_avg`, ...; `fractions` and `loads` are mappings.
-    """
+    """Figures by names and units of the command line: `speed_rpm`, ...; `fractions` and `loads` are mappings."""
     shares = {name: getattr(found, name) for name in ("heat", "work", "exhaust", "unburnt")}
     return {
         "speed_rpm": found.omega / RPM,

@@ -57,10 +57,7 @@ class Balance:
 # the springs of a sweep share one torque
 @functools.lru_cache(maxsize=8)
 def balance(hinge: Hinge, kind: str) -> Balance:
-    """The part of the hinge torque that the hinge takes.
-
-    hinge: torque that would keep the speed constant. Returns balance: the torque, the rest and its ripple.
-    """
+    """The part that the hinge takes of the torque that keeps the speed constant, the rest and its ripple."""
     if kind not in BALANCES:
         raise BadInput(f"balance = {kind!r} is not an option; options are {', '.join(BALANCES)}")
     period = hinge.period if kind == "whole_cycle" else min(hinge.period, _TURN)
@@ -164,10 +161,7 @@ def propeller_load_speed(
 
 
 def mean_speed(phid: RadPerSecond[Array]) -> RadPerSecond:
-    """Mean in time of a speed given over even angles.
-
-    phid: speed, not negative. Returns mean: angle over time of a period.
-    """
+    """Mean in time of a speed, not negative, given over even angles: angle over time of a period."""
     # a crank that stands at one angle takes for ever
     return 1 / float(np.mean(1 / phid)) if phid.min() > 0 else 0.0
 

@@ -90,10 +90,7 @@ def refit(guide: Guide, spring: Spring) -> Guide:
 
 
 def path(guide: Guide) -> "scipy.interpolate.PPoly":
-    """The path of the roller centres.
-
-    Returns rho: over the angle of the guide's shaft [m]. Raises BadInput: there is no path; the message says why.
-    """
+    """The path over the angle of the guide's shaft [m]. Raises BadInput: there is none; the message says why."""
     if guide.rho is None:
         raise BadInput(f"there is no guide: {guide.reason}")
     return guide.rho
@@ -214,10 +211,7 @@ def with_setting(spring: Spring, setting: float) -> Spring:
 
 
 def affine(guide: Guide, hinge: Hinge) -> Affine:
-    """Torque and work of a guide as functions of its spring setting, beside what a speed needs.
-
-    Returns parts: arrays over one period of the hinge.
-    """
+    """Torque and work of a guide over a period as functions of its setting, beside what a speed needs."""
     phi = even_angles(hinge.period)
     rho, ratio = path(guide), guide.parameters.shaft_ratio
     z = closing(guide, rho(ratio * np.append(phi, 0.0)))
@@ -259,10 +253,7 @@ def missing_work(parts: Affine, setting: float) -> Joule[Array]:
 
 
 def work_swing(parts: Affine, setting: float) -> Joule:
-    """Largest minus smallest missing work.
-
-    setting: p0 [Pa], or F0 of a coil [N]. Returns swing: convex in the setting.
-    """
+    """Largest minus smallest missing work, convex in the setting: p0 [Pa], or F0 of a coil [N]."""
     return float(np.ptp(missing_work(parts, setting)))
 
 

@@ -20,10 +20,7 @@ from mechsym.style import svg
 
 
 def write(design: Design, folder: Path, finish: Callable[[str], str] = str) -> list[Path]:
-    """Write report, tables, summary and pictures of a design.
-
-    folder: where to write; made when missing. finish: makes of the report's text the one that is written.
-    """
+    """Write report, tables, summary and pictures into a folder. finish: makes the text that is written of it."""
     numbers, columns = HingeNumbers(judged=design), hinge_columns(design)
     figures = {picture.name: svg(picture.draw()) for picture in pictures(design)}
     files = [write_text(folder / "report.html", finish(html(design, numbers, figures)))]

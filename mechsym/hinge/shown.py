@@ -165,10 +165,7 @@ def of_design(design: Design) -> Iterator[Finding]:
 
 
 def lost_combustion(share: Pure | None, where: str = "") -> Iterator[Finding]:
-    """What one lost combustion does, where it is much.
-
-    share: lowest speed after it, by the mean; 0 stalls. where: at which point, with the word before it.
-    """
+    """What one lost combustion does, where it is much. share: lowest speed after it by the mean; 0 stalls."""
     if share is not None and share < _FEW:
         left = f"pulls the speed down to {figure(100 * share, 2)} % of its mean" if share else "stops the shaft"
         words = f"one lost combustion{where} {left} with the flywheel that is kept"

@@ -120,10 +120,7 @@ def sensitivities(machine: Machine, wanted: Hinge, guide: Guide) -> list[Sensiti
 
 
 def with_guide(machine: Machine, wanted: Hinge, guide: Guide) -> Steady:
-    """Steady motion with a guide and the spring in it.
-
-    wanted: gives the mean torque for the load. Returns steady: motion, or why there is none.
-    """
+    """Steady motion with a guide and its spring, or why there is none. wanted: gives the load's mean torque."""
     return steady_state(_panels(machine, wanted, guide), machine.omega)
 
 

@@ -75,10 +75,7 @@ def run(
     settings: Settings | None = None,
     real: RealHinge | None = None,
 ) -> Trial:
-    """Run a machine in time from top dead centre.
-
-    speed: speed at the start. real: losses and masses of its hinge; None for an ideal one.
-    """
+    """Run a machine from top dead centre. speed: at the start. real: losses of its hinge; None for an ideal one."""
     what = problem(machine, speed, turns)
     result = simulate(
         what if real is None else with_real_hinge(what, machine, real), settings or Settings(check="none")
@@ -91,10 +88,7 @@ def run(
 
 
 def trial(name: str, machine: Machine, wanted: Hinge, hinge: RealHinge, turns: Pure) -> Trial:
-    """One run with a guide.
-
-    name: `hinge_constant`, `hinge_propeller`; `off_constant`, `off_propeller` start 1 per cent fast.
-    """
+    """One run with a guide: `hinge_constant`, `hinge_propeller`; `off_constant`, `off_propeller` start 1 % fast."""
     kind, law = name.split("_")
     engine, real = ready(replace(machine, load=_LAWS[law]), wanted, hinge)
     if kind == "hinge":

@@ -264,9 +264,6 @@ def _extremes(case: Case, speed: float) -> dict[str, float]:
 
 
 def speed_range(speeds: Speeds) -> RadPerSecond[Array]:
-    """The speeds of a performance map.
-
-    speeds: section `[speeds]` of a case. Returns omega: lowest, lowest + step.. up to highest.
-    """
+    """Speeds of a performance map from section `[speeds]`: lowest, lowest + step.. up to highest."""
     count = int((speeds.highest - speeds.lowest) / speeds.step + 1e-9) + 1
     return speeds.lowest + speeds.step * np.arange(count)

@@ -76,10 +76,7 @@ def forces(case: Case, comparison: bool = False) -> Forces:
 
 
 def motion(case: Case) -> driven.DrivenForces:
-    """Forces of a case over time, whose `[motion]` says how some or all of its coordinates move.
-
-    Raises BadInput: what is driven, or the path, cannot be.
-    """
+    """Forces of a case over time, by its `[motion]`. Raises BadInput: what is driven, or the path, cannot be."""
     require(case, "forces")
     mechanism, units = mechanism_of(case), listing(case.mechanism)["outputs"]
     try:
@@ -111,10 +108,7 @@ def _law(case: Case, speeds: Sequence[float]) -> FrictionLaw:
 
 
 def write(case: Case, found: Forces, numbers: Json, folder: Path, findings: Sequence[Finding] = ()) -> list[Path]:
-    """Write page, tables, summary and pictures.
-
-    folder: where to write; made when missing. findings: what has to be known first.
-    """
+    """Write page, tables, summary and pictures into a folder. findings: what has to be known first."""
     about = case.about or listing(case.mechanism)["about"] or case.name
     return report.write(found, numbers, folder, about, findings)
 

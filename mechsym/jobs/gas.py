@@ -79,10 +79,7 @@ def source(case: Case, friction: Friction = _FREE, number: int = 0) -> GasSource
 
 
 def parts_of(case: Case, friction: Friction = _FREE, number: int = 0) -> EngineParts:
-    """What stands around the gas of a case.
-
-    Raises BadInput: a section is missing that its kind needs, or one belongs to another kind.
-    """
+    """What stands around the gas of a case. Raises BadInput: a section is missing, or belongs to another kind."""
     kind = kind_of(case.need("cycle"))
     if kind.cylinder and not kind.measured and "scavenging" not in kind.reads and charged(case):
         raise BadInput(f"{case.file}: [scavenging] belongs to a cycle of kind two-stroke-marine; leave it out, or set "
@@ -107,10 +104,7 @@ def charged(case: Case) -> bool:
 
 
 def one_cylinder(case: Case) -> Case:
-    """The case as one cylinder of it sees itself.
-
-    Returns case: with a mechanism that has one piston and its travel as `x`.
-    """
+    """The case as one cylinder sees itself: its mechanism has one piston and its travel as `x`."""
     with of(case):
         name, parameters = plan_of(case.mechanism).alone(case.need("parameters"))
     return replace(case, mechanism=name, sections={**case.sections, "parameters": parameters})

@@ -129,10 +129,7 @@ def hinge(case: Case, diagram: str | None = None, loads: Sequence[Pure] = ()) ->
 
 
 def design_load(case: Case) -> Pascal:
-    """The load that a case is designed for.
-
-    Returns mean_indicated_pressure: of its cycle. Raises BadInput: the cycle has no mean indicated pressure to change.
-    """
+    """The mean indicated pressure that a case is designed for. Raises BadInput: the cycle has none to change."""
     cycle = case.need("cycle")
     if not kind_of(cycle).load:
         raise BadInput(f"{case.file}: [cycle] has no mean_indicated_pressure that could be changed; it has one load")

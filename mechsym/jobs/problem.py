@@ -238,10 +238,7 @@ def is_hinged(case: Case) -> bool:
 
 
 def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Guide]:
-    """Engine, wanted torque and guide of a case with `[spring]` and `[guide]`.
-
-    Raises BadInput: the guide that the case asks for cannot be cut.
-    """
+    """Engine, wanted torque and guide of a case. Raises BadInput: the guide that it asks for cannot be cut."""
     engine, choices = machine(case, diagram), case.need("guide")
     wanted = torque(engine)
     guide = cut(balance(wanted, choices.balance), case.need("spring"), choices)

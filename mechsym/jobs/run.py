@@ -279,10 +279,7 @@ def _two_discs(case: Case) -> ShaftRole:
 
 
 def startup_map(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...]) -> tuple[StartUp, ...]:
-    """The same start-up with several dampers, run side by side.
-
-    dampings: of the shaft. Returns found: one for each damper, in their order.
-    """
+    """The same start-up with several dampers of the shaft, run side by side; one for each, in their order."""
     (letter,) = _two_discs(case).damping
     damped = [replace(case.need("parameters"), **{str(letter): damping}) for damping in dampings]
     cases = [replace(case, sections={**case.sections, "parameters": p}) for p in damped]

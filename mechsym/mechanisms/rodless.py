@@ -21,10 +21,7 @@ RodlessParameters = mechanisms.parameters_class(NAME)
 
 
 def build(parameters: Record) -> Mechanism:
-    """The rodless mechanism with the reactions that the rigid mechanism determines.
-
-    Returns mechanism: coordinate alpha; inputs F_a, F_b, M.
-    """
+    """The rodless mechanism with its determined reactions: coordinate alpha; inputs F_a, F_b, M."""
     return mechanisms.build(NAME, parameters)
 
 

@@ -48,10 +48,7 @@ class LookingBack:
 
 
 def ready(rates: casadi.Function, held: np.ndarray, states: Collection[int], mode: str) -> LookingBack | None:
-    """What runs need to look back, where they can; `states` are those that surfaces are of.
-
-    held: held values [SI], shape (runs, segments, p).
-    """
+    """What runs need to look back, with surfaces of `states`. held: values [SI], shape (runs, segments, p)."""
     parts = _parts(rates.serialize(), mode)
     if parts is None or len(parts.works.tape.inputs) > _MOST:
         return None
@@ -70,10 +67,7 @@ def _parts(stored: str, mode: str) -> FormPrograms | None:
 
 
 def constants(of: Program, back: LookingBack) -> list[np.ndarray]:
-    """The constants of each run: of the rates, of the programs of the form, of the series.
-
-    Returns tables: one for each run [SI].
-    """
+    """Tables of constants, one a run: of the rates, of the programs of the form, of the series [SI]."""
     same = [constant_table(p.kernels) for p in (of, back.parts.forces, back.parts.works)]
     series, scale = back.arcs.series, back.arcs.scale
     runs = scale.shape[1]

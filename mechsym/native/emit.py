@@ -81,10 +81,7 @@ def rows(kernels: tuple[Kernel, ...], name: str, lanes: int) -> str:
 
 
 def block(kernels: tuple[Kernel, ...], name: str) -> str:
-    """A function over m points in columns, with the same constants at all of them.
-
-    Returns text: C function `<name>_block(m, k, x, y)`.
-    """
+    """C function `<name>_block(m, k, x, y)`: over m points in columns, the same constants at all of them."""
     head = f"static void {name}_block(const long m, const double *restrict k, const double **x, double **y)"
     return _function(head, _loops(kernels, name, (lambda i: f"x[{i}]", lambda i: f"y[{i}]")))
 

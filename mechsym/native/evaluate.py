@@ -54,10 +54,7 @@ def compiled(function: casadi.Function, mode: str = "fast") -> Compiled:
 
 
 def compiled_all(functions: Mapping[str, casadi.Function], mode: str = "fast") -> dict[str, Compiled]:
-    """Several CasADi functions compiled into one file.
-
-    functions: for example the functions of a mechanism; their names differ.
-    """
+    """Several CasADi functions of different names compiled into one file, as those of a mechanism."""
     programs = [source.program(f, mode) for f in functions.values()]
     names = [p.tape.name for p in programs]
     if len(set(names)) < len(names):

@@ -117,10 +117,7 @@ def _interpreted(turn: Tape) -> Callable[..., None]:
 
 
 def text(turn: Tape, sizes: tuple[int, int, int]) -> str:
-    """A file that exports `ms_march` for the step of `separated`.
-
-    sizes: numbers of states, stage values, lane values.
-    """
+    """A file that exports `ms_march` for the step of `separated`. sizes: of states, stage values, lane values."""
     name, kernel = turn.name, whole(turn)
     states, stages, _ = sizes
     lanes, records = len(turn.inputs) - states - stages, len(turn.outputs) - states

@@ -68,10 +68,7 @@ class _Block(NamedTuple):
 
 
 def solve(task: Programme) -> Optimum:
-    """Solve a design problem.
-
-    Returns optimum: with status and reason; where there is no feasible design, the last one that was tried.
-    """
+    """Solve a design problem; the last design tried where none is feasible, with status and reason."""
     low, high = _bounds(task.variables)
     figures = _function(task)
     z = ca.MX.sym("z", low.size)

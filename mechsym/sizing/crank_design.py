@@ -39,10 +39,7 @@ class CrankLoads:
 
 
 def size_output(loads: CrankLoads, wants: Wants, material: Material, least: Metre) -> Metre:
-    """Diameter of the output shaft for static torsion and fatigue.
-
-    least: smallest diameter to begin with. Returns d: diameter, rounded up to half a millimetre.
-    """
+    """Diameter of the output shaft for static torsion and fatigue, up to half a millimetre. least: smallest."""
     peak = np.abs(loads.output_torque).max()
     d = max(least, crankshaft.shaft_diameter(peak, _shear_strength(material) / wants.shaft_static))
     amplitude, mean = stress_cycle(loads.output_torque)

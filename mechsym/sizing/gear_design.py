@@ -55,10 +55,7 @@ class Rating:
 
 
 def pair_of(part: GearPart, kind: str = "internal") -> Pair:
-    """The pair's geometry.
-
-    kind: `internal`, or `external` for the source's stand-in. Returns pair: geometry in the tool form of the source.
-    """
+    """Geometry in the tool form of the source. kind: `internal`, or `external` for the source's stand-in."""
     return Pair(kind=kind, module=part.module, teeth_1=part.teeth_pinion, teeth_2=part.teeth_ring,
                 pressure_angle=part.pressure_angle, shift=part.shift)  # fmt: skip
 
@@ -90,10 +87,7 @@ def rating(part: GearPart, loads: ToothLoads, wants: Wants, material: Material, 
 
 
 def face_width(part: GearPart, loads: ToothLoads, wants: Wants, material: Material, kind: str = "internal") -> Metre:
-    """Face width that satisfies every limit with the load distribution of that width.
-
-    part: sizes; its own face width does not matter.
-    """
+    """Face width that satisfies every limit with its own load distribution; that of `part` does not matter."""
     most = 2 * part.module * part.teeth_pinion
 
     def short(b: float) -> float:

@@ -63,10 +63,7 @@ def check_piston(part: PistonPart, loads: CylinderLoads, wants: Wants, material:
 
 
 def size_cylinder(loads: CylinderLoads, wants: Wants, material: Material, height: Metre) -> CylinderPart:
-    """The cylinder that the loads ask for.
-
-    height: height of a piston head. Returns part: sizes, rounded up to half a millimetre.
-    """
+    """The cylinder for the loads, sizes rounded up to half a millimetre. height: of a piston head."""
     p = loads.dp_max.max()
     wall = round_up(cylinder.wall_thickness(p, loads.bore, need(material, "fatigue") / wants.wall, wants.reboring))
     core = cylinder.core_diameter(p, loads.bore, round(wants.bolts), wants.bolt_stress)

@@ -120,10 +120,7 @@ def size_slider_crank(
 
 
 def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
-    """One round: every part for the forces.
-
-    Returns parts: sizes; of the bearings the lightest that hold, or the strongest there are.
-    """
+    """One round: sizes of every part for the forces; bearings the lightest that hold, or the strongest there are."""
     loads = _cylinder_loads(forces)
     material = {key: stock.material(getattr(wants, key)) for key in ("piston", "cylinder", "shaft")}
     steel = stock.material(wants.crankshaft)

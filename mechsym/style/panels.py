@@ -126,10 +126,7 @@ def axis_unit(unit: str, *values: object) -> tuple[Pure, str]:
 def angle_axis(
     axis: "Axes", degrees: Annotated[float, "deg"], start: Annotated[float, "deg"] = 0.0, steps: int = 8
 ) -> None:
-    """An angle in degrees along an axis, in eighths; in fewer parts where it is narrow.
-
-    degrees, start: last and first angle.
-    """
+    """An angle in degrees along an axis, in eighths or fewer parts. degrees, start: last and first angle."""
     axis.set_xlim(start, degrees)
     axis.set_xticks(np.arange(start, degrees + 1, (degrees - start) / steps))
 
@@ -193,10 +190,7 @@ def events(axis: "Axes", marks: Mapping[str, Pure], width: Annotated[float, "inc
 
 
 def envelope(axis: "Axes", t: Pure[Array], y: Pure[Array], color: str, label: str | None = None) -> None:
-    """A curve over time; one that swings more often than can be seen as the band that it fills.
-
-    t, y: time and values, in the units of the panel.
-    """
+    """A curve over time in a panel's units; one that swings too often to be seen as the band that it fills."""
     swings = np.abs(np.diff(y)).sum() / (np.ptp(y) or 1.0)  # through all of its range, so that ripples do not count
     if swings <= MOST_SWINGS:
         axis.plot(t, y, color=color, linewidth=0.9, label=label)

@@ -23,10 +23,7 @@ _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
 
 def picture(result: Sweep) -> Figure | None:
-    """The main results of a sweep, see `mechsym.sweep.main_results`.
-
-    Returns figure: None when there is nothing to draw: a single point, or gaps only.
-    """
+    """The main results of a sweep, see `mechsym.sweep.main_results`; None for a single point, or gaps only."""
     shown = _worth_drawing(result)
     if not shown or len(result.points) == 1:
         return None

@@ -112,10 +112,7 @@ class Layout:
 
 
 def layout(plan: Plan) -> Layout:
-    """The points of a plan, every key and unit checked against the case.
-
-    Raises BadInput: an axis is wrong, or a value is named twice.
-    """
+    """The points of a plan, keys and units checked. Raises BadInput: an axis is wrong, or a value named twice."""
     taken = {}
     for key in plan.overrides:
         found = cases.locate(plan.case, key, plan.overrides)

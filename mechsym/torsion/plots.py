@@ -48,10 +48,7 @@ def campbell(start: StartUp) -> "Figure":
 
 
 def start_up(runs: Sequence[StartUp], claim_speed: RadPerSecond | None = None) -> "Figure":
-    """Mean speed and twist of start-ups with several dampers, beside the rigid shaft.
-
-    claim_speed: speed that the source reports.
-    """
+    """Mean speed and twist of start-ups with several dampers, and the rigid shaft. claim_speed: the source's."""
     figure, (speed, twist) = panels(7.5, 6.5, 2, 1, "Start-up: mean speed and twist over time", sharex=True)
     first = runs[0]
     factor, unit = axis_unit("rad/s", first.natural)
@@ -83,10 +80,7 @@ def _levels(axis: "Axes", marks: Mapping[str, float]) -> None:
 
 
 def twist(result: Result, shafts: int) -> "Figure":
-    """Speed of the ends of a shaft and twist of its sections over time, and the last two turns of the crank.
-
-    result: a run of an elastic shaft.
-    """
+    """Speed of the ends of an elastic shaft, twist of its sections over time, and the last two turns."""
     name = "Speed of both ends of the shaft and its twist, over time and in the last two turns"
     figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
     ends_of = pairs(result, shafts)

@@ -81,10 +81,7 @@ class StartUp(Shown):
 
 
 def start_up(mechanism: str, parameters: Record, drive: StepTorque, claim: StartUpClaim, result: Result) -> StartUp:
-    """Explain the finished run of a start-up.
-
-    mechanism: its name; of its shaft two discs are declared, with a letter for the damping between them.
-    """
+    """Explain a finished start-up. mechanism: declares two discs, with a letter for the damping between them."""
     (role,) = mechanisms.roles_of(mechanism).shafts
 
     def linear_with(**letters: float) -> torsion.Matrices:

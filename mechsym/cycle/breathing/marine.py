@@ -274,10 +274,7 @@ class MarineGas(CylinderGas):
     """Gas of the two-stroke marine cycle; where `[scavenging]` has a turbocharger, at the charge that it gives."""
 
     def charged(self, omega: float) -> tuple[TwoStrokeMarine, ScavengeState | None]:
-        """The cycle with p_s and T_evc from its turbocharger at a speed [rad/s], and how that runs; None without.
-
-        Raises BadInput: there is no balance.
-        """
+        """The cycle with p_s and T_evc from its turbocharger at a speed [rad/s]. Raises BadInput: no balance."""
         section: Scavenging | None = self.parts.section("scavenging")
         if section is None or section.source != "turbocharger":
             return self.cycle, None

@@ -121,10 +121,7 @@ def charge(chamber: Chamber, cycle: SparkIgnition, gas_constant: Annotated[Scala
 
 
 def latent_heat(cycle: SparkIgnition) -> Annotated[Scalar, "J/kg"]:
-    """Latent heat that the cycle charges for a kilogram of fuel.
-
-    Returns heat: latent heat, 0 for a charge that is vapour from the start.
-    """
+    """Latent heat that the cycle charges for a kilogram of fuel; 0 for a charge that is vapour from the start."""
     return 0.0 if cycle.vaporisation == "none" else cycle.latent_heat
 
 

@@ -182,10 +182,7 @@ def turn(spaces: FiveSpaces, steps: int = STEPS) -> StirlingTurn:
 
 
 def solver(build: Build, design: np.ndarray, steps: int = STEPS) -> Callable[[np.ndarray], StirlingTurn]:
-    """A function of the design to its turn, each started from the one before.
-
-    design: where it starts; whatever `build` makes of it [any], shape (k,).
-    """
+    """A function of the design to its turn, each started from the one before. design: where it starts [any]."""
     order, unknown = first_guess(_numbers(build, design))
     parts = _functions(build, len(design), order, steps)
     last = [unknown]

@@ -28,10 +28,7 @@ class ThrowPart:
 
 
 def parts(p: CrankTrainParameters) -> list[ThrowPart]:
-    """The instances that a crank train consists of, cranks first.
-
-    Returns parts: one a throw, then one a cylinder, those whose rods hang on others last.
-    """
+    """The instances: one a throw, then one a cylinder, those whose rods hang on others last."""
     nothing = dict.fromkeys((*_CRANK, *_CYLINDER), 0.0)
     found = []
     for k in range(max(p.throw)):

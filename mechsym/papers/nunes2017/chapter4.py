@@ -121,10 +121,7 @@ def load_distribution_printed(member: int) -> float:
 
 
 def load_distribution_twin_contact() -> float:
-    """K_m that table 4.12 uses for the ring in contact: eq. 4.22, meant for 25 mm and less, at 52 mm.
-
-    Returns K_m: 1.12185 [-].
-    """
+    """K_m = 1.12185 [-] of table 4.12 for the ring in contact: eq. 4.22, meant for 25 mm and less, at 52 mm."""
     align = gear_factors.mesh_alignment_factor(WIDEST, "extra-precision")
     return 1 + (WIDEST / (10 * D_RING) - 0.025) + 0.8 * align
 

@@ -74,10 +74,7 @@ def _check_room(parts: Parts, wants: Wants, e: float, places: Mapping[str, Choic
 
 
 def check_pinion_shaft(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> list[Check]:
-    """Shaft under the pinion: bending between two journals, and the tooth's torque.
-
-    Returns checks: one, or none when the pinion has no bore.
-    """
+    """Shaft under the pinion, where that has a bore: bending between two journals, and the tooth's torque."""
     d, material = parts.gears.pinion_bore, stock.material(wants.crankshaft)
     if d <= 0:
         return []
@@ -94,10 +91,7 @@ def check_pinion_shaft(parts: Parts, forces: PartForces, wants: Wants, stock: St
 
 
 def holding(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> Pure[Array]:
-    """Speeds at which every check holds by itself.
-
-    Returns held: whether all factors are reached at each speed, shape (k,).
-    """
+    """Whether all factors are reached at each speed by itself, shape (k,)."""
     arrays = ("omega", "dp_max", "net", "rod", "tooth", "radial", "torque", "spin")
     held = []
     for k in range(forces.omega.size):
@@ -166,10 +160,7 @@ def engine_rows(
 def nearest_rows(
     parts: Parts, forces: PartForces, wants: Wants, stock: Stock, power: Callable[[float], float]
 ) -> list[SizeRow]:
-    """Speeds at which these parts may run at full load, when they may not at all.
-
-    power: crank speed [rad/s] -> power of the engine [W].
-    """
+    """Speeds at which these parts may run at full load after all. power: crank speed [rad/s] -> power [W]."""
     held = holding(parts, forces, wants, stock)
     if not held.any():
         return []
