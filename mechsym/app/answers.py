@@ -15,7 +15,7 @@ from mechsym.hinge.limits import ALL_KEPT
 from mechsym.hinge.result import Design
 from mechsym.hinge.shown import engine, of_design
 from mechsym.hinge.summary import guide_turn
-from mechsym.jobs.drawing import turning
+from mechsym.jobs.export import turning
 from mechsym.jobs.hinge import hinge
 from mechsym.machine.loads import PropellerLoad
 from mechsym.mechanisms import plots

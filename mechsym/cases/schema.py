@@ -96,7 +96,7 @@ ENTRIES: dict[str, Any] = {
     ),
     "shaking": "mechsym.forces.shaking:BalanceWanted",
     "comparison": "mechsym.forces.comparison:ComparisonSettings",
-    "faces": "mechsym.mechanisms.faces:RodlessFaces",
+    "faces": "mechsym.mechanisms.closing:RodlessFaces",
     "closing": (
         "rule",
         {

@@ -1,4 +1,4 @@
-r"""How much inertia has to turn, whatever the guide: a lower bound with its proof, by a few operating points at a time.
+r"""How much inertia has to turn, whatever the guide: a lower bound by a few points, and a design beside it.
 
 .. math:: (\max_\varphi I_t + \epsilon)\,q \ge \min_{a} \frac{\mathrm{ptp}(\sum_i a_i Y_i)
           - |\sum_i a_i|\,\mathrm{ptp}(I_h)/2 - |\sum_i a_i/\omega_i^2|\,\mathrm{ptp}(V)}{\sum_i |a_i|},

@@ -1,6 +1,7 @@
 """The same task at several ripples, and what a guide that is cut for one point alone would need instead.
 
-The wanted work is affine in omega^2 at a given load: a few loads are enough for a whole map.
+Pressure of the spring over speed and load, and the ripple that it keeps. The wanted work is affine in omega^2 at a
+given load: a few loads are enough for a whole map.
 """
 
 import dataclasses

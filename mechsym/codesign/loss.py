@@ -1,5 +1,7 @@
 r"""What friction and heat take from a co-designed hinge at each of its points.
 
+The ripple with friction and heat by two ways: over the angle, and in time with the gas as a state of its own.
+
 .. math:: \dot T = -(\gamma - 1)\,T\,\frac{\dot V}{V} - \frac{T - T_w}{\tau}, \qquad
           p = (p_0 + p_a) \frac{H}{H - z} \frac{T}{T_w} - p_a
 

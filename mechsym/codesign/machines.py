@@ -1,4 +1,4 @@
-"""A machine at one speed and load as a point of a co-design, the hardware of its hinge, a torque curve as a point."""
+"""Machines at speeds and loads as points of a co-design, of the family of `[codesign]` too; its hardware."""
 
 import ast
 import csv

@@ -7,6 +7,8 @@ V is the energy that the shaft meets when it is turned slowly: springs under pre
 fuel, Q_0, with the weights. The shaft comes to rest in a minimum phi_0 of V; a constant torque turns it from there for
 good when it is larger than M_0. Friction is not in it.
 
+A controller that holds the pressures of the springs, from nothing but the speed over one turn.
+
 .. math:: w_m = -\tfrac12 I_t (\dot\varphi^2 - \overline{\dot\varphi^2})
           - \int (M_\mathrm{load}(\dot\varphi) - \overline M)\,d\varphi, \qquad
           w_m - w_\mathrm{design} \approx \sum_j \Delta p_j\,\partial U_j/\partial p_j + c_0 + c_1 \varphi

@@ -9,6 +9,8 @@ r"""The programme: shapes of guides, pressures of springs and one small flywheel
 Angles are common to all points and contain the kinks. IPOPT with exact derivatives; the splines are sparse. The
 multipliers of ripple and limits come out as what one unit of each is worth in flywheel.
 
+The steady motion of one point as constraints of the programme, exact under propeller and constant load.
+
 .. math:: u^2 = (\dot\varphi/\omega)^2 = 1 + \frac{2 (g - w)}{I_t \omega^2}, \qquad g' = a (w - g), \qquad
           a = \frac{2 M_r}{I_t \omega^2}
 

@@ -5,6 +5,8 @@ r"""How many springs pay? The swing that the best r shapes leave of the wanted w
 r springs are r shapes of work S_j(phi) with a pressure each, c_kj. Weak ripple needs a total inertia of about D_r over
 ripple: an estimate. What is proven, with the terms of rollers and outside pressure, stands in `certificate`.
 
+Machines of several cylinders on one shaft: their works add up, and most of what a hinge would take cancels.
+
 .. math:: W_N(\varphi) = \sum_i W(\varphi + \varphi_i)
 
 One hinge on the shaft then works on what is left. A spread of the cylinders' pressures brings back the order one, which

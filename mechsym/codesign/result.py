@@ -1,4 +1,4 @@
-"""What the job of a co-design gives: the design, its bound, what stands beside it, its checks, costs and dangers."""
+"""What the job of a co-design gives, design, bound, rivals, checks, costs, dangers, and what is told of it."""
 
 from collections.abc import Mapping
 

@@ -7,8 +7,9 @@ Q is the torque of gas and gravity as computed, never what the programme was fit
 over the angle by collocation (mechsym.simulate); `run` integrates this equation over time by a Runge-Kutta method of
 order eight. They share the functions of the machine and no method.
 
-What depends on the angle alone (torque of the engine, its inertia, closing of each spring) are tables of polynomials;
-what a machine has one of (pressures, flywheel, load) are held values, so all machines share one compiled file.
+The equation of a co-designed machine over time, one text: run in compiled C, by scipy where there is no compiler. What
+depends on the angle alone (torque of the engine, its inertia, closing of each spring) are tables of polynomials; what a
+machine has one of (pressures, flywheel, load) are held values, so all machines share one compiled file.
 """
 
 import dataclasses

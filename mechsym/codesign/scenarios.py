@@ -2,7 +2,8 @@
 
 Every row is a run in time of the machine as built, from its steady motion; speeds are shares of the mean speed.
 
-Rows like those of `scenarios`, at one point each.
+What else happens to a machine: another scavenge pressure, a leak, its controller, a start and a stop. Rows like those
+before, at one point each.
 """
 
 import dataclasses

@@ -1,4 +1,6 @@
-r"""Unknowns and constraints of the programme as it is put together: guides with their springs, and the limits.
+r"""Unknowns and constraints of the programme: guides with their springs, where they start, limits, losses.
+
+Friction of a hinge and heat of its gas as unknowns and constraints of the programme.
 
 .. math:: s' = \frac{V^{\gamma-1} - s}{x}, \quad \frac{T}{T_w} = s V^{1-\gamma}, \qquad
           \lambda' = M_\mathrm{friction} + \frac{(p_0 + p_a) A H}{(\gamma - 1)\,x}\Bigl(\frac{T}{T_w} - 1\Bigr)

@@ -1,4 +1,4 @@
-"""Is it true? Every number of a co-design found again by other ways, at all points and at finer angles.
+"""Is it true? Every number of a co-design found again by other ways; how sure is it, with small errors drawn?
 
 Ripple: by the programme, by collocation over the angle (`mechsym.simulate.steady`), and by a run in time. Contact: the
 limits that the programme kept at its angles and hardest point, at half a degree and at every point.

@@ -1,4 +1,4 @@
-"""The figures of a cycle over the speeds: every name that a kind of cycle may tell, with its unit and meaning."""
+"""The figures of a cycle over the speeds, and every name that a kind of cycle may tell, with its unit and meaning."""
 
 import dataclasses
 from collections.abc import Mapping

@@ -1,5 +1,7 @@
 r"""Friction mean pressure by a named correlation, for brake figures where the mechanism itself declares no friction.
 
+What friction leaves of the work of the gas: brake figures, and the one mechanical efficiency.
+
 .. math:: p_{IMEP,gross} + p_{PMEP} = p_{IMEP,net}, \qquad p_{IMEP,net} - p_{FMEP} = p_{BMEP}, \qquad
           \eta_m = p_{BMEP}/p_{IMEP,net}
 

@@ -1,11 +1,15 @@
 r"""The gas of an engine: pressure over the angle, and the chamber it acts in, whatever kind of cycle it comes from.
 
+Cylinder pressure as a function of the crank angle: the record every cycle ends in, whatever it was made from.
+
     p |      /\                 phi = 0 at (firing) top dead centre, positive in the sense of rotation
       |     /  \                p is absolute; F = (p - p_back) A pushes the piston away from the head
       |____/    \____           two-stroke: period 2 pi, four-stroke: 4 pi
           0  phi
 
 All pressures are absolute and in pascal; the names of the facts' units say where they are not.
+
+The gas in a turn without combustion: the compression line both ways, which never does work.
 
 .. math:: p(\varphi) \to \min[p(\varphi), p(-\varphi)] \quad \text{on the stroke behind firing dead centre}
 

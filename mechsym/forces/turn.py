@@ -32,7 +32,7 @@ from mechsym.quantities.units import Array, Kilogram, NewtonMetre, Pure, Radian,
 
 if TYPE_CHECKING:
     from mechsym.cycle.gas import Gas
-    from mechsym.mechanisms.faces import RodlessFaces
+    from mechsym.mechanisms.closing import RodlessFaces
 
 _STEPS_PER_TURN = 1440
 

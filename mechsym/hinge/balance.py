@@ -4,8 +4,9 @@ A four-stroke torque repeats every two turns. Two ways out, by name: `whole_cycl
 once per cycle) and `every_turn` (the track turns with the crank and takes the part that repeats every turn, the mean of
 the two turns). For a two-stroke both are the same.
 
-If the hinge gives less than the torque M_h that keeps the speed at omega, the missing torque works on
-E = I (phid^2 - omega^2) / 2. With w(phi) the work that is wanted and missing,
+The crank speed that missing work leaves: closed forms for one rigid coordinate and two load laws, from samples. If the
+hinge gives less than the torque M_h that keeps the speed at omega, the missing torque works on E = I (phid^2 - omega^2)
+/ 2. With w(phi) the work that is wanted and missing,
 
 .. math:: \frac{dE}{d\varphi} = -\frac{dw}{d\varphi} - \left(M_\mathrm{load} - M_r\right)
 

@@ -15,7 +15,8 @@ The spring gives the work that the torque takes: U(z) = const - W(phi), so z fol
 Source: Zotov et al. (2024), eqs. (9) to (14), for `two_tracks` with the start `as_printed`; the names are explained in
 `mechsym.hinge.choices`.
 
-All laws are affine in the setting s, so the torque and the work of a guide that stays as it was cut are too:
+A guide as a function of its spring setting: the pressure p0 of an air spring, the preload F0 of a coil. All laws are
+affine in the setting s, so the torque and the work of a guide that stays as it was cut are too:
 
 .. math:: M_h^*(\varphi; s) = M_0 + s\,M_1, \qquad W^*(\varphi; s) = W_0 + s\,W_1
 
@@ -37,7 +38,7 @@ from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import settle
 from mechsym.machine.record import AngleForce, Machine
-from mechsym.mechanisms.shaft_inertia import with_torque
+from mechsym.mechanisms.shaft import with_torque
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
 from mechsym.quantities.display import quantity_text

@@ -1,4 +1,4 @@
-"""What of a hinge design is worth seeing: its cards, its figures, its curves."""
+"""What of a hinge design is worth seeing, has to be known first, and how engine and hinge turn together."""
 
 import math
 from collections.abc import Callable, Iterator

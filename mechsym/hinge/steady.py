@@ -3,8 +3,9 @@ r"""How steadily an engine turns with its hinge, without one, with a faulty one,
 Steady motions are found over the angle of one period; nothing is run in time except the retuned guide. The hinge's
 torque comes from the geometry of the guide and the law of the spring.
 
-The guide stays as it was cut; only the pressure p0 (the preload F0 of a coil) changes. All laws are affine in that
-setting s, so torque and work of the guide are too, and two criteria have a closed form:
+A guide at another speed: which spring setting serves it best, and what remains. The guide stays as it was cut; only the
+pressure p0 (the preload F0 of a coil) changes. All laws are affine in that setting s, so torque and work of the guide
+are too, and two criteria have a closed form:
 
 .. math:: M_h^*(\varphi; s) = M_0 + s\,M_1, \qquad
           s = \frac{\langle M_h - M_0, M_1\rangle}{\langle M_1, M_1\rangle}

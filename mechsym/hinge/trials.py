@@ -19,7 +19,7 @@ from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.machine.record import Machine, period_of
 from mechsym.mechanisms import roles_of
 from mechsym.mechanisms.record import Mechanism, bind
-from mechsym.mechanisms.shaft_inertia import with_inertia
+from mechsym.mechanisms.shaft import with_inertia
 from mechsym.periodic import even_angles
 from mechsym.quantities.display import figure
 from mechsym.quantities.results import computed, part, quantity, result

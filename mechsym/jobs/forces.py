@@ -14,7 +14,7 @@ from mechsym.cycle.friction import Friction, MechanismFriction
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.files import Json, to_json, write_quantities, write_text
-from mechsym.forces import driven, report, result
+from mechsym.forces import driven, result, shown
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import NoRings
 from mechsym.forces.result import Forces
@@ -110,7 +110,7 @@ def _law(case: Case, speeds: Sequence[float]) -> FrictionLaw:
 def write(case: Case, found: Forces, numbers: Json, folder: Path, findings: Sequence[Finding] = ()) -> list[Path]:
     """Write page, tables, summary and pictures into a folder. findings: what has to be known first."""
     about = case.about or listing(case.mechanism)["about"] or case.name
-    return report.write(found, numbers, folder, about, findings)
+    return shown.write(found, numbers, folder, about, findings)
 
 
 def write_motion(found: driven.DrivenForces, numbers: Json, folder: Path) -> list[Path]:

@@ -40,7 +40,7 @@ from mechsym.jobs.machine import (
 from mechsym.machine.loads import Load, PropellerLoad, settle
 from mechsym.machine.record import Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.shaft_inertia import at_rest, with_torque
+from mechsym.mechanisms.shaft import at_rest, with_torque
 from mechsym.quantities import record
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import at_angle, load_value, reduced

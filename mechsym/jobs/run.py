@@ -38,8 +38,7 @@ from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
 from mechsym.simulate.result import RunNumbers, final_state, summary
 from mechsym.simulate.steady import steady_state
-from mechsym.torsion.finished import EngineSpeed, FinishedRun
-from mechsym.torsion.startup import AVERAGE, StartUp, StartUpClaim, findings, start_up
+from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
 from mechsym.torsion.startup import numbers as start_numbers
 from mechsym.torsion.train import doubts, twist_words, words
 from mechsym.torsion.twist import Settling, natural_frequencies, sections, sentences, settling

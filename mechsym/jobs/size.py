@@ -25,13 +25,18 @@ from mechsym.sizing.checks import unsafe
 from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
 from mechsym.sizing.crosshead import checks as crosshead_checks
 from mechsym.sizing.hypocycloid import masses
-from mechsym.sizing.hypocycloid.checks import check_all, engine_rows, mass_rows, nearest_rows, part_rows
-from mechsym.sizing.hypocycloid.design import size_hypocycloid
+from mechsym.sizing.hypocycloid.checks import (
+    check_all,
+    engine_rows,
+    mass_rows,
+    nearest_rows,
+    part_rows,
+    size_hypocycloid,
+)
 from mechsym.sizing.hypocycloid.engine import Parts, Stock
 from mechsym.sizing.hypocycloid.masses import PlanetDrive, hypocycloid_forces
 from mechsym.sizing.pressures import Pressures, pressures_over
-from mechsym.sizing.result import Sizing
-from mechsym.sizing.rows import SizeRow, check_rows, fact, size_rows
+from mechsym.sizing.rows import SizeRow, Sizing, check_rows, fact, size_rows
 from mechsym.sizing.rules import bearings, materials
 from mechsym.sizing.slider_crank import size_slider_crank, slider_crank_forces
 from mechsym.sizing.wants import Wants

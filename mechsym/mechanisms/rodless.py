@@ -9,8 +9,7 @@ import dataclasses
 
 from mechsym import mechanisms
 from mechsym.mechanisms import closing
-from mechsym.mechanisms.closing import ClosingRule, CrankFreeRadially, Stiffnesses
-from mechsym.mechanisms.faces import RodlessFaces, four_faces
+from mechsym.mechanisms.closing import ClosingRule, CrankFreeRadially, RodlessFaces, Stiffnesses, four_faces
 from mechsym.mechanisms.peers import Alike, Peer
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities.records import Record

@@ -13,7 +13,7 @@ from fractions import Fraction
 import casadi
 import numpy as np
 
-from mechsym.native import emit
+from mechsym.native import source
 from mechsym.native.arc import Arcs, Form, arcs, form
 from mechsym.native.integrators import dop853
 from mechsym.native.kernels import constant_table
@@ -109,7 +109,7 @@ def _rows(program: Program, lanes: int) -> str:
     if not program.tape.outputs:
         head = f"MS_INLINE void {name}_rows{lanes}(const double *k, const double *x, double *y)"
         return head + " { (void)k, (void)x, (void)y; }"
-    return emit.bodies(program.kernels, name) + "\n" + emit.rows(program.kernels, name, lanes)
+    return source.bodies(program.kernels, name) + "\n" + source.rows(program.kernels, name, lanes)
 
 
 def _bent(of: Form, terms: int, even: bool) -> str:

@@ -10,8 +10,7 @@ import casadi
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.native.dialects import NUMPY, expression, unknown
-from mechsym.native.tape import Tape, read
+from mechsym.native.tape import NUMPY, Tape, expression, read, unknown
 from mechsym.quantities.units import Scalar
 
 _CHUNK = 2048

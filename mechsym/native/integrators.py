@@ -7,7 +7,7 @@ from numpy.polynomial import legendre
 
 from mechsym.errors import BadInput
 from mechsym.native import dop853_table as table
-from mechsym.native import emit
+from mechsym.native import source
 from mechsym.native.source import Program, header, preamble
 from mechsym.quantities.units import Array, Pure
 
@@ -43,8 +43,8 @@ def system(program: Program, lanes: int) -> str:
     return "\n".join(
         [
             preamble(),
-            emit.bodies(program.kernels, name),
-            emit.rows(program.kernels, name, lanes),
+            source.bodies(program.kernels, name),
+            source.rows(program.kernels, name, lanes),
             f"enum {{ MS_N = {n}, MS_P = {p}, MS_L = {lanes} }};",
             f"#define MS_RATES(k, x, y) {name}_rows{lanes}(k, x, y)",
             header("run.h"),

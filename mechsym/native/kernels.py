@@ -17,8 +17,7 @@ import dataclasses
 
 import numpy as np
 
-from mechsym.native.dialects import literal
-from mechsym.native.tape import CHEAP, Node, Tape, prune
+from mechsym.native.tape import CHEAP, Node, Tape, literal, prune
 from mechsym.quantities import record
 
 # a loop is worth its index tables only when it saves this many operations and assignments

@@ -9,10 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from mechsym.cycle.columns import WORDS
-from mechsym.quantities.display import without_unit
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import key_words, without_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
-from mechsym.style.palette import NOTHING
+from mechsym.style.panels import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
 
 _MOST = 6  # panels

@@ -157,7 +157,7 @@ def _verdict(case: Case, problem: "Problem", result: "Result") -> Outcome:
 
 
 def _told(case: Case, result: "Result", numbers: "RunNumbers") -> Outcome:
-    from mechsym.sweep.swept_run import swept
+    from mechsym.sweep.singles import swept
 
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")

@@ -18,10 +18,9 @@ from mechsym.quantities import record
 from mechsym.quantities.ranges import MOST
 from mechsym.quantities.units import Second
 from mechsym.sweep import cluster, store, work
-from mechsym.sweep.axes import Axis, Value, override, parse_axis, points, saltelli, split
+from mechsym.sweep.axes import Axis, Ties, Value, override, parse_axis, points, saltelli, split, ties
 from mechsym.sweep.outcomes import WORDS, Gap, Outcome, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
-from mechsym.sweep.ties import Ties, ties
 
 Progress = Callable[[int], object]
 INTERRUPTED = Gap(reason="interrupted")

@@ -1,4 +1,4 @@
-"""Records of a cylinder that breathes: its valves, charge, walls and surroundings, and a cycle found."""
+"""Records of a four-stroke cylinder that breathes: valves, charge, fuel, walls, surroundings; a cycle found."""
 
 import math
 

@@ -5,6 +5,8 @@ Where volumes are so large that none repeats for long, Newton looks for the one 
 A cycle runs from one closing of the inlet to the next. Crank angles count from firing top dead centre, so gas exchange
 lies around 2 pi.
 
+The cycle that repeats, by Newton, where volumes are so large that following cycle after cycle takes too long.
+
 .. math:: F(x) = g(x) - x = 0, \qquad x \leftarrow x - (g' - 1)^{-1} F
 
 g takes the state over one cycle; its slopes come from cycles of neighbours that run side by side. A cycle whose

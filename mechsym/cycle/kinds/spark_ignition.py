@@ -3,6 +3,8 @@ r"""The data of a four-stroke spark-ignition cycle with ideal gas exchange: char
 Crank angles count from firing top dead centre, so that the thesis's 180, 360 and 540 degrees are -180, 0 and 180.
 Start and duration of combustion are straight lines over the speed (Nunes 2017, eqs. (3.1) and (3.2)).
 
+Ideal air-standard cycles: what the cycle models come to when combustion is instant and nothing is lost.
+
 p |  2'--3          Seiliger (dual): heat at constant volume 2-2', then at constant pressure 2'-3
   |  |    \         Otto: only 2-2'     Diesel: only 2-3
   |  2     \        compression 1-2 and expansion 3-4 isentropic, heat rejected at constant volume 4-1

@@ -9,6 +9,8 @@ each plus what makes its smallest volume the clearance. x_i is the travel of pis
 area of the displacer's rod. A rhombic drive is a crank train with two cylinders on one throw, the displacer's axis
 turned by half a turn, their offsets mirrored.
 
+Equations of the adiabatic Stirling cycle: five spaces in a row that share one pressure.
+
     [expansion V_e, T_e]--[heater V_h, T_h]--[regenerator V_r]--[cooler V_k, T_k]--[compression V_c, T_c]
 
 The three exchangers keep their temperature, the two working spaces do not: what flows into one has the temperature of

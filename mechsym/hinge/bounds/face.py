@@ -1,4 +1,4 @@
-"""What every limit of a guide answers, and what a guide is and bears at an angle of its track."""
+"""What every limit of a guide answers, what a guide is and bears along its track, and the limits that there are."""
 
 import dataclasses
 import functools

@@ -15,8 +15,8 @@ from mechsym.papers.nunes2017.chapter4 import Peaks, chapter4
 from mechsym.papers.rows import Row
 from mechsym.quantities import dimension
 from mechsym.sizing.rules import crankshaft, piston
-from mechsym.sizing.rules import cylinder as bolt
-from mechsym.sizing.rules.cylinder import tdc_gap
+from mechsym.sizing.rules import piston as bolt
+from mechsym.sizing.rules.piston import tdc_gap
 
 
 def peaks() -> Peaks:

@@ -12,10 +12,9 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 from mechsym.quantities.units import Metre
 from mechsym.sizing.bearing_design import Choice, Seat
-from mechsym.sizing.crank_design import CrankLoads
+from mechsym.sizing.crank_design import CrankLoads, CylinderLoads
 from mechsym.sizing.gear_design import ToothLoads
 from mechsym.sizing.loads import Spans, side_loads, side_vectors, tooth_share_one_end
-from mechsym.sizing.piston_design import CylinderLoads
 from mechsym.sizing.rules.bearings import Bearing
 from mechsym.sizing.rules.materials import Material, get
 from mechsym.sizing.rules.turning_shaft import Shaft, moment, outer_shares
