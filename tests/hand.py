@@ -56,7 +56,7 @@ def told(row, folder):
     if not isinstance(done.exception, SystemExit | None):
         raise done.exception
     result = json.loads(done.stdout)
-    if "verdict" in result:
+    if row.get("line", "").startswith("audit"):
         bad = done.exit_code or "not read: " in result["note"]
         return [("verdict", result["verdict"])] if bad else []
     doubts = [(d["code"], d["quantity"]) for d in result.get("doubts", ())]
@@ -70,7 +70,7 @@ def _line(row, folder):
     case = str(_case(row, folder))
     if "trace" in row:
         write_trace(row["trace"], folder / "t.csv")
-    command, *options = row["run"].split()
+    command, *options = shlex.split(row["run"])
     own = command == "check" and row["on"].startswith("own") and "--trust" not in options
     return [command, case, *options, *["--trust"] * own]
 
