@@ -41,6 +41,7 @@ _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _RPM = 30 / math.pi  # rpm of one rad/s
 _DIGITS = 1e-3  # within which two numbers have the same digits, of the larger
 _CARRIES = 10.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+_LEADS = math.pi / 4  # how far pistons of one chamber lead and lag at the most [rad]
 _LATE = 0.9  # of a run, from when on a drive has no time to show what it does
 
 
@@ -118,11 +119,13 @@ def by_throws(parameters: Any) -> Iterator[Doubt]:
     from mechsym.mechanisms.crank_train.parameters import each
 
     angles = each(parameters, "firing") if parameters.firing else ()
-    # two pistons of one chamber fire together, one of them before its dead centre and the other behind
-    late = zip(angles, lateness(parameters), strict=True) if angles else ()
+    # two pistons of one chamber fire together, one of them a little before its dead centre and the other behind
+    late = tuple(zip(angles, lateness(parameters), strict=True)) if angles else ()
     alone = [beside for angle, beside in late if angles.count(angle) == 1]
+    together = [abs(beside) for angle, beside in late if angles.count(angle) > 1]
     what = "parameters.firing from the dead centre of the piston, rad"
     yield from proportion("firing_off", what, max(alone, key=abs, default=0.0))
+    yield from proportion("firing_off", f"{what}, of pistons that fire together", max(together, default=0.0), _LEADS)
     places, banks = each(parameters, "z"), each(parameters, "bank")
     for bank in sorted(set(banks)):
         throws = sorted({t for t, b in zip(parameters.throw, banks, strict=True) if b == bank})
