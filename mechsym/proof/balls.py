@@ -20,7 +20,7 @@ Ball = Any  # arb or acb: python-flint has no types
 
 
 def decimal(value: Scalar) -> Ball:
-    """The decimal number that a double prints as, in a ball of the same unit [SI]: 0.26 and not the double next to it."""
+    """The decimal number [SI] that a double prints as, in a ball: 0.26 and not the double next to it."""
     exact = Fraction(repr(float(value)))
     return arb(flint.fmpq(exact.numerator, exact.denominator))
 

@@ -99,7 +99,7 @@ def of_mechanism(name: str, ranges: Mapping[str, tuple[float, float]]) -> tuple[
 
 
 def of_guides(kernel: DesignKernel, share: float) -> tuple[Subject, ...]:
-    """The limits of guides: shares from angle to angle of the turn, and the margins, with all numbers +- a share [-]."""
+    """The limits of guides: shares around the turn, and the margins, with all numbers +- a share [-]."""
     around, ends = kernel.functions
     lanes: Box = tuple(widened(v, share) for v in kernel.lanes.values())
     pairs = [

@@ -45,7 +45,7 @@ def errors(
 
 
 def points_in(boxes: Sequence[Sequence[tuple[float, float]]], count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Random points (inputs, n) [SI] of boxes and the box of each; half of their values are ends, where errors are large."""
+    """Random points (inputs, n) [SI] of boxes and the box of each; half of their values are at the ends."""
     random = np.random.default_rng(seed)
     ends = np.array(boxes, dtype=float)
     which = random.integers(len(boxes), size=count)
