@@ -61,7 +61,7 @@ def test_even_firing_divides_the_period():
 
 
 def test_two_cylinders_lose_their_first_order():
-    """Of 30 cos(phi) + 12 cos(2 phi) two cylinders half a turn apart keep a work of 12 sin(2 phi) on twice the inertia."""
+    """Of 30 cos(phi) + 12 cos(2 phi) half a turn apart a work of 12 sin(2 phi) is kept, on twice the inertia."""
     angle = np.arange(360) * TURN / 360
     rows = counts([from_curve(angle, 50 + 30 * np.cos(angle) + 12 * np.cos(2 * angle), 0.1, 20.0)], 0.02, most=2)
     assert [row.cylinders for row in rows] == [1, 2]
