@@ -47,8 +47,7 @@ def write_engine(
     if not 1 <= count <= _MOST:
         raise BadInput(f"--cylinders {count}: allowed are 1 to {_MOST}")
     hangs = (rods or _RODS.get(kind)) == "articulated"
-    make = _KINDS[kind]
-    engine = make(bore, stroke, count, hangs) if kind in _RODS else make(bore, stroke, count)
+    engine = _KINDS[kind](bore, stroke, count, *([hangs] if kind in _RODS else []))
     text = _detuned(engine + _load_of(kind, gas, bore, stroke), bore, stroke)
     file = out / f"{name or f'{kind}-{count}'}.toml"
     if file.exists():
