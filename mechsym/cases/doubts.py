@@ -16,7 +16,7 @@ import functools
 import math
 from typing import TYPE_CHECKING
 
-from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_throws, by_twist
+from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_throws, by_twist, value
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
 from mechsym.mechanisms.plan import plan_of
@@ -33,7 +33,7 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from importlib import resources
 
-from mechsym.cases.laws import load_torques, value
+from mechsym.cases.laws import load_torques
 from mechsym.mechanisms.shaft import ElasticShaft
 from mechsym.plausible import letters
 from mechsym.quantities.units import Metre
@@ -104,7 +104,9 @@ def _of_links(sections: Records, listing: "Listing") -> tuple[Doubt, ...]:
     letters, steady = (
         dataclasses.asdict(sections[name]) if name in sections else {} for name in ("parameters", "inputs")
     )
-    return by_links(listing, letters, steady, getattr(sections.get("operation"), "speed", None))
+    steady |= {next(iter(listing["coordinates"])): value(sections, "drive", "torque")}
+    speed = getattr(sections.get("operation"), "speed", None)
+    return by_links(listing, letters, steady, dict.fromkeys(listing["coordinates"], speed) if speed else {})
 
 
 def _sizes(sections: Records, sizes: Proportions, bore: float | None) -> tuple[Doubt, ...]:
@@ -240,6 +242,8 @@ def _inertias(sections: Records, sizes: Proportions) -> Iterator[_Told]:
     kept = value(sections, "flywheel", "inertia") / scale
     if kept > 1:  # a small one is as good as none
         yield "inertia", f"flywheel.inertia / {about}", kept
+    if (turning := sum(sizes.shafts.values())) > 0:
+        yield "flywheel_share", "flywheel.inertia / inertia of the shaft", kept * scale / turning
     if "cycle" not in sections:
         yield "carried", f"inertia of the shaft / {about}", sum(sizes.shafts.values()) / scale + kept
 

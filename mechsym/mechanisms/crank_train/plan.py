@@ -10,7 +10,7 @@ from mechsym.mechanisms.crank_throw import NAME as THROW
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_train.assembly import build, build_rigid, listing
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, dead_centre, each, local_shift
 from mechsym.mechanisms.plan import AssembledMechanism
 from mechsym.mechanisms.proportions import Proportions, Reciprocating
 from mechsym.mechanisms.roles import BearingRole, FaceRole, GuideRole, PartRoles, RotorRole, ShaftRole
@@ -25,6 +25,7 @@ def roles(p: CrankTrainParameters) -> PartRoles:
     cylinders, firing = range(1, len(p.throw) + 1), each(p, "firing") or (0.0,) * len(p.throw)
     pins = [bearing for i in cylinders for bearing in _pins(p, i)]
     mains = [_main(p, k) for k in sorted(set(p.throw))]
+    tops = [top - shift for top, shift in zip(dead_centre(p), local_shift(p), strict=True)]
     return PartRoles(
         faces=tuple(
             FaceRole(
@@ -34,6 +35,7 @@ def roles(p: CrankTrainParameters) -> PartRoles:
                 fires=firing[i - 1],
                 throw=p.throw[i - 1] - 1,
                 masses=(each(p, "m_piston")[i - 1],),
+                top=tops[i - 1] if each(p, "master")[i - 1] else None,
             )
             for i in cylinders
         ),
