@@ -35,7 +35,10 @@ _UNEVEN = 1e-9  # of a turn: a last row so near to it repeats the first
 
 
 def lookup(name: str, breaks: np.ndarray, values: np.ndarray, at: Expr) -> Expr:
-    """A table as a function of sympy, told by its name where it is shown."""
+    """A table as a function of sympy, told by its name where it is shown.
+
+    breaks: ascending [rad]; values: below the first break and behind each [unit of the table].
+    """
     kind = type(name, (Lookup,), {"breaks": tuple(map(float, breaks)), "values": tuple(map(float, values)), "nargs": 1})
     return kind(at)
 
@@ -92,8 +95,8 @@ class Cams(Unilateral):
         radius of its base circle [m]. follower: knife, flat or roller, of radius `roller` [m]. It moves along y above
         the cam's centre, `offset` to the side [m]; or swings by `arm` [m] about a pivot at the distance `centres` along
         x, a flat one with its face `face` above the pivot [m]: its lift is an angle then. restitution: lets the
-        follower fly, with events in runs and a coordinate of its own, `gap_NAME`; without it the contact holds, and
-        `force_NAME` tells by its sign when it could not.
+        follower fly, with events in runs and a coordinate of its own, `gap_` and the cam's name; without it the contact holds, and
+        `force_` and its name tells by the sign when it could not.
         """
         self._usable(name)
         swings = self._kind_of(name, follower, roller, offset, arm, centres, face)
