@@ -95,8 +95,8 @@ class Cams(Unilateral):
         radius of its base circle [m]. follower: knife, flat or roller, of radius `roller` [m]. It moves along y above
         the cam's centre, `offset` to the side [m]; or swings by `arm` [m] about a pivot at the distance `centres` along
         x, a flat one with its face `face` above the pivot [m]: its lift is an angle then. restitution: lets the
-        follower fly, with events in runs and a coordinate of its own, `gap_` and the cam's name; without it the contact holds, and
-        `force_` and its name tells by the sign when it could not.
+        follower fly, with events in runs and a coordinate of its own, `gap_` and the cam's name; without it the contact
+        holds, and `force_` and its name tells by the sign when it could not.
         """
         self._usable(name)
         swings = self._kind_of(name, follower, roller, offset, arm, centres, face)
