@@ -10,7 +10,7 @@ import numpy as np
 
 from mechsym.cycle.motion import travel_of
 from mechsym.files import Json, to_json, write_quantities, write_text
-from mechsym.forces import plots
+from mechsym.forces import cams, plots
 from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
 from mechsym.forces.result import Forces, extremes
 from mechsym.forces.summary import CounterweightNumbers, half, quantities
@@ -37,7 +37,10 @@ def forces_view(forces: Forces) -> View:
         cards=_cards(forces),
         pictures=_pictures(forces),
         columns=lambda: forces.columns,
-        findings=lambda: [Finding(rank=NOT_MET, words=reason) for reason in forces.unbalanced],
+        findings=lambda: [
+            *(Finding(rank=NOT_MET, words=reason) for reason in forces.unbalanced),
+            *cams.findings(forces.turn),
+        ],
     )
 
 
