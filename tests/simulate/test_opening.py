@@ -1,11 +1,14 @@
 """A closed form that has no pose beyond an angle: the run ends there with the event `locked`, not as a failure."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from mechsym import cases
 from mechsym.cases.runs import settings_of
 from mechsym.errors import BadInput
+from mechsym.jobs import run
 from mechsym.jobs.problem import problem_of
 from mechsym.simulate import simulate
 
@@ -80,3 +83,23 @@ def test_the_flywheel_of_a_case_is_on_the_shaft(tmp_path):
     assert abs(energy.residual) < 1e-6
     speed = found[1].columns["phid"]
     assert found[1].columns["kinetic_energy"][5] > 0.5 * 0.5 * speed[5] ** 2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("b", "kind"), [(0.25, "dead_point"), (0.4, "bifurcation")])
+def test_a_run_of_a_case_goes_on_where_the_closed_form_ends(tmp_path, b, kind):
+    # with b = d and a = c the links lie flat at 0 and pi, and the crank turns evenly, which no torque drives
+    case = case_of(tmp_path, 3.0, 0.3)
+    found = run(replace(case, sections={**case.sections, "parameters": replace(case.need("parameters"), b=b)})).result
+    assert (found.status, found.end) == ("converged", "t_end")
+    assert len(found.happened.events) >= 4 and {e.kind for e in found.happened.events} == {kind}
+    assert abs(found.energy.residual) < 1e-9
+    phi, rod, rocker = (found.columns[n] for n in ("phi", "theta_rod", "theta_rocker"))
+    loop = 0.2 * np.exp(1j * phi) + b * np.exp(1j * rod) - 0.4 - 0.2 * np.exp(1j * rocker)
+    assert np.abs(loop).max() < 1e-12
+    if kind == "bifurcation":
+        np.testing.assert_allclose(phi, 0.3 + 3.0 * found.t, rtol=0, atol=1e-9)
+        np.testing.assert_allclose([e.t for e in found.happened.events],
+                                   (np.pi * np.arange(1, 5) - 0.3) / 3, rtol=0, atol=1e-9)  # fmt: skip
+    else:
+        assert np.abs(phi).max() == pytest.approx(LOCKS, abs=1e-3)
