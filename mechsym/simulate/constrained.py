@@ -65,7 +65,7 @@ def crossing_system(problem: Problem, one: Crossing) -> System:
     return _system(problem, y, lambda t, w, more: core(t, w, y[i], y[n + i], more), one.fixed)
 
 
-def _system(problem: Problem, y: ca.SX, rates: Callable[..., ca.DM], fixed: tuple[float, ...] = ()) -> System:
+def _system(problem: Problem, y: ca.SX, rates: Callable[..., ca.SX | ca.DM], fixed: tuple[float, ...] = ()) -> System:
     mechanism, outer = problem.mechanism, plain.outer_values(problem)
     works = tuple(f"work_{p.name}" for p in problem.parts)
     t, w, more = ca.SX.sym("t"), ca.SX.sym("w", len(outer)), ca.SX.sym("fixed", len(fixed))
