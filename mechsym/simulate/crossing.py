@@ -44,7 +44,7 @@ class Crossing:
 
     @property
     def fixed(self) -> tuple[float, ...]:
-        """What the equations take of it."""
+        """What the equations take of it: the meeting pose, the width, and the terms of each coordinate [SI]."""
         return (self.meet, self.width, *self.places.ravel(order="F"))
 
     def levels(self, met: bool) -> Mapping[str, Level]:

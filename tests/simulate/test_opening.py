@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from locking import CASE, FOURBAR
 
 from mechsym import cases
 from mechsym.cases.runs import settings_of
@@ -11,38 +12,6 @@ from mechsym.errors import BadInput
 from mechsym.jobs import run
 from mechsym.jobs.problem import problem_of
 from mechsym.simulate import simulate
-
-FOURBAR = """from mechsym.derive import Mechanism
-
-
-def fourbar():
-    m = Mechanism("fourbar")
-    phi = m.coordinates("phi")
-    a, b, c, d = m.parameters("a b c d", "m", above=0)
-    J = m.parameters("J", "kg*m^2", above=0)
-    M = m.inputs("M", "N*m")
-    crank, rod, rocker = m.link("crank", turns=phi, inertia=J), m.link("rod", inertia=J), m.link("rocker", inertia=J)
-    m.pin("A", m.frame, crank)
-    m.pin("B", crank.at(a), rod)
-    m.pin("D", m.frame.at(d), rocker)
-    m.pin("C", rod.at(b), rocker.at(c), branch=1)
-    m.torque(M, along=phi)
-    return m
-"""
-CASE = """mechanism = "./fourbar.py"
-[parameters]
-a = 0.2
-b = 0.25
-c = 0.2
-d = 0.4
-J = 0.01
-[simulation]
-t_end = 5
-speed_start = {speed}
-phi_start = {start}
-[drive]
-torque = {torque}
-"""
 
 
 def case_of(folder, speed=0.0, start=0.0, torque=0.0, more=""):
