@@ -33,9 +33,9 @@ class Crossing:
     """One of the motions that meet, over the coordinate that goes on best."""
 
     coordinate: int  #: Index of s
-    start: float  #: s where it begins, in the sense of the motion, and where the motions meet [rad] or [m]
-    meet: float
-    places: np.ndarray  #: shape (n, terms): Chebyshev's coefficients over the distance from `meet` by its width
+    start: float  #: s where it begins, in the sense of the motion [rad] or [m]
+    meet: float  #: s where the motions meet [rad] or [m]
+    places: np.ndarray  #: shape (n, terms): Chebyshev's coefficients over the way from `meet`, by its width [SI]
 
     @property
     def width(self) -> float:

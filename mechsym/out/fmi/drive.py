@@ -108,7 +108,7 @@ def _pointer(values: np.ndarray) -> "ctypes._Pointer[ctypes.c_double]":
 
 @contextlib.contextmanager
 def driven(path: Path, kind: str, tolerance: float = _TOLERANCE) -> Iterator[Driven]:
-    """An FMU unpacked, loaded and initialised as model exchange (`me`) or co-simulation (`cs`), with a tolerance [-]."""
+    """An FMU unpacked, loaded and initialised as model exchange (`me`) or co-simulation (`cs`), to a tolerance [-]."""
     fmpy = _fmpy()
     from fmpy import fmi2, fmi3
 
