@@ -22,8 +22,7 @@ from mechsym.cases import Case
 from mechsym.cases.runs import TURN_POINTS, count_times, count_turns, guesses, simulation_of
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
-from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import Guide, cut
+from mechsym.hinge.guide import Guide, cut, fitted
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.gas import at_recorded_speed
 from mechsym.jobs.machine import (
@@ -43,7 +42,7 @@ from mechsym.machine.record import Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.beyond import by_constraint, meets
 from mechsym.mechanisms.own import letters_class
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.shaft_inertia import at_rest, with_torque
+from mechsym.mechanisms.shaft import at_rest, with_torque
 from mechsym.quantities import quantity, record
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import at_angle, load_value, reduced
@@ -262,10 +261,7 @@ def is_hinged(case: Case) -> bool:
 
 
 def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Guide]:
-    """Engine, wanted torque and guide of a case with `[spring]` and `[guide]`.
-
-    Raises BadInput: the guide that the case asks for cannot be cut.
-    """
+    """Engine, wanted torque and guide of a case. Raises BadInput: the guide that it asks for cannot be cut."""
     engine, choices = machine(case, diagram), case.need("guide")
     wanted = torque(engine)
     guide = cut(balance(wanted, choices.balance), case.need("spring"), choices)

@@ -39,8 +39,7 @@ from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
 from mechsym.simulate.result import RunNumbers, final_state, summary
 from mechsym.simulate.steady import steady_state
-from mechsym.torsion.finished import EngineSpeed, FinishedRun
-from mechsym.torsion.startup import AVERAGE, StartUp, StartUpClaim, findings, start_up
+from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
 from mechsym.torsion.startup import numbers as start_numbers
 from mechsym.torsion.train import doubts, twist_words, words
 from mechsym.torsion.twist import Settling, natural_frequencies, sections, sentences, settling
@@ -285,10 +284,7 @@ def _two_discs(case: Case) -> ShaftRole:
 
 
 def startup_map(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...]) -> tuple[StartUp, ...]:
-    """The same start-up with several dampers, run side by side.
-
-    dampings: of the shaft. Returns found: one for each damper, in their order.
-    """
+    """The same start-up with several dampers of the shaft, run side by side; one for each, in their order."""
     (letter,) = _two_discs(case).damping
     damped = [replace(case.need("parameters"), **{str(letter): damping}) for damping in dampings]
     cases = [replace(case, sections={**case.sections, "parameters": p}) for p in damped]

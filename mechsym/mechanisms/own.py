@@ -272,10 +272,7 @@ def letters_class(name: str, fields: Mapping[str, Field], requires: Sequence[Map
 
 
 def require(record: type[Record], letters: Mapping[str, float]) -> None:
-    """Refuse numbers that a declaration refuses: those for which an expression is not above another.
-
-    record: class of the mechanism's numbers.
-    """
+    """Refuse numbers of a record that a declaration refuses: where an expression is not above another."""
     for required in vars(record)["requires"]:
         _require(required, letters)
 

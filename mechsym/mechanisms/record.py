@@ -102,10 +102,7 @@ def _coordinates(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
 
 
 def generated(name: str) -> ModuleType:
-    """The generated module of a mechanism.
-
-    Returns module: tables of names and plain functions for floats or CasADi symbols.
-    """
+    """The generated module: tables of names and plain functions for floats or CasADi symbols."""
     if own.is_file(name):
         return own.load(name).module
     if not (resources.files("mechsym.generated") / f"{name}.py").is_file():
