@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import asdict
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,14 +14,15 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.motion import pistons_of, travel_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.forces.driven import DrivenForces
-from mechsym.forces.motion import WORDS
 from mechsym.forces.result import Forces
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.plausible import PROPORTIONS, Doubt, inputs, moving_mass, piston_speed, proportion, proportions, results
 from mechsym.quantities.units import Pure, RadPerSecond, Second
 from mechsym.simulate.result import RunNumbers
+
+if TYPE_CHECKING:
+    from mechsym.forces.driven import DrivenForces
 
 # what commands tell of the gas, the key of its limit, and the unit it is told in [SI]
 _LIMITED = (("p_max_mpa", "peak_pressure", 1e6), ("p_max_bar", "peak_pressure", 1e5),
@@ -184,8 +186,10 @@ def _vectors(found: Forces) -> list[tuple[np.ndarray, np.ndarray]]:
     return [*((pin.x, pin.y) for pin in found.loads.pins), *found.loads.bearings.values()]
 
 
-def of_motion(case: Case, found: DrivenForces) -> tuple[Doubt, ...]:
+def of_motion(case: Case, found: "DrivenForces") -> tuple[Doubt, ...]:
     """Doubts of a driven motion: how far its words move, results by what moves, speeds of links, torques that bend."""
+    from mechsym.forces.motion import WORDS  # splines, which no other case needs
+
     section, table, listing = case.need("motion"), found.columns, plan_of(case.mechanism).listing(None)
     angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]
     told = [q for q in found.one.driven if getattr(section, q) in WORDS]

@@ -46,7 +46,7 @@ def size(
 
 
 def _step(path: Path | None, found: "Sizing") -> list[Path]:
-    from mechsym.out.cad.parts import bodies
+    from mechsym.out.cad.solids import bodies
     from mechsym.out.cad.step import write
 
     return [] if path is None else [write(path, bodies(found))]

@@ -2,7 +2,7 @@
 
     points      speeds and loads: the work that each wants from the hinge      machines: where they come from
     rank        a bound that knows no guide: how many springs pay, and cylinders; certificate: its proof
-    programme   the design: task -> basis, unknowns, contact_block -> co-design
+    programme   the design: task -> unknowns, contact_block -> co-design
     front       the same for many ripples and pressures; a guide cut for one point
     verify      every number by two other ways: running (over the angle, in time), and how sure it is
     scenarios, manoeuvres    what kills it, what controls it
@@ -33,7 +33,3 @@ _NAMES = {
 }
 __all__ = sorted(_NAMES)
 __getattr__ = lazily(__name__, _NAMES)
-
-
-def __dir__() -> list[str]:
-    return __all__

@@ -14,8 +14,8 @@ from mechsym import periodic
 from mechsym.codesign.hardware import Hardware
 from mechsym.codesign.points import Function, Point
 from mechsym.codesign.settings import CoDesignSettings
-from mechsym.cycle.gas import unfired, unfired_kinks
 from mechsym.cycle.kinds import kind_of
+from mechsym.cycle.pressure import unfired, unfired_kinks
 from mechsym.errors import BadInput, shown
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.rollers import RollerParameters

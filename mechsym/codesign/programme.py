@@ -29,11 +29,10 @@ import casadi as ca
 import numpy as np
 
 from mechsym.codesign import contact_block, unknowns
-from mechsym.codesign.basis import Basis, basis, curve
 from mechsym.codesign.points import Point, Samples, sample
 from mechsym.codesign.settings import FREE
 from mechsym.codesign.task import Active, CoDesign, CoDesignTask, Track
-from mechsym.codesign.unknowns import Gathered, GuideSymbols, guides
+from mechsym.codesign.unknowns import Basis, Gathered, GuideSymbols, basis, curve, guides
 from mechsym.codesign.verify import passed
 from mechsym.hinge.bounds.face import asked as asked_of
 from mechsym.hinge.springs.face import lettered

@@ -12,7 +12,8 @@ import numpy as np
 
 from mechsym.cycle.chamber import Chamber, Motion, chamber_over, piston_force, travel
 from mechsym.cycle.friction import NoFriction, brake_figures, friction_pressure
-from mechsym.cycle.gas import Gas, Pressure
+from mechsym.cycle.gas import Gas
+from mechsym.cycle.pressure import Pressure
 from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
 from mechsym.files import Json
 from mechsym.quantities import RPM

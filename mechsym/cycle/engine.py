@@ -16,10 +16,11 @@ from mechsym.cycle.closed.performance import Performance, performance
 from mechsym.cycle.closed.run import at_angles, run
 from mechsym.cycle.cylinder import ENGINE_PAGE, otto_bound
 from mechsym.cycle.friction import mechanical_efficiency
-from mechsym.cycle.gas import Gas, periodic, pressure_over
+from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds.printed import marched, performance_printed
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
 from mechsym.cycle.mixture import ConstantGamma
+from mechsym.cycle.pressure import periodic, pressure_over
 from mechsym.cycle.source import EngineParts, Progress, unseen
 from mechsym.errors import BadInput
 from mechsym.files import Json

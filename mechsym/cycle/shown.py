@@ -8,7 +8,8 @@ import numpy as np
 from mechsym.cycle.chamber import volume
 from mechsym.cycle.columns import AFTER_FRICTION, UNITS, CycleColumns, CycleFigures
 from mechsym.cycle.compare import EngineComparison
-from mechsym.cycle.gas import Gas, Pressure
+from mechsym.cycle.gas import Gas
+from mechsym.cycle.pressure import Pressure
 from mechsym.files import Json
 from mechsym.page import Card, Picture, View, card, shows
 from mechsym.quantities.display import figure, quantity_text

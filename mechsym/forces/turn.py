@@ -18,7 +18,6 @@ import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.cycle.gas import Gas, over_travel
 from mechsym.cycle.motion import from_top, slopes, top_of
 from mechsym.errors import BadInput
 from mechsym.mechanisms.amounts import amount
@@ -32,6 +31,7 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.units import Array, Kilogram, NewtonMetre, Pure, Radian, RadPerSecond
 
 if TYPE_CHECKING:
+    from mechsym.cycle.gas import Gas
     from mechsym.mechanisms.closing import RodlessFaces
 
 _STEPS_PER_TURN = 1440
@@ -228,10 +228,12 @@ def acting(drive: CrankDrive, gas: Gases) -> tuple[Acting, ...]:
     return tuple(Acting(face=one, gas=_own(drive, one, gas)) for one in faces_of(drive))
 
 
-def _own(drive: CrankDrive, face: GasFace, gas: Gas) -> Gas:
+def _own(drive: CrankDrive, face: GasFace, gas: "Gas") -> "Gas":
     """The gas of a face: that of all, but over its own travel where it moves otherwise."""
     if face.top is None:
         return gas
+    from mechsym.cycle.gas import over_travel  # friction in a case needs no gas
+
     first = next(one.travel for one in drive.roles.faces if one.top is None)
     own, other = (from_top(slopes(drive.mechanism, travel, {})) for travel in (first, face.travel))
     return over_travel(gas, own, other, math.remainder(face.top - face.fires, 2 * math.pi))

@@ -13,7 +13,7 @@ import dataclasses
 import numpy as np
 import scipy
 
-from mechsym.cycle.gas import unfired, unfired_kinks
+from mechsym.cycle.pressure import unfired, unfired_kinks
 from mechsym.hinge import losses as law
 from mechsym.hinge.contact import Contact, at_angles
 from mechsym.hinge.guide import Guide, fitted

@@ -17,7 +17,3 @@ _NAMES = {
 }
 __all__ = sorted(_NAMES)
 __getattr__ = lazily(__name__, _NAMES)
-
-
-def __dir__() -> list[str]:
-    return __all__

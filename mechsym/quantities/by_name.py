@@ -39,3 +39,6 @@ class _Lazy(ModuleType):
         # the import of a module would bind it under its name, in place of what has that name
         if not (isinstance(value, ModuleType) and name in self.__dict__["_NAMES"]):
             super().__setattr__(name, value)
+
+    def __dir__(self) -> list[str]:
+        return list(self.__dict__.get("__all__") or super().__dir__())

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mechsym.codesign.basis import basis, curve, fitted, matrices
 from mechsym.codesign.certificate import swing_per_inertia
+from mechsym.codesign.unknowns import basis, curve, fitted, matrices
 
 TURN = 2 * np.pi
 

@@ -17,7 +17,7 @@ from mechsym.codesign.points import bare_flywheel
 from mechsym.codesign.rank import even_firing, rank, together
 from mechsym.codesign.realise import realise
 from mechsym.codesign.verify import worst
-from mechsym.cycle.gas import unfired
+from mechsym.cycle.pressure import unfired
 from mechsym.errors import BadInput
 from mechsym.hinge.losses import HingeLosses
 from mechsym.jobs.codesign import points as points_of

@@ -8,7 +8,7 @@ import pytest
 from slider_crank import slider_crank
 
 from mechsym.cycle.chamber import chamber_over, dvolume_dphi, travel, volume
-from mechsym.cycle.gas import periodic, wrapped
+from mechsym.cycle.pressure import periodic, wrapped
 from mechsym.errors import BadInput
 from mechsym.mechanisms import crosshead
 

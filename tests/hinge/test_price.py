@@ -8,7 +8,7 @@ import pytest
 from hinges import monotone_seal_torque
 
 from mechsym import cases, jobs
-from mechsym.cycle.gas import unfired
+from mechsym.cycle.pressure import unfired
 from mechsym.hinge.guide import cut, fitted
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import misfire_share, price

@@ -13,8 +13,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.size import size
-from mechsym.out.cad.parts import bodies
-from mechsym.out.cad.solids import Plate, Turned, hull_area, tangents, tube, volume
+from mechsym.out.cad.solids import Plate, Turned, bodies, hull_area, tangents, tube, volume
 from mechsym.sizing.rows import Sizing
 
 

@@ -17,8 +17,7 @@ from mechsym.out.cad import track
 from mechsym.out.cad.check import true_size
 from mechsym.out.cad.check_step import main, read, wall_deviation
 from mechsym.out.cad.curve import tracks_of
-from mechsym.out.cad.parts import bodies
-from mechsym.out.cad.solids import volume
+from mechsym.out.cad.solids import bodies, volume
 from mechsym.out.cad.step import guide_bodies, write
 
 pytestmark = pytest.mark.slow

@@ -22,7 +22,6 @@ from mechsym.cycle.breathing.scavenging import Scavenging, dew_point, flow_area,
 from mechsym.cycle.breathing.turbocharger import atmosphere, compressor_temperature
 from mechsym.cycle.chamber import Chamber, chamber_over, volume
 from mechsym.cycle.cylinder import CylinderGas
-from mechsym.cycle.gas import Pressure, mean_indicated_pressure
 from mechsym.cycle.kinds.two_stroke import (
     TwoStrokeMarine,
     absolute_pressure,
@@ -33,6 +32,7 @@ from mechsym.cycle.kinds.two_stroke import (
     solve,
     two_stroke_pressure,
 )
+from mechsym.cycle.pressure import Pressure, mean_indicated_pressure
 from mechsym.cycle.source import EngineParts
 from mechsym.errors import BadInput
 from mechsym.quantities import record

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from mechsym.cycle.chamber import Chamber, motion_over, piston_area
-from mechsym.cycle.gas import Gas, Pressure, periodic
+from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds.stirling_second_order import SecondOrder, second_order
 from mechsym.cycle.kinds.stirling_spaces import (
     FiveSpaces,
@@ -24,6 +24,7 @@ from mechsym.cycle.kinds.stirling_spaces import (
 )
 from mechsym.cycle.kinds.stirling_turn import StirlingTurn, turn
 from mechsym.cycle.plots import stirling_picture
+from mechsym.cycle.pressure import Pressure, periodic
 from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
 from mechsym.files import Json
 from mechsym.quantities import RPM, record

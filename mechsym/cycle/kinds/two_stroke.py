@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
-from mechsym.cycle.gas import ATMOSPHERE, Pressure, mean_indicated_pressure, periodic, pressure_over, wrapped
+from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, periodic, pressure_over, wrapped
 from mechsym.cycle.wiebe import BURNT, double_burnt_at, double_wiebe
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
