@@ -285,6 +285,8 @@ def truncated(exam: Examination, start: Repair) -> str | None:
         if not all(powers(more[k], start.tree).pure for k in loads):
             return None
     first = {k: p.first for k, p in zip(loads, standing, strict=True) if p.first is not None}
+    if len(first) < len(loads) or not loads:
+        return None  # it leaves out nothing, and differs all the same
     if overshoot(exam.question, start.tree, first) > _MOST:
         return None
     return f"leaves out {_powers({k for p in standing for k in p.missing[:1]})} and what follows"
@@ -392,6 +394,8 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
             same = np.isfinite(wish) and wish and np.all(np.abs(np.asarray(values) / wish - 1) < _SAME)
             if not same or abs(wish - printed) > half:
                 continue
+            if abs(wish - printed) <= _SAME * abs(printed) < half:
+                continue  # it is not this number that has lost digits
             mended = value(quick, replace(tree, place.path, number(Fraction(wish))))
             with np.errstate(all="ignore"):
                 away = np.abs(mended - quick.expected) / peak(quick.expected)
