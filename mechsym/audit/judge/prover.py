@@ -22,7 +22,7 @@ from mechsym.audit.judge.question import (
     used_names,
     value,
 )
-from mechsym.audit.judge.window import branch, has_cases, is_same, is_wide, Window, wide_window
+from mechsym.audit.judge.window import Window, branch, has_cases, is_same, is_wide, wide_window
 from mechsym.audit.read.algebra import DIGITS, FLOATS, SYMBOLS, evaluate
 from mechsym.audit.read.tree import Node, name
 from mechsym.audit.theory.record import complete

@@ -24,7 +24,7 @@ from mechsym.audit.judge.question import (
     value,
 )
 from mechsym.audit.read.algebra import DIGITS, FLOATS, Values
-from mechsym.audit.read.tree import Node, binary, function_of, is_operation, letters, value_of, walk
+from mechsym.audit.read.tree import Node, argument_of, binary, function_of, is_operation, letters, value_of, walk
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.theory.tape import Harmonic, Root
 from mechsym.quantities import record
@@ -75,12 +75,13 @@ def _cancels(asked: Bench, trees: Iterable[Node]) -> np.ndarray:
         parts = part_values(asked, tree)
         for node, total in parts.items():
             with np.errstate(all="ignore"):
-                if is_operation(node, ast.Add, ast.Sub):
+                # a + |a| is to vanish: it is a largest value
+                if is_operation(node, ast.Add, ast.Sub) and "abs" not in map(function_of, (node.left, node.right)):
                     size = np.maximum(np.abs(parts[node.left]), np.abs(parts[node.right]))
                     gone = np.abs(total) <= _LOST * size
                     lost |= np.any(gone, axis=0) if np.ndim(gone) > 1 else gone
-                elif function_of(node) == "exp":
-                    lost |= np.abs(parts[node.args[0]]) > _STEEP
+                elif (exponent := argument_of(node, "exp")) is not None:
+                    lost |= np.abs(parts[exponent]) > _STEEP
     return lost
 
 
@@ -187,12 +188,12 @@ def _trees(entry: object) -> Iterable[Node]:
 
 def _of(tree: Node) -> Iterator[Node]:
     for _, node in walk(tree):
-        if function_of(node) == "abs":
-            yield node.args[0]
+        if (inside := argument_of(node, "abs")) is not None:
+            yield inside
         elif isinstance(node, ast.Compare):
             yield binary(ast.Sub, node.left, node.comparators[0])
-        elif function_of(node) in ("sqrt", "atan"):
-            yield from _factors(node.args[0])
+        elif (inside := argument_of(node, "sqrt", "atan")) is not None:
+            yield from _factors(inside)
         elif is_operation(node, ast.Pow) and value_of(node.right) is None or is_operation(node, ast.Div):
             yield from _factors(node.right if is_operation(node, ast.Div) else node.left)
 
@@ -222,7 +223,10 @@ def branch(question: Question, asked: Bench, agrees: np.ndarray) -> Node | None:
 def has_cases(tree: Node) -> bool:
     """Whether a formula itself holds |.|, the root of a square, or cases."""
     return any(
-        function_of(n) == "abs" or isinstance(n, ast.IfExp) or function_of(n) == "sqrt" and _is_square(n.args[0])
+        function_of(n) == "abs"
+        or isinstance(n, ast.IfExp)
+        or (a := argument_of(n, "sqrt")) is not None
+        and _is_square(a)
         for _, n in walk(tree)
     )
 

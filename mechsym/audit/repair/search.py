@@ -239,6 +239,7 @@ def _left_out(known: _Known, tree: Node, spots: list[Spot], wishes: Wishes, memo
 
 
 _SAME = 1e-9
+_NOISE = 1e-12
 # an error beyond this at the source's data is no approximation, whatever its powers
 LARGEST_ERROR = 5.0
 # a truncation is off by little more than the first term that it leaves out
@@ -394,7 +395,7 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
             same = np.isfinite(wish) and wish and np.all(np.abs(np.asarray(values) / wish - 1) < _SAME)
             if not same or abs(wish - printed) > half:
                 continue
-            if abs(wish - printed) <= _SAME * abs(printed) < half:
+            if abs(wish - printed) <= _NOISE * abs(printed) < half:
                 continue  # it is not this number that has lost digits
             mended = value(quick, replace(tree, place.path, number(Fraction(wish))))
             with np.errstate(all="ignore"):
