@@ -11,13 +11,15 @@ from importlib import resources
 from pathlib import Path
 
 import gallery
+import pictures
 from click.testing import CliRunner
 
-from mechsym import mechanisms
+from mechsym import cases, mechanisms
 from mechsym.app.told import KNOWN
 from mechsym.cases.keys import keys
 from mechsym.cli import COMMANDS, mechsym
 from mechsym.cli.results import RESULTS, rows
+from mechsym.jobs.drawing import drawing
 from mechsym.quantities.display import without_unit
 from mechsym.quantities.words import key_words
 
@@ -57,6 +59,12 @@ EXAMPLES = {
 BEFORE = {
     "identify": 'simulate chmielewski --set "simulation.t_end=3 s" --set "simulation.window=1 s" --out run',
 }
+# a built-in case that shows a mechanism with its sizes
+SHOWN = {
+    "crosshead": "zotov-89", "crank_throw": "opposed-pistons", "hypocycloid": "nunes-hypocycloid",
+    "rodless": "balandin", "crankshaft_flywheel": "chmielewski",
+}  # fmt: skip
+EXAMPLE_FILES = Path(__file__).parents[1] / "examples" / "mechanisms"
 ROOMS = (
     "quantities periodic style page plausible convert native mechanisms cycle sizing machine simulate hinge "
     "torsion forces optimise codesign cases jobs sweep audit papers out"
@@ -206,11 +214,29 @@ def equations() -> str:
             continue
         stored = json.loads((resources.files("mechsym.generated") / "equations" / f"{name}.json").read_text())
         parts.append(f"## {name}\n\n{stored['about']}\n")
+        if name in SHOWN:
+            parts.append(_turning(SHOWN[name]))
         letters = [f"`{n} [{u}]`" for kind in ("coordinates", "parameters", "inputs") for n, u in stored[kind].items()]
         parts.append(f"Letters: {', '.join(letters)}.\n")
         rows = "".join(f"<p><math display='block'>{row['mathml']}</math></p>" for row in stored["equations"])
         parts.append(f"```{{raw}} html\n<div style='overflow-x:auto'>{rows}</div>\n```\n")
+    parts.append(
+        "## Of files\n\nEach is [declared in a file](own-mechanism.md) of examples/mechanisms and drawn from it.\n"
+    )
+    for case in sorted(EXAMPLE_FILES.glob("*.toml")):
+        if turning := _turning(str(case)):
+            parts.append(f"### {case.stem.replace('-', ' ')}\n\n{turning}")
     return "\n".join(parts) + "\n"
+
+
+def _turning(name: str) -> str:
+    """The machine of a case, turning to scale."""
+    case = cases.load(name)
+    shapes = drawing(case)
+    if shapes is None:
+        return ""
+    picture = pictures.moving(shapes, f"{case.mechanism}, turning".rpartition("/")[2], {})
+    return f"{case.about}, to scale:\n\n```{{raw}} html\n<div style='max-width:34rem'>{picture}</div>\n```\n"
 
 
 def rooms() -> str:

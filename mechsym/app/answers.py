@@ -16,7 +16,7 @@ from mechsym.hinge.moving import engine
 from mechsym.hinge.result import Design
 from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.summary import guide_turn
-from mechsym.jobs.drawing import drawing
+from mechsym.jobs.drawing import turning
 from mechsym.jobs.hinge import hinge
 from mechsym.machine.loads import PropellerLoad
 from mechsym.mechanisms import plots
@@ -103,10 +103,10 @@ def moving(answer: Answer, title: str) -> str | None:
 def machine(name: str, values: Mapping[str, float]) -> str | None:
     """A page in which the machine of a case with other values turns [SI unit of the key]; None where nothing draws."""
     try:
-        shapes = drawing(cases.load(name, values))
+        scenes = turning(cases.load(name, values))
     except BadInput:
         return None
-    return None if shapes is None else plots.animation_of(shapes, "the machine")
+    return plots.turning_page(scenes, "the machine") if scenes else None
 
 
 def _rows(design: Design) -> tuple[tuple[str, str], ...]:

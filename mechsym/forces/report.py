@@ -7,10 +7,12 @@ from typing import Any
 
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+from mechsym.forces.moving import charged
 from mechsym.forces.result import Forces, extremes
 from mechsym.forces.summary import quantities
 from mechsym.mechanisms import plots as plots_mechanism
 from mechsym.mechanisms.drawing import Shapes, drawn
+from mechsym.mechanisms.turning import rules, scene
 from mechsym.page import Finding, page, title_mark
 from mechsym.quantities.results import tell, units_of
 from mechsym.style import svg
@@ -24,16 +26,18 @@ def write(result: Forces, numbers: Json, folder: Path, about: str, findings: Seq
     """
     shapes = drawing_of(result)
     pictures = {picture.name: picture.draw() for picture in result.view.pictures}
+    scenes = []
     if shapes is not None:
         pictures["mechanism"] = plots_mechanism.figure_of(shapes, 0.8)
+        scenes = [charged(scene(shapes, "the machine to scale"), result.turn.drive, result.turn.acting)]
     figures = {name: svg(figure) for name, figure in pictures.items()}
     files = [
-        write_text(folder / "report.html", html(result, numbers, figures, about, findings)),
+        write_text(folder / "report.html", html(result, numbers, figures, about, findings, scenes)),
         write_quantities(folder / "forces.csv", result.columns, result.columns.units),
         write_text(folder / "summary.json", to_json(numbers) + "\n"),
     ]
     if shapes is not None:
-        files.append(write_text(folder / "mechanism.html", plots_mechanism.animation_of(shapes, about)))
+        files.append(write_text(folder / "mechanism.html", plots_mechanism.turning_page(scenes, about)))
     if result.comparison is not None:
         rows = [tell(row) for row in result.comparison]
         names = [name for name, value in rows[0].items() if not isinstance(value, Mapping)]
@@ -43,7 +47,10 @@ def write(result: Forces, numbers: Json, folder: Path, about: str, findings: Seq
     return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
 
 
-def html(result: Forces, numbers: Json, figures: dict[str, str], about: str, findings: Sequence[Finding] = ()) -> str:
+def html(
+    result: Forces, numbers: Json, figures: dict[str, str], about: str, findings: Sequence[Finding] = (),
+    scenes: Sequence[Json] = (),
+) -> str:  # fmt: skip
     """The page as text."""
     rows = [row | {"at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(result)]
     see = {picture.name: picture.see for picture in result.view.pictures}
@@ -52,7 +59,7 @@ def html(result: Forces, numbers: Json, figures: dict[str, str], about: str, fin
         "forces.html", numbers=numbers, figures=figures, about=about, see=see, rows=rows,
         cards=result.view.cards, several=any(row["of"] for row in rows), largest=largest,
         heaviest=largest / result.turn.omega**2, closing=numbers.get(numbers["mechanism"]),
-        findings=findings, mark=title_mark(findings),
+        findings=findings, mark=title_mark(findings), scenes=scenes, rules=rules(),
     )  # fmt: skip
 
 
@@ -60,7 +67,7 @@ def drawing_of(forces: Forces) -> Callable[[float], Shapes] | None:
     """The mechanism at a crank angle [rad]; None where nothing draws it."""
     one, gas = forces.turn.drive, forces.turn.gas
     bore = None if gas is None else float(gas.chamber.bore)
-    return drawn(one.name, one.parameters, one.mechanism, bore)
+    return drawn(one.name, one.parameters, lambda: one.mechanism, bore)
 
 
 # what bears a load, by how its name starts

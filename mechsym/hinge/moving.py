@@ -39,7 +39,13 @@ def hinge_scene(guide: Guide, rollers: RollerParameters, turns: Pure, frames: in
     drawn = elastic_hinge(guide, rollers)
     two = any(shape.role == "second_track" for shape in drawn(0.0))
     tracks = ", first track (red) and second (violet), in planes beside each other" if two else ", track"
-    return scene(drawn, f"the elastic hinge to scale: spring with its pistons, rollers{tracks}", turns, frames)
+    shown = scene(drawn, f"the elastic hinge to scale: spring with its pistons, rollers{tracks}", turns, frames)
+    theta = guide.parameters.shaft_ratio * np.linspace(0, 2 * np.pi * turns, frames, endpoint=False) % (2 * np.pi)
+    pressure = at_angles(guide, rollers, theta).pressure
+    if pressure is not None:
+        share = np.rint(100 * pressure / pressure.max()).astype(int).tolist()
+        shown["shapes"] = [shape | {"share": share} if shape["role"] == "gas" else shape for shape in shown["shapes"]]
+    return shown
 
 
 def engine(design: Design) -> Callable[[float], Shapes] | None:

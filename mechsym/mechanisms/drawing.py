@@ -44,15 +44,15 @@ def shapes(mechanism: str, parameters: Record, angle: Radian, bore: Metre | None
 
 
 def drawn(
-    mechanism: str, parameters: Record, functions: Mechanism, bore: Metre | None = None
+    mechanism: str, parameters: Record, functions: Callable[[], Mechanism], bore: Metre | None = None
 ) -> Callable[[float], Shapes] | None:
     """Crank angle [rad] to shapes: of a mechanism that is drawn by formulas, or by the links of its declaration.
 
-    bore: diameter of the cylinders.
+    functions: makes the mechanism with one coordinate, where it takes that; bore: diameter of the cylinders.
     """
     if any(True for _ in plan_of(mechanism).shapes(parameters, 0.0, bore)):
         return lambda angle: shapes(mechanism, parameters, angle, bore)
-    return declared(functions, listing(mechanism))
+    return declared(functions(), listing(mechanism))
 
 
 def declared(mechanism: Mechanism, said: "Listing") -> Callable[[float], Shapes] | None:

@@ -1,9 +1,10 @@
 """A drawing of a mechanism painted with matplotlib, or moving in a page that opens offline."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from mechsym.files import Json
 from mechsym.mechanisms.drawing import Circle, Shapes, extent_of, shapes
 from mechsym.mechanisms.turning import FRAMES, STYLES, ordered, rules, scene
 from mechsym.page import page
@@ -71,5 +72,9 @@ def animation(mechanism: str, parameters: Record, title: str, bore: float | None
 
 def animation_of(drawn: Callable[[float], Shapes], title: str, turns: int = 1) -> str:
     """A page in which a drawing over the crank angle [rad] turns so often; it needs nothing from outside."""
-    scenes = [scene(drawn, "the mechanism to scale", turns, FRAMES * turns)]
+    return turning_page([scene(drawn, "the mechanism to scale", turns, FRAMES * turns)], title)
+
+
+def turning_page(scenes: Sequence[Json], title: str) -> str:
+    """A page in which scenes turn."""
     return page("mechanism.html", title=title, scenes=scenes, readouts=[], rules=rules())

@@ -1,15 +1,16 @@
 """Drawings that turn in a page: what stands still once, what moves for every angle; colours by the role of a part."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
 from mechsym.files import Json
 from mechsym.mechanisms.drawn_parts import Circle, Line, Shapes, extent_of
+from mechsym.quantities import record
 from mechsym.quantities.units import Pure
 from mechsym.style import BLUE, DARK, GREEN, INK, PAPER, QUIET, RED, VIOLET
-from mechsym.style.palette import GAS, PISTON, ROLLER, WHEEL
+from mechsym.style.palette import GAS, ORANGE, PISTON, ROLLER, WHEEL
 
 FRAMES = 120
 # role: colour of the line, line width in points, filled colour; what comes first lies behind
@@ -26,6 +27,8 @@ STYLES: dict[str, tuple[str, float, str]] = {
     "crank": (RED, 3.4, "none"),
     "roller": (INK, 1.4, ROLLER),
     "joint": (INK, 1.2, PAPER),
+    "force": (ORANGE, 2.6, "none"),
+    "trace": (ORANGE, 1.0, "none"),
 }
 
 _BODIES, _BODY = ("rod", "crank"), 4.0  # drawn by their middle lines; as wide as bodies in a page
@@ -64,6 +67,59 @@ def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames
     return {"name": name, "size": size, "scale": scale, "turns": turns, "count": frames, "shapes": shapes}
 
 
+@record
+class Pushed:
+    """What the gas does to a piston."""
+
+    travel: np.ndarray  #: From the head, at the frames of a scene, shape (n,) [m]
+    force: np.ndarray  #: Net force away from the head over the whole period of the gas, shape (m,) [N]
+
+
+def filled(shown: Json, charges: Sequence[Pushed]) -> Json:
+    """A scene whose cylinders say what their gas does, as shares of the largest force.
+
+    A piston that is drawn is the one that moves as it does; of several that move alike the first that is not yet drawn.
+    """
+    most = max((float(np.abs(one.force).max()) for one in charges), default=0.0)
+    walls = [k for k, s in enumerate(shown["shapes"]) if s["role"] == "frame" and len(s["at"]) == 2 * len(_WALLS)]
+    crowns = [k for k, s in enumerate(shown["shapes"]) if s["role"] == "piston" and s["closed"]]
+    rows, drawn = [], [0] * len(charges)
+    for wall, crown in ((w, c) for w in walls for c in crowns if most):
+        depth = _depth(*(_places(shown["shapes"][k]) for k in (wall, crown)))
+        if depth is None:
+            continue
+        away = [float(np.abs(_share(depth) - _share(one.travel)).max()) for one in charges]
+        number = min(range(len(charges)), key=lambda k: (round(away[k], 2), drawn[k]))
+        drawn[number] += 1
+        share = np.rint(100 * charges[number].force / most).astype(int)
+        rows.append({"wall": wall, "piston": crown, "share": share.tolist()})
+    count = max([shown["count"], *(len(row["share"]) for row in rows)])
+    return shown | {"gases": rows, "count": count, "turns": shown["turns"] * count / shown["count"]}
+
+
+_WALLS = "wall head head wall".split()  # corners of a cylinder as it is drawn
+
+
+def _places(shape: Json) -> np.ndarray:
+    """Corners of a shape at the frames, or once where it stands still, shape (n, corners, 2)."""
+    return np.reshape(shape["moves"] or [shape["at"]], (-1, len(shape["at"]) // 2, 2))
+
+
+def _depth(wall: np.ndarray, piston: np.ndarray) -> np.ndarray | None:
+    """How far a piston stands from the head of a cylinder at each frame; None where it runs in another one."""
+    way = wall[:, 1] - wall[:, 0]
+    length = np.linalg.norm(way, axis=1)
+    along, middle = way / length[:, None], (wall[:, 0] + wall[:, 3]) / 2
+    corners = np.einsum("fcx,fx->fc", piston - middle[:, None], along)
+    beside = np.linalg.norm(piston[:, :4].mean(axis=1) - middle - corners[:, :4].mean(axis=1)[:, None] * along, axis=1)
+    depth = length - corners.max(axis=1)
+    return depth if beside.max() < 0.02 * length.min() and depth.min() > 0 and corners.min() > -length.min() else None
+
+
+def _share(values: np.ndarray) -> np.ndarray:
+    return (values - values.min()) / (np.ptp(values) or 1.0)
+
+
 def rules() -> str:
     """Styles of the roles for light and dark paper."""
     dark = "".join(f".{role}{_colours(DARK[line], DARK.get(fill, fill))}" for role, (line, _, fill) in STYLES.items())
@@ -72,6 +128,8 @@ def rules() -> str:
         for role, (line, width, fill) in STYLES.items()
     )
     light += "".join(f".{role}.open{{stroke-width:{_BODY * STYLES[role][1]:g}}}" for role in _BODIES)
+    light += f".gas{{fill:color-mix(in srgb,{RED} calc(.6*var(--share,0%)),{GAS})}}"
+    dark += f".gas{{fill:color-mix(in srgb,{DARK[RED]} calc(.6*var(--share,0%)),{DARK[GAS]})}}"
     return f"{light}@media screen and (prefers-color-scheme:dark){{{dark}}}"
 
 

@@ -24,7 +24,8 @@ def page(name: str, **values: object) -> str:
     >>> page("cards.html", cards=(), title="Empty").startswith('<div class="mechsym">')
     True
     """
-    return str(_environment().get_template(name).render(**values))
+    text = str(_environment().get_template(name).render(**values))
+    return text.replace("</body>", page("live.html") + "</body>") if " data-panels=" in text else text
 
 
 @functools.lru_cache(maxsize=1)

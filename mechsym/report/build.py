@@ -8,7 +8,7 @@ from mechsym import cases, inputs
 from mechsym.cases import Case
 from mechsym.cases.provenance import SourcedValue, sourced
 from mechsym.files import Json
-from mechsym.jobs.drawing import turning
+from mechsym.jobs.drawing import turning, with_gas
 from mechsym.jobs.measured import MeasuredDiagram
 from mechsym.mechanisms.turning import rules
 from mechsym.page import page, title_mark
@@ -111,7 +111,8 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
 
 def _turning(one: CaseReport) -> list[Json]:
     """What turns at the head of a report: the engine with its hinge, or the machine alone."""
-    return next((scenes for found in one.parts if (scenes := found.turning())), None) or turning(one.case)
+    of_parts = next((scenes for found in one.parts if (scenes := found.turning())), None)
+    return with_gas(of_parts, one.case) if of_parts else turning(one.case)
 
 
 def _title(reports: Sequence[CaseReport]) -> str:

@@ -2,6 +2,7 @@
 
 import hashlib
 import io
+import json
 import re
 from collections.abc import Iterator
 from html import escape
@@ -9,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mechsym.files import write_text
+from mechsym.style.live import CURVE, live_panels, number_curves
 from mechsym.style.palette import DARK, INK
 
 if TYPE_CHECKING:
@@ -36,22 +38,29 @@ def svg(figure: "Figure", name: str = "") -> str:
     buffer = io.StringIO()
     with matplotlib.rc_context(_RC):
         # not savefig, which lays everything out twice
+        number_curves(figure)
         FigureCanvasSVG(figure).print_svg(buffer, metadata=_NO_METADATA)
     text = buffer.getvalue()
     text = text[text.index("<svg") :].replace("#000000", INK)
     own = hashlib.sha256((name + text).encode()).hexdigest()[:8]
     used = {match[2] for match in _USED.finditer(text)}
-    known = {old: f"{own}-{k}" for k, old in enumerate(sorted(used))}
-    text = _ID.sub(lambda m: f' id="{known[m[1]]}"' if m[1] in known else "", text)
-    text = _USED.sub(lambda m: m[1] + known[m[2]], text)
+    known = {old: f' id="{own}-{k}"' for k, old in enumerate(sorted(used))}
+    text = _ID.sub(lambda m: known.get(m[1]) or _curve(m[1]), text)
+    text = _USED.sub(lambda m: m[1] + known[m[2]][5:-1], text)
     text = re.sub(r'<style type="text/css">.*?</style>', "", text, flags=re.S).replace("<defs>\n  \n </defs>", "")
     head, _, rest = text.partition(">")
     shows, about = escape(title(figure)), escape(_description(figure))
     words = f'<title id="{own}-t">{shows}</title>\n <desc id="{own}-d">{about}</desc>'
     stand = " ".join(f"{x:g}" for x in columns(figure))
     split = f' data-columns="{stand}"' if stand else ""
-    named = f'{head} class="picture"{split} role="img" aria-labelledby="{own}-t {own}-d">'
+    panels = live_panels(figure)
+    live = f' data-panels="{escape(json.dumps(panels, separators=(",", ":")))}"' if panels else ""
+    named = f'{head} class="picture"{split}{live} role="img" aria-labelledby="{own}-t {own}-d">'
     return f"{named}\n {words}\n <style>{_sheet(rest)}</style>{rest}"
+
+
+def _curve(name: str) -> str:
+    return f' data-curve="{name.removeprefix(CURVE)}"' if name.startswith(CURVE) else ""
 
 
 def write_picture(path: Path, figure: "Figure") -> Path:
