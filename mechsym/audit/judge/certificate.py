@@ -3,7 +3,7 @@ r"""Coq scripts of exact verdicts: another kernel checks the printed formula its
 The theorem holds the formula as printed, node by node in its author's names, and the definitions of the theory, such as
 `beta := asin (lam * sin phi)`. Its proof takes the functions in turn, the innermost first: the sine of a sum by sines
 of its parts, a root by what it is the root of, the sine of an arcsine by its argument. What is left is rational in
-letters, sines, cosines and roots; sympy guesses the cofactors of s^2 + c^2 - 1 and D^2 - radicand, with which `ring` and
+letters, sines, cosines, roots; sympy guesses the cofactors of s^2 + c^2 - 1 and D^2 - radicand, with which `ring` and
 `field` prove it.
 """
 
@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import field
 from fractions import Fraction
+from typing import TypeGuard
 
 import sympy
 from sympy import Expr, Integer, Mul, Pow, Symbol
@@ -32,7 +33,8 @@ Lemma cos_of_asin : forall u : R, -1 <= u <= 1 -> cos (asin u) = sqrt (1 - u ^ 2
 Proof. intros u H. rewrite (cos_asin u H). unfold Rsqr. f_equal; ring. Qed.
 
 Ltac product := repeat first
-  [ assumption | apply Rmult_integral_contrapositive_currified | apply pow_nonzero | apply Rinv_neq_0_compat | lra ].
+  [ assumption | apply PI_neq0 | apply Rmult_integral_contrapositive_currified | apply pow_nonzero
+  | apply Rinv_neq_0_compat | lra | solve [ apply Rgt_not_eq; unfold Rpower; apply exp_pos ] ].
 Ltac nonzero := repeat split; first
   [ assumption
   | solve [ product ]
@@ -45,7 +47,8 @@ Ltac strictly := unfold Rpower, Rdiv; repeat first
   [ assumption | apply exp_pos | apply PI_RGT_0 | apply Rmult_lt_0_compat | apply Rinv_0_lt_compat | apply pow_lt
   | apply sqrt_lt_R0 | lra ].
 Ltac positive := unfold Rdiv; repeat first
-  [ assumption | apply sqrt_pos | apply Rmult_le_pos | apply pow_le | lra | solve [ apply Rlt_le; strictly ] ].
+  [ assumption | apply sqrt_pos | apply pow2_ge_0 | apply Rmult_le_pos | apply pow_le | lra
+  | solve [ apply Rlt_le; strictly ] ].
 Lemma ln_of_pow : forall (n : nat) (x : R), 0 < x -> ln (x ^ n) = INR n * ln x.
 Proof.
   induction n; intros x H. { simpl; rewrite ln_1; ring. }
@@ -103,10 +106,17 @@ class _Script:
 
     def prove(self, left: str, right: str, proof: str) -> None:
         """A function of which the value is known: from here on it is replaced."""
-        if left == right:
+        if self.put(left) == self.put(right):
             return
-        number = len(self.steps)
-        self.steps.append(f"  assert (K{number} : {left} = {right}). {{ {proof}. }}\n  rewrite ?K{number}.")
+        assertion = f"  assert (K{len(self.steps)} : {left} = {right}). {{ {proof}. }}"
+        self.steps.append(assertion)
+        self.steps[-1] += f"\n  {self.rewritten}."
+
+    @property
+    def rewritten(self) -> str:
+        """A tactic that puts in all values that are known."""
+        known = ", ".join(f"?K{i}" for i in range(len(self.steps)))
+        return f"repeat (progress rewrite {known})" if known else "idtac"
 
     def suppose(self, hypothesis: str) -> None:
         """A condition of the theorem."""
@@ -218,7 +228,7 @@ def _raw(own: _Script, tree: Node, authors: bool) -> str:
     return f"({left} {_SIGNS[type(tree.op)]} {_raw(own, tree.right, authors)})"
 
 
-def _is_half(exponent: Fraction | None) -> bool:
+def _is_half(exponent: Fraction | None) -> TypeGuard[Fraction]:
     return exponent is not None and exponent.denominator <= 2
 
 
@@ -235,10 +245,11 @@ def _power(own: _Script, base: _Part, power: _Part) -> _Part:
     if not _is_half(exponent):
         return _real_power(own, base, power)
     if exponent.denominator == 2:
-        base, exponent = _function(own, "sqrt", base), exponent * 2
-    if exponent < 0:
+        base = _function(own, "sqrt", base)
+    whole = Fraction(exponent.numerator)
+    if whole < 0:
         _not_zero(own, base.value)
-    return _Part(text=_power_text(base.text, exponent, str), value=base.value**exponent.numerator)
+    return _Part(text=_power_text(base.text, whole, str), value=base.value ** int(whole))
 
 
 def _real_power(own: _Script, base: _Part, power: _Part) -> _Part:
@@ -254,7 +265,9 @@ def _real_power(own: _Script, base: _Part, power: _Part) -> _Part:
     for whole, sign in ((above, 1), (below, -1)):
         for factor, count in _prime_factors(whole):
             value *= _powers_of(own, factor, exponents * sign * count)
-    own.prove(text, _coq(value), "logarithms")
+    plain = _coq(sympy.factor(base.value))
+    named = "" if plain == base.text else f"replace {base.text} with {plain} by (field; nonzero); "
+    own.prove(text, _coq(value), f"{named}logarithms")
     own.functions[text] = _Part(text=_coq(value), value=value)
     return own.functions[text]
 
@@ -315,7 +328,7 @@ def _evaluated(own: _Script, function: str, argument: _Part, text: str) -> _Part
         sine, cosine = (_function(own, f, argument) for f in ("sin", "cos"))
         _not_zero(own, cosine.value)
         whole = _Part(text=f"({sine.text} / {cosine.text})", value=sine.value / cosine.value)
-        own.prove(text, whole.text, "unfold tan; now rewrite ?" + ", ?".join(f"K{i}" for i in range(len(own.steps))))
+        own.prove(text, whole.text, f"unfold tan; {own.rewritten}; reflexivity")
         return whole
     if function in ("sin", "cos"):
         return _circular(own, function, argument, text)
@@ -347,8 +360,11 @@ def _circular(own: _Script, function: str, argument: _Part, text: str) -> _Part:
         sine, cosine = sine * c + cosine * sign * s, cosine * c - sine * sign * s
     value = sympy.expand(sine if function == "sin" else cosine)
     opened = "repeat first [ rewrite sin_plus | rewrite cos_plus | rewrite sin_neg | rewrite cos_neg ]"
-    known = "".join(f"rewrite ?K{i}; " for i in range(len(own.steps)))
-    own.prove(text, _coq(value), f"replace {argument.text} with ({added}) by field; {opened}; {known}field; nonzero")
+    own.prove(
+        text,
+        _coq(value),
+        f"replace {argument.text} with ({added}) by (field; nonzero); {opened}; {own.rewritten}; field; nonzero",
+    )
     return _Part(text=_coq(value), value=value)
 
 
@@ -448,11 +464,12 @@ def _lemma(own: _Script, name: str, one: _Part, other: _Part) -> str:
                 *(f"  {c} ->" for c in conditions),
                 f"  {one.text} = {other.text}.",
                 f"Proof.\n  intros {' '.join([*letters, *named])}.",
-                f"  apply Rminus_diag_uniq.\n  replace ({one.text} - {other.text}) with (({combination}) / ({_coq(below)})).",
+                "  apply Rminus_diag_uniq.",
+                f"  replace ({one.text} - {other.text}) with (({combination}) / ({_coq(below)})).",
                 f"  - {''.join(f'rewrite H{i}; ' for i, _, _ in used)}unfold Rdiv; ring.\n  - field; nonzero.\nQed.",
             ]
-      )
-  )
+        )
+    )
     given = " ".join(own.terms.get(k, k) for k in letters)
     return f"apply ({name} {given}); first [ assumption | circles | lra ]"
 
@@ -475,7 +492,7 @@ def _theorem(own: _Script, tree: Node, last: str) -> str:
             *(own.put(step) for step in own.steps),
             f"  {own.put(last)}.\nQed.\n",
         ]
-  )
+    )
 
 
 def _coq(e: Expr) -> str:
