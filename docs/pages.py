@@ -47,6 +47,7 @@ EXAMPLES = {
     "optimise": "optimise nunes-hypocycloid",
     "page": "page zotov-89 --out engine.html",
     "export": "export zotov-89 --to c --out engine",
+    "prove": "prove crosshead --samples 1000",
     "reproduce": "reproduce moroianu2017",
     "report": "report nunes-slider-crank --parts cycle,forces",
     "sections": "sections spring",
@@ -67,7 +68,7 @@ SHOWN = {
 EXAMPLE_FILES = Path(__file__).parents[1] / "examples" / "mechanisms"
 ROOMS = (
     "quantities periodic style page plausible convert native mechanisms cycle sizing machine simulate hinge "
-    "torsion forces optimise codesign cases jobs sweep audit papers out"
+    "torsion forces optimise proof codesign cases jobs sweep audit papers out"
 ).split()
 _COMMANDS = re.compile(r"```sh\n(?P<lines>(?:mechsym [^\n]+\n)+)```")
 _SHOWN = 16  # lines of what a command prints

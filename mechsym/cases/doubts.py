@@ -9,7 +9,7 @@ import functools
 import math
 from typing import TYPE_CHECKING
 
-from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_throws, by_twist
+from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_throws, by_twist, value
 from mechsym.cases.scales import MOVING, by_shaft, by_size, by_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
@@ -89,7 +89,9 @@ def _of_links(sections: Records, listing: "Listing") -> tuple[Doubt, ...]:
     letters, steady = (
         dataclasses.asdict(sections[name]) if name in sections else {} for name in ("parameters", "inputs")
     )
-    return by_links(listing, letters, steady, getattr(sections.get("operation"), "speed", None))
+    steady |= {next(iter(listing["coordinates"])): value(sections, "drive", "torque")}
+    speed = getattr(sections.get("operation"), "speed", None)
+    return by_links(listing, letters, steady, dict.fromkeys(listing["coordinates"], speed) if speed else {})
 
 
 def _sizes(sections: Records, sizes: Proportions, bore: float | None) -> tuple[Doubt, ...]:

@@ -113,6 +113,8 @@ def _inertias(sections: Records, sizes: Proportions) -> Iterator[_Told]:
     kept = value(sections, "flywheel", "inertia") / scale
     if kept > 1:  # a small one is as good as none
         yield "inertia", f"flywheel.inertia / {about}", kept
+    if (turning := sum(sizes.shafts.values())) > 0:
+        yield "flywheel_share", "flywheel.inertia / inertia of the shaft", kept * scale / turning
     if "cycle" not in sections:
         yield "carried", f"inertia of the shaft / {about}", sum(sizes.shafts.values()) / scale + kept
 

@@ -41,7 +41,10 @@ def convert(field: Field, value: object, key: str) -> Any:
 
 def _single(field: Field, kind: object, value: object, key: str) -> Any:
     if "unit" in field.metadata:
-        return parse(value, field.metadata["unit"], key)
+        number = parse(value, field.metadata["unit"], key)
+        if kind is int and number != round(number):
+            raise BadInput(f"{key} = {shown(value)} is no whole number")
+        return int(number) if kind is int else number
     if kind in _WORDS and type(value) is not kind and "options" not in field.metadata:
         raise BadInput(f"{key} = {shown(value)} is not {_WORDS[kind]}")
     return value

@@ -71,6 +71,9 @@ def fmu(
     else:
         run = ready(found, diagram)
         unit, problem = make(block_of(found.name, found.about, run), int(version), wanted), run.problem
+    if compared and "linux64" not in unit.platforms:
+        why = unit.missing.get("linux64", "--platforms leaves it out")
+        raise BadInput(f"--compare runs the binary for {SYSTEMS['linux64']}, which is missing: {why}; leave it out")
     path = write(unit, file_in(out, f"{unit.name}.fmu", ".fmu"))
     differences: dict[str, float] = {}
     if compared:

@@ -82,13 +82,15 @@ def forces(
 
 
 def _motion(case: "Case", out: Path | None, as_json: bool) -> None:
+    from mechsym.cases.outcomes import of_motion
     from mechsym.forces.driven import numbers
     from mechsym.jobs.forces import motion, write_motion
 
     found = motion(case)
     told = numbers(found, case.name)
     files = [] if out is None else [str(file) for file in write_motion(found, tell(told), out)]
-    emit(told, as_json, lambda: _over_time(told), beside={"files": files}, files=files)
+    beside = {"doubts": of_motion(case, found), "files": files}
+    emit(told, as_json, lambda: _over_time(told), beside=beside, files=files)
 
 
 def _over_time(report: "DrivenNumbers") -> str:

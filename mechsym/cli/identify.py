@@ -60,7 +60,8 @@ def _text(found: "Identified") -> str:
     for e in found.estimates:
         unit = "" if e.unit == "-" else f" {e.unit}"
         value, low, high = _told_apart(e.value, e.low, e.high)
-        within = f"{low} to {high}{unit}" if low != high else "no wider than 1e-8 of it"
+        alike = "no ends" if math.isinf(e.high - e.low) else "no wider than 1e-8 of it"
+        within = f"{low} to {high}{unit}" if low != high else alike
         lines.append(f"{e.name} = {value}{unit}, 95 %: {within}")
     return "\n".join([*lines, f"left over: {_left_over(found)}"])
 

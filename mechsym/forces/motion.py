@@ -71,6 +71,10 @@ class DrivenMotion:
 
     def __init__(self, section: MotionSettings, units: Mapping[str, str], start: Mapping[str, float]) -> None:
         given = {q: getattr(section, q) for q in units if getattr(section, q) is not None}
+        if section.periodic and not section.file:
+            raise BadInput("motion.periodic is for a file that repeats; name it, motion.file, or leave periodic out")
+        if section.rise is not None and not set(given.values()) & {*WORDS}:
+            raise BadInput(f"motion.rise is for {', '.join(map(repr, WORDS))}; no coordinate moves so: leave it out")
         table = _table(section.file, units) if section.file else {}
         if twice := sorted(given.keys() & table.keys()):
             raise BadInput(f"motion.{twice[0]} stands in the section and in {section.file}; keep one")

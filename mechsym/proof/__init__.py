@@ -1,0 +1,7 @@
+"""Numbers that come with a theorem, in balls of python-flint (the extra `proof`), imported where they are used.
+
+balls       midpoints with radii, and a tape over them
+rounding    what doubles can lose in a generated function: running error analysis on its tape
+sampled     what the compiled code returns, against 60 digits
+outputs     both side by side, output by output
+"""
