@@ -71,7 +71,7 @@ def _symbol(letter: str) -> Symbol:
 
 
 @record
-class _Part:
+class _CoqTerm:
     """An expression twice: as Coq text with all functions named, and as rational function of the same letters."""
 
     text: str
@@ -86,8 +86,8 @@ class _Script:
     name: str
     steps: list[str] = field(default_factory=list)
     lemmas: list[str] = field(default_factory=list)
-    names: dict[str, _Part] = field(default_factory=dict)
-    functions: dict[str, _Part] = field(default_factory=dict)  #: By their text
+    names: dict[str, _CoqTerm] = field(default_factory=dict)
+    functions: dict[str, _CoqTerm] = field(default_factory=dict)  #: By their text
     terms: dict[str, str] = field(default_factory=dict)  #: Letter of a sine, cosine or root: what it stands for
     relations: list[Expr] = field(default_factory=list)  #: What vanishes
     powers: dict[Symbol, tuple[Expr, Expr]] = field(default_factory=dict)  #: Letter of a power: base and exponent
@@ -138,7 +138,7 @@ def script(question: Question, tree: Node, name: str) -> str | None:
     return "\n".join([*own.lemmas, theorem])
 
 
-def _part(own: _Script, tree: Node, authors: bool) -> _Part:
+def _part(own: _Script, tree: Node, authors: bool) -> _CoqTerm:
     number = value_of(tree)
     if number is not None and not isinstance(tree, ast.BinOp):
         return _number(number)
@@ -146,7 +146,7 @@ def _part(own: _Script, tree: Node, authors: bool) -> _Part:
         return _named(own, tree.id, authors)
     if isinstance(tree, ast.UnaryOp):
         inner = _part(own, tree.operand, authors)
-        return _Part(text=f"(- {inner.text})", value=-inner.value)
+        return _CoqTerm(text=f"(- {inner.text})", value=-inner.value)
     if isinstance(tree, ast.Call):
         return _function(own, str(function_of(tree)), _part(own, tree.args[0], authors))
     if not isinstance(tree, ast.BinOp):
@@ -157,22 +157,24 @@ def _part(own: _Script, tree: Node, authors: bool) -> _Part:
     right = _part(own, tree.right, authors)
     text = f"({left.text} {_SIGNS[type(tree.op)]} {right.text})"
     if isinstance(tree.op, ast.Add):
-        return _Part(text=text, value=left.value + right.value)
+        return _CoqTerm(text=text, value=left.value + right.value)
     if isinstance(tree.op, ast.Sub):
-        return _Part(text=text, value=left.value - right.value)
+        return _CoqTerm(text=text, value=left.value - right.value)
     if isinstance(tree.op, ast.Mult):
-        return _Part(text=text, value=left.value * right.value)
+        return _CoqTerm(text=text, value=left.value * right.value)
     _not_zero(own, right.value)
-    return _Part(text=text, value=left.value / right.value)
+    return _CoqTerm(text=text, value=left.value / right.value)
 
 
-def _number(number: Fraction) -> _Part:
+def _number(number: Fraction) -> _CoqTerm:
     text = str(abs(number.numerator))
     text = text if number.denominator == 1 else f"({text} / {number.denominator})"
-    return _Part(text=f"(- {text})" if number < 0 else text, value=sympy.Rational(number.numerator, number.denominator))
+    return _CoqTerm(
+        text=f"(- {text})" if number < 0 else text, value=sympy.Rational(number.numerator, number.denominator)
+    )
 
 
-def _named(own: _Script, key: str, authors: bool) -> _Part:
+def _named(own: _Script, key: str, authors: bool) -> _CoqTerm:
     theory, meant = own.question.theory, own.question.formula.letters
     entry = meant[key] if authors and key in meant else theory.tape.get(key)
     if authors and key in meant and isinstance(entry, ast.Name) and entry.id == key:
@@ -190,15 +192,15 @@ def _named(own: _Script, key: str, authors: bool) -> _Part:
     return own.names[name]
 
 
-def _letter(own: _Script, key: str) -> _Part:
+def _letter(own: _Script, key: str) -> _CoqTerm:
     if key == "pi":
-        return _Part(text="PI", value=Symbol("PI", positive=True))
+        return _CoqTerm(text="PI", value=Symbol("PI", positive=True))
     if key in own.question.hold:
         return _number(Fraction(str(own.question.hold[key])))
     positive = own.question.theory.letters[key].positive
     if positive:
         own.suppose(f"0 < {key}_")
-    return _Part(text=f"{key}_", value=Symbol(f"{key}_", real=True, positive=positive or None))
+    return _CoqTerm(text=f"{key}_", value=Symbol(f"{key}_", real=True, positive=positive or None))
 
 
 def _identifier(own: _Script, key: str, authors: bool) -> str:
@@ -240,7 +242,7 @@ def _power_text(base: str, exponent: Fraction | None, written: Callable[[], str]
     return f"(/ {text})" if exponent < 0 else text
 
 
-def _power(own: _Script, base: _Part, power: _Part) -> _Part:
+def _power(own: _Script, base: _CoqTerm, power: _CoqTerm) -> _CoqTerm:
     exponent = Fraction(int(power.value.p), int(power.value.q)) if power.value.is_Rational else None
     if not _is_half(exponent):
         return _real_power(own, base, power)
@@ -249,10 +251,10 @@ def _power(own: _Script, base: _Part, power: _Part) -> _Part:
     whole = Fraction(exponent.numerator)
     if whole < 0:
         _not_zero(own, base.value)
-    return _Part(text=_power_text(base.text, whole, str), value=base.value ** int(whole))
+    return _CoqTerm(text=_power_text(base.text, whole, str), value=base.value ** int(whole))
 
 
-def _real_power(own: _Script, base: _Part, power: _Part) -> _Part:
+def _real_power(own: _Script, base: _CoqTerm, power: _CoqTerm) -> _CoqTerm:
     # x^(n - 1) is x^n/x, and x^n a letter; of a product, the product of powers
     text = f"(Rpower {base.text} {power.text})"
     if text in own.functions:
@@ -268,7 +270,7 @@ def _real_power(own: _Script, base: _Part, power: _Part) -> _Part:
     plain = _coq(sympy.factor(base.value))
     named = "" if plain == base.text else f"replace {base.text} with {plain} by (field; nonzero); "
     own.prove(text, _coq(value), f"{named}logarithms")
-    own.functions[text] = _Part(text=_coq(value), value=value)
+    own.functions[text] = _CoqTerm(text=_coq(value), value=value)
     return own.functions[text]
 
 
@@ -295,6 +297,8 @@ def _powers_of(own: _Script, base: Expr, exponent: Expr) -> Expr:
             value *= base**count
             continue
         kind = kind / count.q
+        if any(not p.is_polynomial() or sympy.total_degree(p) > 1 for p in sympy.fraction(sympy.together(kind))):
+            raise BadInput("powers of powers of this kind have no certificate")
         known = next((k for k, pair in own.powers.items() if pair == (base, kind)), None)
         if known is None:
             known = own.new("P", own.put(f"(Rpower {_coq(base)} {_coq(sympy.together(kind))})"))
@@ -316,18 +320,18 @@ def _factors(product: Expr) -> list[Expr]:
     return [f for f in factors if not f.is_number]
 
 
-def _function(own: _Script, function: str, argument: _Part) -> _Part:
+def _function(own: _Script, function: str, argument: _CoqTerm) -> _CoqTerm:
     text = f"({function} {argument.text})"
     if text not in own.functions:
         own.functions[text] = _evaluated(own, function, argument, text)
     return own.functions[text]
 
 
-def _evaluated(own: _Script, function: str, argument: _Part, text: str) -> _Part:
+def _evaluated(own: _Script, function: str, argument: _CoqTerm, text: str) -> _CoqTerm:
     if function == "tan":
         sine, cosine = (_function(own, f, argument) for f in ("sin", "cos"))
         _not_zero(own, cosine.value)
-        whole = _Part(text=f"({sine.text} / {cosine.text})", value=sine.value / cosine.value)
+        whole = _CoqTerm(text=f"({sine.text} / {cosine.text})", value=sine.value / cosine.value)
         own.prove(text, whole.text, f"unfold tan; {own.rewritten}; reflexivity")
         return whole
     if function in ("sin", "cos"):
@@ -339,14 +343,14 @@ def _evaluated(own: _Script, function: str, argument: _Part, text: str) -> _Part
         angle = own.new("A", own.put(text))
         own.prove(f"(sin {text})", argument.text, "apply sin_asin; assumption")
         own.functions[f"(sin {angle})"] = argument
-        inside = _Part(text=f"(1 - ({argument.text} ^ 2))", value=1 - argument.value**2)
+        inside = _CoqTerm(text=f"(1 - ({argument.text} ^ 2))", value=1 - argument.value**2)
         own.prove(f"(cos {text})", f"(sqrt {inside.text})", "apply cos_of_asin; assumption")
         own.functions[f"(cos {angle})"] = _function(own, "sqrt", inside)
-        return _Part(text=str(angle), value=angle)
+        return _CoqTerm(text=str(angle), value=angle)
     raise BadInput(f"{function} has no place in a certificate")
 
 
-def _circular(own: _Script, function: str, argument: _Part, text: str) -> _Part:
+def _circular(own: _Script, function: str, argument: _CoqTerm, text: str) -> _CoqTerm:
     terms = sympy.expand(argument.value).as_coefficients_dict()
     if len(terms) == 1 and next(iter(terms.values())) == 1 and next(iter(terms)).is_Symbol:
         return _of_letter(own, function, next(iter(terms)))
@@ -365,21 +369,21 @@ def _circular(own: _Script, function: str, argument: _Part, text: str) -> _Part:
         _coq(value),
         f"replace {argument.text} with ({added}) by (field; nonzero); {opened}; {own.rewritten}; field; nonzero",
     )
-    return _Part(text=_coq(value), value=value)
+    return _CoqTerm(text=_coq(value), value=value)
 
 
-def _of_letter(own: _Script, function: str, angle: Symbol) -> _Part:
+def _of_letter(own: _Script, function: str, angle: Symbol) -> _CoqTerm:
     key = f"({function} {angle})"
     if key not in own.functions:
         for f in ("sin", "cos"):
             letter = own.new(f[0], own.put(f"({f} {angle})"))
-            own.functions[f"({f} {angle})"] = _Part(text=str(letter), value=letter)
+            own.functions[f"({f} {angle})"] = _CoqTerm(text=str(letter), value=letter)
         s, c = (own.functions[f"({f} {angle})"].value for f in ("sin", "cos"))
         own.relations.append(s**2 + c**2 - 1)
     return own.functions[key]
 
 
-def _root(own: _Script, argument: _Part, text: str) -> _Part:
+def _root(own: _Script, argument: _CoqTerm, text: str) -> _CoqTerm:
     # the square of what is positive is taken out, the sign stays inside
     above, below = sympy.fraction(sympy.together(argument.value))
     if not below.is_positive:
@@ -401,10 +405,10 @@ def _root(own: _Script, argument: _Part, text: str) -> _Part:
         root = sympy.sqrt(inside)
         whole *= root if root.is_rational_function() and root.is_nonnegative else _root_letter(own, inside)
     value = outside * whole / below
-    result = _Part(text=_coq(value), value=value)
+    result = _CoqTerm(text=_coq(value), value=value)
     if own.put(text) != own.put(result.text):
         number = len(own.steps)
-        product = _Part(text=f"({result.text} * {result.text})", value=value * value)
+        product = _CoqTerm(text=f"({result.text} * {result.text})", value=value * value)
         lemma = _lemma(own, f"{own.name}_root{number}", product, argument)
         own.prove(text, result.text, f"apply root_is; [ positive | {lemma} ]")
     return result
@@ -416,7 +420,7 @@ def _root_letter(own: _Script, square: Expr) -> Expr:
         own.suppose(f"0 <= {_coq(square)}")
         letter = own.new("D", own.put(key))
         own.relations.append(letter**2 - square)
-        own.functions[key] = _Part(text=str(letter), value=letter)
+        own.functions[key] = _CoqTerm(text=str(letter), value=letter)
     return own.functions[key].value
 
 
@@ -429,11 +433,11 @@ def _lowered(own: _Script, polynomial: Expr) -> Expr:
     return sympy.expand(polynomial)
 
 
-def _by_algebra(own: _Script, printed: _Part, derived: _Part) -> str:
+def _by_algebra(own: _Script, printed: _CoqTerm, derived: _CoqTerm) -> str:
     return _lemma(own, f"{own.name}_algebra", printed, derived)
 
 
-def _lemma(own: _Script, name: str, one: _Part, other: _Part) -> str:
+def _lemma(own: _Script, name: str, one: _CoqTerm, other: _CoqTerm) -> str:
     """A lemma of two rational expressions in letters, and how it is applied."""
     above, below = sympy.fraction(sympy.together(one.value - other.value))
     relations = own.relations
