@@ -10,3 +10,4 @@ class CycleFigures(ShownFigures):
 
     units = UNITS
     source: GasSource | None = None  #: What answers for its gas; None where pistons move differently
+    apart: float = 0.0  #: By how much strokes differ from that of the cylinder that stands for all [-]

@@ -32,7 +32,13 @@ def beale_power(mean_pressure: Pascal, swept: Volume, omega: RadPerSecond) -> Wa
 
 
 def of_cycle(found: CycleFigures) -> Iterator[Finding]:
-    r"""A cycle that has Carnot's efficiency :math:`1 - T_c/T_e`, whose power is therefore an upper bound."""
+    r"""Unequal strokes, and Carnot's efficiency :math:`1 - T_c/T_e`, whose power is therefore an upper bound."""
+    if found.apart:
+        words = (
+            f"strokes differ by up to {figure(100 * found.apart, 2)} %: every cylinder has the pressure of the first "
+            "at the same share of its stroke"
+        )
+        yield Finding(rank=LOOK_AT, words=words, value=found.apart)
     if not all(name in found for name in (*_TEMPERATURES, "efficiency")):
         return
     hot, cold = (np.asarray(found[name], dtype=float) for name in _TEMPERATURES)

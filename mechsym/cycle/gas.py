@@ -2,19 +2,23 @@
 
 import dataclasses
 import math
+from collections.abc import Callable
 
 import casadi as ca
 import numpy as np
+import scipy
 from numpy.polynomial import Chebyshev
 
 from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.dead_centres import motion_over
+from mechsym.cycle.motion import dead_centre
 from mechsym.cycle.pressure import Pressure, peak
 from mechsym.page import Shown
 from mechsym.quantities import record
 from mechsym.quantities.units import Newton, Radian, Scalar
 
 _DEGREE = 60  # round-off for rods down to 1.2 crank radii
+_KNOTS = 360  # a half turn
 
 
 @record
@@ -67,6 +71,58 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
     pressure = dataclasses.replace(found.pressure, absolute=absolute, kinks=(), p_max=p_max, phi_p_max=angle, phases={})
     room = dataclasses.replace(found.chamber, motion=motion_over(other))
     return dataclasses.replace(found, pressure=pressure, chamber=room)
+
+
+def over_travel(found: Gas, own: ca.Function, other: ca.Function, late: Radian = 0.0) -> Gas:
+    r"""The same diagram over a motion that is not even in the angle: equal pressure at equal shares of stroke.
+
+    .. math:: p_{other}(\theta) = p(\varphi), \quad x_{own}(\varphi)/s_{own} = x_{other}(\theta)/s_{other}
+
+    own, other: travels from their top dead centres on. late: of that of the other behind its firing angle. Returns gas:
+    its work is that of the first by the ratio of the strokes.
+    """
+    (forth, _, own_stroke), (_, back_again, other_stroke) = _phases(own), _phases(other)
+
+    def angle(theta: np.ndarray) -> np.ndarray:
+        return forth(back_again(theta - late)) + late
+
+    def back(phi: float) -> float:
+        return float(scipy.optimize.brentq(lambda theta: float(angle(theta)) - phi, phi - 1.0, phi + 1.0, xtol=1e-14))
+
+    whole = found.pressure
+    pressure = dataclasses.replace(
+        whole, absolute=lambda theta: whole.absolute(angle(np.asarray(theta, dtype=float))),
+        kinks=tuple(sorted(back(kink) % whole.period for kink in whole.kinks)), phi_p_max=back(whole.phi_p_max),
+    )  # fmt: skip
+    room, ratio = found.chamber, other_stroke / own_stroke
+    room = dataclasses.replace(
+        room, stroke=ratio * room.stroke, displacement=ratio * room.displacement, clearance=ratio * room.clearance
+    )
+    return dataclasses.replace(found, pressure=pressure, chamber=room)
+
+
+_Shift = Callable[[np.ndarray], np.ndarray]
+
+
+def _phases(motion: ca.Function) -> tuple[_Shift, _Shift, float]:
+    """Angle by the phase at which an even motion were, the other way round [rad], and the stroke [m].
+
+    The phase is 2 arcsin of the root of the share of the stroke: smooth through both dead centres.
+    """
+    bottom = dead_centre(motion, -1.0)
+    stroke = float(_travelled(motion, np.array(bottom)))
+    middles = (np.arange(_KNOTS) + 0.5) / _KNOTS
+    angle = np.concatenate([bottom * middles, bottom + (2 * math.pi - bottom) * middles])
+    out = 2 * np.arcsin(np.sqrt(np.clip(_travelled(motion, angle) / stroke, 0.0, 1.0)))
+    phase = np.where(angle < bottom, out, 2 * math.pi - out)
+    return _shifted(phase, angle), _shifted(angle, phase), stroke
+
+
+def _shifted(x: np.ndarray, y: np.ndarray) -> _Shift:
+    """The function of an angle that goes a turn further where the angle does, through samples of one turn."""
+    ends, beyond = np.append(x, x[0] + 2 * math.pi), np.append(y - x, y[0] - x[0])
+    by = scipy.interpolate.CubicSpline(ends, beyond, bc_type="periodic")
+    return lambda at: np.asarray(at + by(at))
 
 
 def _travelled(motion: ca.Function, phi: np.ndarray) -> np.ndarray:

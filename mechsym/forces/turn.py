@@ -18,7 +18,8 @@ import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.cycle.motion import slopes, top_of
+from mechsym.cycle.gas import Gas, over_travel
+from mechsym.cycle.motion import from_top, slopes, top_of
 from mechsym.errors import BadInput
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.arrays import along
@@ -31,7 +32,6 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.units import Array, Kilogram, NewtonMetre, Pure, Radian, RadPerSecond
 
 if TYPE_CHECKING:
-    from mechsym.cycle.gas import Gas
     from mechsym.mechanisms.faces import RodlessFaces
 
 _STEPS_PER_TURN = 1440
@@ -48,6 +48,7 @@ class GasFace:
     sense: float = 1.0  #: 1 where the gas pushes along the travel, else -1 [-]
     mass: float = 0.0  #: That moves with it [kg]
     throw: int = 0  #: Which coordinate turns it
+    top: float | None = None  #: Shaft angle at its top dead centre, where it moves otherwise than the first [rad]
 
 
 @record
@@ -187,7 +188,7 @@ def gas_faces(
     return tuple(
         GasFace(
             input=face.force, travel=face.travel, fires=fires, area=area, sense=face.sense,
-            mass=mass_with(face, letters), throw=face.throw,
+            mass=mass_with(face, letters), throw=face.throw, top=face.top,
         )
         for face, area, fires in rows
     )  # fmt: skip
@@ -223,7 +224,16 @@ def acting(drive: CrankDrive, gas: Gases) -> tuple[Acting, ...]:
         shared = zip(gas_faces(drive.roles, drive.mechanism.parameters, drive.faces), gas.pistons, strict=True)
         return tuple(Acting(gas=gas, face=dataclasses.replace(one, fires=0.0, area=area)) for one, area in shared)
     plan_of(drive.name).require_firing(drive.parameters, gas.pressure.period)
-    return tuple(Acting(face=one, gas=gas) for one in faces_of(drive))
+    return tuple(Acting(face=one, gas=_own(drive, one, gas)) for one in faces_of(drive))
+
+
+def _own(drive: CrankDrive, face: GasFace, gas: Gas) -> Gas:
+    """The gas of a face: that of all, but over its own travel where it moves otherwise."""
+    if face.top is None:
+        return gas
+    first = next(one.travel for one in drive.roles.faces if one.top is None)
+    own, other = (from_top(slopes(drive.mechanism, travel, {})) for travel in (first, face.travel))
+    return over_travel(gas, own, other, math.remainder(face.top - face.fires, 2 * math.pi))
 
 
 def period_of(acts: Sequence[Acting]) -> float:

@@ -41,6 +41,8 @@ class FaceRole:
     stroke: Size | None = None  #: [m]
     throw: int = 0  #: Which coordinate turns it
     fires: float | None = None  #: Shaft angle at which it fires; None where the case says it [rad]
+    #: Shaft angle at its own top dead centre, where it moves otherwise than the first; None where alike [rad]
+    top: float | None = None
 
 
 @record

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, dead_centre, each, local_shift
 from mechsym.mechanisms.roles import BearingRole, FaceRole, GuideRole, PartRoles, RotorRole, ShaftRole
 
 _AXIS = 1e-9  # rad, and of a distance: axes that differ by less are one
@@ -13,6 +13,7 @@ def roles(p: CrankTrainParameters) -> PartRoles:
     cylinders, firing = range(1, len(p.throw) + 1), each(p, "firing") or (0.0,) * len(p.throw)
     pins = [bearing for i in cylinders for bearing in _pins(p, i)]
     mains = [_main(p, k) for k in sorted(set(p.throw))]
+    tops = [top - shift for top, shift in zip(dead_centre(p), local_shift(p), strict=True)]
     return PartRoles(
         faces=tuple(
             FaceRole(
@@ -22,6 +23,7 @@ def roles(p: CrankTrainParameters) -> PartRoles:
                 fires=firing[i - 1],
                 throw=p.throw[i - 1] - 1,
                 masses=(each(p, "m_piston")[i - 1],),
+                top=tops[i - 1] if each(p, "master")[i - 1] else None,
             )
             for i in cylinders
         ),
