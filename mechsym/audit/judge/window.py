@@ -55,7 +55,7 @@ class Window:
     strict: Bench
 
     def told(self, tree: Node) -> np.ndarray:
-        """At which states nothing of a formula is lost where two values nearly cancel, and there are digits left."""
+        """At which states nothing of a formula is lost where two values nearly cancel [-]."""
         return ~_cancels(self.quick, [tree])
 
 
