@@ -257,7 +257,8 @@ def by_links(
 
     worst: dict[str, Doubt] = {}
     acts = {q: "N*m" for q, unit in listing["coordinates"].items() if unit == "rad"} | dict(listing["inputs"])
-    of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors))
+    longest = max((_length(link, letters) for link in links), default=0.0)
+    of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors, longest))
     pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
     forces = max(pushes, default=0.0), max(turns, default=0.0)
     together = (*_masses(links, letters, units), *_stress(links, letters, *forces))
@@ -319,7 +320,7 @@ def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]
 
 
 def _of(
-    link: Json, letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str]
+    link: Json, letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str], longest: float
 ) -> Iterator[Doubt]:
     name = link["name"]
     points = [_point(pair, letters) for pair in link["points"]]
@@ -336,7 +337,9 @@ def _of(
     if link["turns"] in rotors or link["turns"] and link["centre"] == list(link["pivot"] or ()):
         inertia = 0.0  # of a flywheel
     if mass > 0:
-        yield from proportion("link_density", f"mass of {name} / (distance of its joints)^3", mass / length**3)
+        if not link["turns"]:  # webs and counterweights of a crank are wider than its throw
+            longest = length
+        yield from proportion("link_density", f"mass of {name} / (distance of joints)^3", mass / longest**3)
         middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True))
         away = math.dist(_point(link["centre"], letters), middle)
         yield from proportion(

@@ -114,7 +114,7 @@ def _no_piston(case: CaseFacts) -> str:
 
 def _events(case: CaseFacts) -> list[str]:
     own = [] if case.roles is None else [*(s.name for s in case.roles.stops), *(f.name for f in case.roles.frictions)]
-    said = "a motion without events: {} is a stop or a friction, which only simulate and sweep take"
+    said = "a motion without events: {} makes them, which only simulate and sweep take"
     return [said.format(own[0])] if own else []
 
 

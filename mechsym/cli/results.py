@@ -33,7 +33,7 @@ RESULTS = {
     "fmu": ("mechsym.out.fmi.build:UnitFile",),
     "guide": ("mechsym.out.cad.curve:GrooveDrawings",),
     "page": ("mechsym.out.web.build:WrittenPage",),
-    "prove": ("mechsym.proof.outputs:ProvenRounding",),
+    "prove": ("mechsym.proof.outputs:ProvenRounding", "mechsym.jobs.prove:ProvenMotion"),
     "report": ("mechsym.report.numbers:ReportNumbers",),
     "reproduce": ("mechsym.papers.rows:ReproducedNumber",),
     "size": ("mechsym.sizing.rows:SizeRow",),

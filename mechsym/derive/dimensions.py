@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from sympy import Abs, Add, Expr, Max, Min, Mod, Mul, Piecewise, Pow, Rational, Symbol, atan2, sign
 
 from mechsym import quantities
+from mechsym.derive.printer import Lookup
 from mechsym.derive.refuse import refuse
 
 Dimension = tuple[Rational | int, ...]
@@ -46,6 +47,8 @@ def dimension_of(expression: Expr, letters: Mapping[Symbol, Dimension | None]) -
         return letters.get(expression)
     if expression.is_number:
         return None if expression.is_zero else PURE
+    if isinstance(expression, Lookup):
+        return None
     parts = [dimension_of(a, letters) for a in expression.args if isinstance(a, Expr)]
     if isinstance(expression, (Add, Max, Min, Mod, Piecewise)):
         return _alike(expression, parts)

@@ -86,6 +86,10 @@ class Intermediates:
         self._rules[angle] = lambda v: (ends[0] * self.diff(ends[1], v) - ends[1] * self.diff(ends[0], v)) / square
         return angle
 
+    def follow(self, symbol: Symbol, rule: Rule) -> None:
+        """Let a name have its derivative by a rule in place of its expression's."""
+        self._rules[symbol] = rule
+
     def named(self, expression: Expr) -> Expr:
         """Replace sine and cosine of single names by the tape's names for them.
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mechsym.forces import plots
+from mechsym.forces import cams, plots
 from mechsym.forces.result import Forces
 from mechsym.forces.summary import CounterweightNumbers, half
 from mechsym.page import Card, Finding, Picture, View, card, shows
@@ -22,7 +22,10 @@ def forces_view(forces: Forces) -> View:
         cards=_cards(forces),
         pictures=_pictures(forces),
         columns=lambda: forces.columns,
-        findings=lambda: [Finding(rank=NOT_MET, words=reason) for reason in forces.unbalanced],
+        findings=lambda: [
+            *(Finding(rank=NOT_MET, words=reason) for reason in forces.unbalanced),
+            *cams.findings(forces.turn),
+        ],
     )
 
 

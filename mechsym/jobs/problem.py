@@ -182,8 +182,11 @@ def _start(
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Coordinates and velocities at the start [rad or m, by time]."""
     held, places = mechanism.dependents, mechanism.coordinates
-    values = {q: held.get(q, wanted.phi_start) for q in places} | guesses(case)
-    rates = {f"{q}d": 0.0 if q in held else speed for q in places} | guesses(case)
+    roles = mechanisms.roles_of(case.mechanism)
+    cams = {cam.name for cam in roles.cams}
+    still = {*held, *(stop.gap for stop in roles.stops if stop.name in cams)}  # a follower begins on its cam
+    values = {q: held.get(q, 0.0 if q in still else wanted.phi_start) for q in places} | guesses(case)
+    rates = {f"{q}d": 0.0 if q in still else speed for q in places} | guesses(case)
     _require_closed(case, mechanism, values)
     return tuple(values[q] for q in places), tuple(rates[f"{q}d"] for q in places)
 

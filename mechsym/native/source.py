@@ -37,7 +37,13 @@ def program(function: casadi.Function, mode: str = "fast") -> Program:
     function: function of scalars or small vectors; mode: `fast` shares reciprocals and factors, `strict` leaves every
     operation as it is.
     """
-    return stored_program(_Stored(text=function.serialize(), function=function), mode)
+    return stored_program(_Stored(text=_text(function), function=function), mode)
+
+
+# a run with events asks for its function at each of them
+@functools.lru_cache(maxsize=16)
+def _text(function: casadi.Function) -> str:
+    return function.serialize()
 
 
 @record
