@@ -74,7 +74,7 @@ def test_no_theorem_says_that_a_formula_is_itself():
 def test_coq_accepts_those_of_a_source(tmp_path):
     found = sources("moroianu2017") + sources("prymak")
     script, without = certificate_of_sources(found, rows(found))
-    assert script.count("Theorem") >= 10 and not without
+    assert script.count("Theorem") >= 15 and len(without) == 1  # a quotient of two sums
     done = checked(tmp_path, script)
     assert done.returncode == 0, done.stderr
 

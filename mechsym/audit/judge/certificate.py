@@ -9,9 +9,8 @@ letters, sines, cosines, roots; sympy guesses the cofactors of s^2 + c^2 - 1 and
 
 import ast
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
-from functools import partial, reduce
 
 import sympy
 from sympy import Expr, Integer, Symbol
@@ -28,7 +27,7 @@ from mechsym.audit.judge.coq import (
     symbol,
 )
 from mechsym.audit.judge.question import Question
-from mechsym.audit.read.tree import Node, argument_of, binary, function_of, letters, substitute, value_of
+from mechsym.audit.read.tree import Node, function_of, value_of
 from mechsym.errors import BadInput
 
 _MOST = 1500  # operations, beyond which ring takes minutes
@@ -60,8 +59,6 @@ def _part(own: Script, tree: Node, authors: bool) -> CoqTerm:
     if isinstance(tree, ast.UnaryOp):
         inner = _part(own, tree.operand, authors)
         return CoqTerm(text=f"(- {inner.text})", value=-inner.value)
-    if (inside := argument_of(tree, "sum")) is not None:
-        return _part(own, _opened(own, inside), authors)
     if isinstance(tree, ast.Call):
         return _function(own, str(function_of(tree)), _part(own, tree.args[0], authors))
     if not isinstance(tree, ast.BinOp):
@@ -79,23 +76,6 @@ def _part(own: Script, tree: Node, authors: bool) -> CoqTerm:
         return CoqTerm(text=text, value=left.value * right.value)
     _not_zero(own, right.value)
     return CoqTerm(text=text, value=left.value / right.value)
-
-
-def _opened(own: Script, inside: Node) -> Node:
-    # a sum over parts, term by term
-    tape, meant = own.question.theory.tape, own.question.formula.letters
-    parts = {}
-    for key in letters(inside):
-        said = meant.get(key)
-        entry = tape.get(said.id if isinstance(said, ast.Name) else key)
-        if isinstance(entry, tuple):
-            parts[key] = entry
-    terms = [substitute(inside, partial(_chosen, parts, i)) for i in range(min(map(len, parts.values())))]
-    return reduce(partial(binary, ast.Add), terms)
-
-
-def _chosen(parts: Mapping[str, tuple[Node, ...]], index: int, node: Node) -> Node | None:
-    return parts[node.id][index] if isinstance(node, ast.Name) and node.id in parts else None
 
 
 def _named(own: Script, key: str, authors: bool) -> CoqTerm:
@@ -145,8 +125,6 @@ def _raw(own: Script, tree: Node, authors: bool) -> str:
         return name if name in own.definitions else own.names[name].text
     if isinstance(tree, ast.UnaryOp):
         return f"(- {_raw(own, tree.operand, authors)})"
-    if (inside := argument_of(tree, "sum")) is not None:
-        return _raw(own, _opened(own, inside), authors)
     if isinstance(tree, ast.Call):
         return f"({function_of(tree)} {_raw(own, tree.args[0], authors)})"
     assert isinstance(tree, ast.BinOp)

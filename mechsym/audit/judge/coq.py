@@ -54,6 +54,7 @@ Ltac circles := first
 
 
 def symbol(letter: str) -> Symbol:
+    """The symbol of a letter that stands for a function."""
     # a power of a positive number is positive, a root at least not negative
     return Symbol(letter, real=True, positive=letter[0] == "P" or None, nonnegative=letter[0] == "D" or None)
 
@@ -113,6 +114,7 @@ class Script:
 
 
 def rational(number: Fraction) -> CoqTerm:
+    """A number in Coq and for sympy."""
     text = str(abs(number.numerator))
     text = text if number.denominator == 1 else f"({text} / {number.denominator})"
     return CoqTerm(
@@ -121,10 +123,12 @@ def rational(number: Fraction) -> CoqTerm:
 
 
 def is_half(exponent: Fraction | None) -> TypeGuard[Fraction]:
+    """Whether an exponent is whole or half."""
     return exponent is not None and exponent.denominator <= 2
 
 
 def power_text(base: str, exponent: Fraction | None, written: Callable[[], str]) -> str:
+    """A power in Coq; one that is not whole or half of a positive number."""
     if not is_half(exponent):
         return f"(Rpower {base} {written()})"
     text = base if exponent.denominator == 1 else f"(sqrt {base})"
@@ -133,11 +137,13 @@ def power_text(base: str, exponent: Fraction | None, written: Callable[[], str])
 
 
 def bases(product: Expr) -> list[Expr]:
+    """What a product is made of, powers and numbers left out."""
     factors = [f.base if isinstance(f, Pow) else f for f in Mul.make_args(product)]
     return [f for f in factors if not f.is_number]
 
 
 def prime_factors(product: Expr) -> Iterator[tuple[Expr, int]]:
+    """What a product is made of, with exponents; numbers as primes."""
     for factor in Mul.make_args(sympy.factor(product)):
         base, count = factor.as_base_exp()
         if base.is_Integer and base > 1:
@@ -149,6 +155,7 @@ def prime_factors(product: Expr) -> Iterator[tuple[Expr, int]]:
 
 
 def coq_text(e: Expr) -> str:
+    """A rational expression in Coq."""
     if e.is_Symbol:
         return str(e)
     if e.is_Rational:

@@ -210,7 +210,7 @@ def _factors(node: Node) -> Iterator[Node]:
 def branch(question: Question, asked: Bench, agrees: np.ndarray) -> Node | None:
     """What is positive wherever a formula agrees with its quantity and negative elsewhere; None where nothing is.
 
-    agrees: shape (n,), at which states of the bench the two agree.
+    agrees: shape (n,), at which states of the bench the two agree [-].
     """
     for tree in sorted(_switches(question), key=lambda t: sum(1 for _ in walk(t))):
         signs = np.sign(np.asarray(value(asked, tree), dtype=float))
