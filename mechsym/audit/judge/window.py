@@ -237,7 +237,7 @@ def _is_square(node: Node) -> bool:
 
 
 def is_same(printed: Values, expected: Values, angle: bool) -> np.ndarray:
-    """At which states two values agree to half of the digits; nan agrees with nothing."""
+    """At which states two values agree to half of the digits; nan agrees with nothing [-]."""
     with mpmath.workdps(WINDOW_DIGITS), np.errstate(all="ignore"):
         close = mpmath.mpf(10) ** -(WINDOW_DIGITS // 2)
         turn = 2 * mpmath.pi

@@ -245,8 +245,6 @@ LARGEST_ERROR = 5.0
 # a truncation is off by little more than the first term that it leaves out
 _MOST = 2.0
 _NOTHING = 1e-12  # of a term, by which another one beside it is none
-# what makes a formula a truncation by taking its terms away does not repair it
-_TAKES_AWAY = {"left out"}
 _PLAIN = {"root", "sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power", "degrees"}
 
 
@@ -328,7 +326,7 @@ def _raising(exam: Examination, start: Repair) -> tuple[list[Repair], list[Repai
 
 def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:
     # every power that the edit changes is right or left out afterwards
-    if repair.edits[-1].kind in _TAKES_AWAY or min(repair.orders.values(), default=EXACT) < 1:
+    if repair.edits[-1].kind == "left out" or min(repair.orders.values(), default=EXACT) < 1:
         return False
     if not is_plausible(exam, repair.tree):
         return False
@@ -393,10 +391,9 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
         for values in wishes.get(place.path, ()):
             wish = float(np.median(values))
             same = np.isfinite(wish) and wish and np.all(np.abs(np.asarray(values) / wish - 1) < _SAME)
-            if not same or abs(wish - printed) > half:
+            # a number that has lost no digits is not the one that is rounded
+            if not same or abs(wish - printed) > half or abs(wish - printed) <= _NOISE * abs(printed) < half:
                 continue
-            if abs(wish - printed) <= _NOISE * abs(printed) < half:
-                continue  # it is not this number that has lost digits
             mended = value(quick, replace(tree, place.path, number(Fraction(wish))))
             with np.errstate(all="ignore"):
                 away = np.abs(mended - quick.expected) / peak(quick.expected)
