@@ -284,9 +284,8 @@ def truncated(exam: Examination, start: Repair) -> str | None:
         if not all(powers(more[k], start.tree).pure for k in loads):
             return None
     first = {k: p.first for k, p in zip(loads, standing, strict=True) if p.first is not None}
-    if len(first) < len(loads) or not loads:
-        return None  # it leaves out nothing, and differs all the same
-    if overshoot(exam.question, start.tree, first) > _MOST:
+    # it leaves out nothing and differs all the same, or by more than the first term left out accounts for
+    if not loads or len(first) < len(loads) or overshoot(exam.question, start.tree, first) > _MOST:
         return None
     return f"leaves out {_powers({k for p in standing for k in p.missing[:1]})} and what follows"
 
