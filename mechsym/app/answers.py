@@ -9,14 +9,13 @@ import numpy as np
 from mechsym import cases
 from mechsym.app.told import measure, span
 from mechsym.errors import BadInput
+from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.drawing import elastic_hinge
-from mechsym.hinge.findings import of_design
 from mechsym.hinge.limits import ALL_KEPT
-from mechsym.hinge.moving import engine
 from mechsym.hinge.result import Design
-from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
+from mechsym.hinge.shown import engine, of_design
 from mechsym.hinge.summary import guide_turn
-from mechsym.jobs.drawing import turning
+from mechsym.jobs.export import turning
 from mechsym.jobs.hinge import hinge
 from mechsym.machine.loads import PropellerLoad
 from mechsym.mechanisms import plots

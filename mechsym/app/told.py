@@ -8,8 +8,7 @@ from typing import Any
 
 from mechsym.cycle.columns import UNITS, WORDS
 from mechsym.files import Json
-from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in, without_unit
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text, shown_in, without_unit
 
 Rows = list[tuple[str, str]]
 

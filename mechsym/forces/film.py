@@ -142,10 +142,7 @@ def finite_velocity(eccentricity: complex, load: complex, width: Pure) -> comple
 
 
 def orbit(journal: Journal, film: MainShaft, omega: RadPerSecond, phi: Radian[Array], period: Radian) -> Orbit:
-    """Motion of a journal under its load, run until it repeats.
-
-    phi: crank angles, evenly spaced over the period, those of the loads.
-    """
+    """Motion of a journal under its load, run until it repeats. phi: crank angles of the loads, evenly spaced."""
     from scipy.integrate import solve_ivp
 
     load = journal.x + 1j * journal.y

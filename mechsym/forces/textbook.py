@@ -78,10 +78,7 @@ def terskih(omega: RadPerSecond) -> Pure:
 
 
 def slider_crank(turn: Turn) -> SliderCrank:
-    """The slider crank of a turn in the letters of the sources.
-
-    Returns slider_crank: with the true centre of mass of the rod.
-    """
+    """The slider crank of a turn in the letters of the sources, with the true centre of mass of the rod."""
     letters = turn.drive.mechanism.parameters
     if (rod := rod_of(turn)) is None:
         raise BadInput(f"the chain of Moroianu is that of a slider crank, not of {turn.drive.name}")

@@ -8,8 +8,8 @@ The steps stand in `file`, `cycles`, `alignment`, `measure` and `pressure`.
 import dataclasses
 import math
 
+from mechsym.cycle.gas import ATMOSPHERE
 from mechsym.cycle.measured.joint_fit import Prior
-from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Radian
