@@ -242,8 +242,7 @@ _SAME = 1e-9
 _NOISE = 1e-12
 # an error beyond this at the source's data is no approximation, whatever its powers
 LARGEST_ERROR = 5.0
-# a truncation is off by little more than the first term that it leaves out
-_MOST = 2.0
+_MOST = 2.0  # a truncation is off by little more than the first term that it leaves out
 _NOTHING = 1e-12  # of a term, by which another one beside it is none
 _PLAIN = {"root", "sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power", "degrees"}
 
