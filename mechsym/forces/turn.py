@@ -32,9 +32,10 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.units import Array, Kilogram, NewtonMetre, Pure, Radian, RadPerSecond
 
 if TYPE_CHECKING:
-    from mechsym.mechanisms.faces import RodlessFaces
+    from mechsym.mechanisms.closing import RodlessFaces
 
 _STEPS_PER_TURN = 1440
+_ROUNDING = 1e-9  # of a torque: less is none [-]
 
 
 @record
@@ -334,8 +335,11 @@ def _powers(mechanism: Mechanism) -> ca.Function:
     idle = ca.substitute(force, inputs, ca.DM.zeros(len(named))) if named else force
     stored = energy(**{n: letters[n] for n in energy.name_in()})
     q, u = (letters[f"{mechanism.coordinates[0]}{dot}"] for dot in ("", "d"))
-    damped = ca.jacobian(idle, u).nnz() > 0
-    damping = idle + ca.gradient(stored["potential_energy"], q) if damped else ca.SX(0)
+    damping = idle + ca.gradient(stored["potential_energy"], q)
+    if not ca.jacobian(idle, u).nnz():  # what is left of weight and springs is rounding, but a constant force is not
+        both = ca.Function("both", list(letters.values()), [damping, idle])
+        left, whole = (np.abs(np.asarray(v)) for v in both.map(3).call([np.array([[0.3, 1.7, 4.1]])] * both.n_in()))
+        damping = damping if np.max(left) > _ROUNDING * np.max(whole) else ca.SX(0)
     slope = ca.gradient(stored["kinetic_energy"] + stored["potential_energy"], q)
     return ca.Function(
         "powers", list(letters.values()), [force - idle, damping, slope], list(letters), ["work", "damping", "slope"]
