@@ -130,13 +130,15 @@ def _pressure(found: DiagramCombustion) -> "Figure":
     phi, rows = _rows(found)
     inside = (phi >= _FROM) & (phi <= _TO)
     (factor, unit), angle = _pressure_unit(rows), _angles(axis)
-    faint = {"color": GREY, "linewidth": 0.6, "alpha": _FAINT}
     if len(rows) <= _READ:
         for number, row in enumerate(rows, 1):
-            axis.plot(phi[inside] * angle, row[inside] * factor, label=f"cycle {number}", **faint)
+            axis.plot(
+                phi[inside] * angle, row[inside] * factor, color=GREY, linewidth=0.6, alpha=_FAINT,
+                label=f"cycle {number}",
+            )  # fmt: skip
     else:
         curves = [np.column_stack([phi[inside] * angle, row[inside] * factor]) for row in rows]
-        axis.add_collection(LineCollection(curves, **faint))
+        axis.add_collection(LineCollection(curves, colors=GREY, linewidths=0.6, alpha=_FAINT))
     axis.plot(phi[inside] * angle, rows.mean(axis=0)[inside] * factor, color=BLUE, label="mean")
     axis.set_ylabel(f"absolute pressure [{unit}]")
     return figure
