@@ -113,6 +113,13 @@ SLIPS = {
     CAM + ", follower='knife', restitution=2)": "at most 1",
     CAM + ", follower='knife'), m.cam('c', turns=phi)": "write cam(",
     CAM + ", follower='knife'), " + CAM + ", follower='knife')": "is taken",
+    # laws
+    "m.gas_spring('g', x, pressure='2 bar', area='3 cm', length='0.1 m')": "has the wrong dimension; give it in m^2",
+    "m.gas_spring('g', phi, pressure='2 bar', area='3 cm^2', length='0.1 m')": "must be in m",
+    "m.belleville('b', x, outer='20 mm', inner='30 mm', height='1 mm', thickness='1 mm')": "inner is not below outer",
+    "m.table_spring('t', x, file='missing.csv')": "missing.csv",
+    "m.motor('E', x, k='0.1 N*m/A', R='2 ohm')": "must be in rad",
+    "m.motor('E', phi, k='0.1 N*m/A')": "needs k and R, or a file",
 }
 
 
