@@ -86,6 +86,8 @@ SLIPS = {
     "m.stop(x, restitution=1.5)": "at most 1",
     "m.contact('c', crank.at(r), block, restitution=0)": "give radii=(r1, r2), or a line",
     "m.contact('c', crank.at(r), m.frame.line(), radii=0.1, restitution=0)": "is no pair",
+    "m.contact('c', crank.at(r), m.frame.line(), length=-0.1, radii=(r, 0), restitution=0)": "is below zero",
+    "m.contact('c', crank.at(r), block.at(l), length=l, radii=(r, 0), restitution=0)": "has no length",
     "m.contact('c', crank.at(r), m.frame.line(), restitution=0.5, friction=mu)": "may gain energy",
     "m.backlash('b', x, angle='1 deg', restitution=0)": "has the wrong dimension; give it in m",
     "m.friction('B', mu=mu)": "names the joint 'B', which is none; there are O",
