@@ -109,10 +109,7 @@ def _motion_of(case: Case, mechanism: Mechanism) -> tuple[np.ndarray, np.ndarray
 def of_run(
     case: Case, gas: Gas | None, length: Second, fastest: RadPerSecond = 0.0, run: RunNumbers | None = None
 ) -> tuple[Doubt, ...]:
-    """Doubts of a run in time.
-
-    gas: that drives it; length: how long it ran; fastest: highest speed of the crank in it.
-    """
+    """Doubts of a run in time. gas: that drives it; length: of the run; fastest: highest speed of the crank."""
     wanted, found = case.sections.get("simulation"), of_gas(case, gas)
     sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
     if sizes is not None:
@@ -192,9 +189,12 @@ def of_motion(case: Case, found: DrivenForces) -> tuple[Doubt, ...]:
     section, table, listing = case.need("motion"), found.columns, plan_of(case.mechanism).listing(None)
     angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]
     told = [q for q in found.one.driven if getattr(section, q) in WORDS]
-    rise = max((float(np.ptp(table[q])) for q in told if q in angles), default=0.0)
+    driven = [q for q in found.one.driven if q in angles]
+    # what a file moves on and on may turn as often as it likes
+    sways = [q for q in driven if q in told or 2 * abs(table[q][-1] - table[q][0]) < np.ptp(table[q])]
+    rise = max((float(np.ptp(table[q])) for q in sways), default=0.0)
     speeds = {q: float(np.abs(table[f"{q}d"]).max()) for q in angles}
-    torques = {q: float(np.abs(table[f"driving_{q}"]).max()) for q in found.one.driven if q in angles}
+    torques = {q: float(np.abs(table[f"driving_{q}"]).max()) for q in driven}
     step = float(table["t"][1] - table["t"][0])
     turns = step * max(speeds.values(), default=0.0) / math.tau
     doubts = inputs({"motion.rise": rise}) if rise else ()

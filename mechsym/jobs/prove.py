@@ -1,7 +1,10 @@
-"""`mechsym prove`: a mechanism, or the limits of guides -> what their machine code can lose to rounding."""
+"""`mechsym prove`: a mechanism, or the limits of guides -> rounding of their code; a case -> its motion enclosed."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
 
+import casadi as ca
 import numpy as np
 
 from mechsym.cases import Case
@@ -13,11 +16,14 @@ from mechsym.hinge.torque import torque
 from mechsym.jobs.machine import machine
 from mechsym.jobs.problem import problem_of
 from mechsym.machine.record import acting, shaft_torque
-from mechsym.mechanisms.record import evaluate, generated, listing, velocities
+from mechsym.mechanisms.record import Mechanism, bind, evaluate, generated, listing, velocities
+from mechsym.proof.enclosure import EnclosureMethod
+from mechsym.proof.motion import MOST, Passed, balls_of, digits, enclose, half_widths, method_for, task_of
 from mechsym.proof.outputs import ProvenRounding, of_guides, of_mechanism, rounding, units_of, widened
 from mechsym.quantities import record
+from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.simulate import Settings, simulate
-from mechsym.simulate.problem import Steps
+from mechsym.simulate.problem import Problem, Steps
 
 _SHARE = 0.01  # of a parameter's value, to both sides
 _SHARE_OF_GUIDES = 0.001  # beyond it balls do not see that the kernel's Newton steps come to an end
@@ -42,10 +48,7 @@ class Extremes:
 
 
 def usual_case(mechanism: str) -> str:
-    """The case whose numbers a mechanism is proven for.
-
-    Raises BadInput: there is none.
-    """
+    """The case whose numbers a mechanism is proven for. Raises BadInput: there is none."""
     found = _OF_OTHERS.get(mechanism) or usual(mechanism)
     if not found:
         raise BadInput(f"{mechanism} has no case of its own; name one with --case")
@@ -139,3 +142,110 @@ def _of_run(case: Case) -> Extremes:
         force=(min(0.0, *values), max(0.0, *values)),
         torque=max(0.0, *np.abs(values).tolist()),
     )
+
+
+@result
+class ProvenMotion:
+    """A motion enclosed: where every solution of the case's equations is, second by second."""
+
+    subject: str = part()
+    t: tuple[float, ...] = quantity("s")  #: Ends of the seconds
+    lower: Columns = part()  #: No state is below at these times; doubles, half-widths are apart
+    upper: Columns = part()  #: Nor above
+    half_width: Columns = part()  #: Of each state around its midpoint
+    least: Columns = part()  #: No state was below during the second before
+    largest: Columns = part()  #: Nor above
+    mean_least: Columns = part()  #: Mean of each velocity over the second before: not below
+    mean_largest: Columns = part()  #: Nor above
+    steps: int = quantity("-")  #: Of the enclosure
+    bits: int = quantity("-")  #: Of its midpoints
+    digits: float = quantity("-")  #: That were forecast to be needed
+    statement: str = part()
+    trusted: tuple[str, ...] = part()
+
+
+_WIDTH = 1e-9  # that is asked for at the end, in the norm [-]
+_TRUSTED = (
+    "python-flint's balls",
+    "the tape: it is the equations that the package derived, read once",
+    "the parameters are the decimals that the case prints, each one number and no measured value with an error",
+)
+
+
+def motion_of(
+    case: Case, t_end: float | None = None, out: Path | None = None, window: tuple[float, float] | None = None,
+    progress: Callable[[int], object] = lambda _: None,
+) -> ProvenMotion:  # fmt: skip
+    """The motion of a case enclosed.
+
+    t_end: in place of the case's [s]; out: folder in which the proof is kept, and goes on from; window: times that the
+    statement is about [s]. Raises BadInput: it cannot be enclosed; the message names the force, or the digits that it
+    would need.
+    """
+    problem = problem_of(case)
+    symbols = {name: ca.SX.sym(name) for name in problem.mechanism.parameters}
+    open_ = bind(case.mechanism, symbols)
+    values = {name: float(v) for name, v in problem.mechanism.parameters.items()}
+    _require_same(case, problem, bind(case.mechanism, values))
+    task = task_of(problem, open_, values)
+    until = t_end or problem.t_end
+    needed = digits(task, until, _WIDTH)
+    if needed > MOST:
+        raise BadInput(
+            f"{case.file}: to {until:g} s an enclosure of {_WIDTH:g} needs more than {MOST:g} digits: neighbours come "
+            "apart too fast; give a shorter --t-end"
+        )
+    method = method_for(needed)
+    passed = enclose(task, method, Fraction(repr(float(until))), out, progress)
+    states = (*problem.mechanism.coordinates, *velocities(problem.mechanism))
+    return _told(case, problem, states, passed, (method, needed), window)
+
+
+def _require_same(case: Case, problem: Problem, plain: Mechanism) -> None:
+    """Refuse a run whose mechanism is more than its declaration: a flywheel, the torque of a hinge."""
+    if plain.inputs != problem.mechanism.inputs:
+        raise BadInput(f"{case.file}: [drive] or [spring] adds an input to {plain.name}; it cannot be enclosed with it")
+    at = [0.3 + 0.1 * k for k in range(plain.functions["dynamics"].n_in())]
+    pairs = zip(*(m.functions["dynamics"].call(at) for m in (plain, problem.mechanism)), strict=True)
+    if any(np.abs(np.asarray(a - b)).max() > 0 for a, b in pairs):
+        raise BadInput(f"{case.file}: a section adds inertia to {plain.name}; put it into the parameters to enclose it")
+
+
+def _told(
+    case: Case, problem: Problem, states: tuple[str, ...], passed: Sequence[Passed], by: tuple[EnclosureMethod, float],
+    window: tuple[float, float] | None,
+) -> ProvenMotion:  # fmt: skip
+    units = dict(zip(states, problem.mechanism.state_units, strict=True))
+    n = len(states) // 2
+    ends = np.array([[(float(b.lower()), float(b.upper())) for b in balls_of(p.at)] for p in passed])
+    times, starts = np.array([float(p.at.t) for p in passed]), np.array([[q, q] for q in problem.q0])
+    # over a second the mean of a velocity is the change of its coordinate by its length, doubles a hair outwards
+    moved = ends[:, :n] - np.concatenate([starts[None], ends[:-1, :n]])[:, :, ::-1]
+    means = moved / np.diff(times, prepend=problem.t_start)[:, None, None] + [-1e-11, 1e-11]
+
+    def columns(values: np.ndarray, names: Sequence[str] = states) -> Columns:
+        return Columns({k: tuple(v) for k, v in zip(names, np.transpose(values).tolist(), strict=True)}, units)
+
+    low, high = np.array([p.low for p in passed]), np.array([p.high for p in passed])
+    speeds = tuple(f"{q}d" for q in states[:n])
+    inside = (
+        times > problem.t_start if window is None else (times >= window[0] + 1 - 1e-9) & (times <= window[1] + 1e-9)
+    )
+    if not inside.any():
+        raise BadInput(f"--window {window}: no whole second lies in it; they end at {times[0]:g} to {times[-1]:g} s")
+    mean = means[inside, 0, 0].min(), means[inside, 0, 1].max()
+    of_all = low[inside, n].min(), high[inside, n].max()
+    claim = getattr(case.sections.get("startup"), "claim_speed", None)
+    never = claim is not None and not mean[0] <= claim <= mean[1]
+    statement = (
+        f"with the decimals of {case.name} every solution has {speeds[0]} within [{of_all[0]:.6g}, {of_all[1]:.6g}] "
+        f"{units[speeds[0]]} from {times[inside][0] - 1:g} to {times[inside][-1]:g} s, its mean over each second in "
+        f"[{mean[0]:.6g}, {mean[1]:.6g}]{f': never in steady motion at {claim:g}' if never else ''}; at "
+        f"{times[-1]:g} s the state is known to +-{max(half_widths(passed[-1].at)[:n]):.1g} in its coordinates"
+    )
+    return ProvenMotion(
+        subject=case.name, t=tuple(times.tolist()), lower=columns(ends[:, :, 0]), upper=columns(ends[:, :, 1]),
+        half_width=columns(np.array([half_widths(p.at) for p in passed])), least=columns(low), largest=columns(high),
+        mean_least=columns(means[:, :, 0], speeds), mean_largest=columns(means[:, :, 1], speeds),
+        steps=passed[-1].steps, bits=by[0].bits, digits=by[1], statement=statement, trusted=_TRUSTED,
+    )  # fmt: skip

@@ -13,7 +13,7 @@ try:
 except ImportError as error:
     raise MissingExtra("prove needs python-flint: pip install 'mechsym[proof]'") from error
 
-acb, arb, ctx = flint.acb, flint.arb, flint.ctx
+acb, arb, arb_mat, ctx = flint.acb, flint.arb, flint.arb_mat, flint.ctx
 #: A sum of a few thousand doubles of one sign, each rounded to nearest, is below this times what comes out
 UP = 1 + 1e-9
 Ball = Any  # arb or acb: python-flint has no types
@@ -21,7 +21,11 @@ Ball = Any  # arb or acb: python-flint has no types
 
 def decimal(value: Scalar) -> Ball:
     """The decimal number [SI] that a double prints as, in a ball: 0.26 and not the double next to it."""
-    exact = Fraction(repr(float(value)))
+    return ratio(Fraction(repr(float(value))))
+
+
+def ratio(exact: Fraction) -> Ball:
+    """A rational number in a ball."""
     return arb(flint.fmpq(exact.numerator, exact.denominator))
 
 

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from mechsym import cases
-from mechsym.codesign.family import cycle_at, places, scavenge_pressure
+from mechsym.codesign.machines import cycle_at, places, scavenge_pressure
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.errors import BadInput
 
@@ -54,7 +54,8 @@ def test_a_scavenge_pressure_is_what_its_text_says(text, bar):
 
 @pytest.mark.parametrize("text, why", [
     ("mep**11", "small powers"), ("mep % 2", "small powers"), ("sin(mep)", "numbers, mep"), ("True", "numbers, mep"),
-    ("mep/0", "cannot be read"), ("mep - 8", "must be > 0"), ("mep - 9", "must be > 0"), ("", "cannot be read"),
+    ("mep/0", "cannot be read"), ("mep - 8", "must be > 0"), ("mep - 9", "gives -1 bar at mep = 8 bar"),
+    ("", "cannot be read"),
 ])  # fmt: skip
 def test_a_scavenge_pressure_that_is_none_is_refused(text, why):
     with pytest.raises(BadInput, match=why):
