@@ -215,11 +215,6 @@ def _run(case: CaseFacts) -> list[str]:
 
 
 def _export(case: CaseFacts) -> list[str]:
-    if case.held:
-        return [
-            f"{case.mechanism} is closed by constraints and an export takes independent coordinates; simulate it with "
-            "mechsym"
-        ]
     return _events(case) or _run(case)
 
 

@@ -22,11 +22,13 @@ from mechsym.hinge.shown import hinge_scene
 from mechsym.hinge.torque import Hinge
 from mechsym.jobs.gas import engine_with, gas, measured, one_cylinder
 from mechsym.jobs.machine import acting_on, drive_of, one_coordinate
-from mechsym.jobs.problem import Ready, guide_of
+from mechsym.jobs.problem import Ready, beyond, guide_of
 from mechsym.jobs.problem import ready as running
 from mechsym.machine.loads import Load, settle
 from mechsym.mechanisms.drawing import Shapes, drawn
 from mechsym.mechanisms.turning import FRAMES, scene
+from mechsym.simulate import Settings, simulate
+from mechsym.simulate.constrained import LOCKED
 from mechsym.simulate.problem import Kinks, Periodic, Problem
 from mechsym.simulate.settings import Simulation
 
@@ -45,8 +47,18 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
             raise BadInput(f"{case.file}: --diagram needs an engine with crosshead and [cycle], as the case generator")
         case = measured(case, diagram)
     wanted = case.sections.get("simulation") or Simulation(turns=TURNS)
-    found = running(dataclasses.replace(case, sections={**case.sections, "simulation": wanted}))
+    found = running(_beyond(dataclasses.replace(case, sections={**case.sections, "simulation": wanted})))
     return dataclasses.replace(found, problem=_splined(case, found.problem)) if _by_spark(case) else found
+
+
+def _beyond(case: Case) -> Case:
+    """The case on loops by constraint where its own run in time goes on through a dead point of the closed forms."""
+    case = beyond(case)
+    problem = running(case).problem
+    if "sides" not in problem.mechanism.functions or problem.unilateral:
+        return case
+    run = simulate(problem, dataclasses.replace(Settings(), check="none"))
+    return beyond(case, ends=True) if run.end == LOCKED else case
 
 
 def _by_spark(case: Case) -> bool:

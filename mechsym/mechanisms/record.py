@@ -161,6 +161,7 @@ def bind_module(module: ModuleType, parameters: Mapping[str, Scalar]) -> Mechani
         "reactions": (*q, *u, *a, *module.INPUTS, *getattr(module, "MULTIPLIERS", ())),
         "momentum": (*q, *u, *a),
         "constraints": (*q, *u),
+        "sides": q,
         "drawing": q,
     }
     functions: Mapping[str, ca.Function] = BoundFunctions(module, letters, values)
