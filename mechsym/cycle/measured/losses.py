@@ -50,7 +50,8 @@ def expected_losses(cylinder: Chamber, omega: RadPerSecond) -> tuple[tuple[float
 def log_normal(of: tuple[float, float], at: float) -> tuple[float, float]:
     """Middle and deviation of the normal distribution that is like a log-normal one near a value.
 
-    of: middle [1/rad] and factor [-] of the log-normal one; at: the value [1/rad]. Returns middle, deviation [1/rad].
+    of: middle [1/rad] and factor [-] of the log-normal one; at: the value [1/rad]. Returns normal: middle and
+    deviation of the normal one [1/rad].
 
     >>> log_normal((0.1, math.e), 0.1)
     (0.1, 0.1)
