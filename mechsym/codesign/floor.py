@@ -1,16 +1,22 @@
 """A design beside its bound: all inertia that turns, what no guide does without, and where a flywheel went."""
 
+import dataclasses
+
 import numpy as np
 
-from mechsym.codesign.certificate import Proof, Terms, proofs, swing_per_inertia
+from mechsym.codesign.certificate import Proof, Terms, enclosed, proofs, swing_per_inertia
 from mechsym.codesign.rank import MOST, Bound
 from mechsym.codesign.running import added_inertia
 from mechsym.codesign.task import CoDesign
+from mechsym.errors import BadInput
 from mechsym.hinge.springs.face import affine_energy
 from mechsym.plausible import Doubt
 from mechsym.quantities import RPM, quantity, record
 from mechsym.quantities.display import figure, quantity_text
 
+PROVEN = "proven"
+_LOSSY = "an estimate, proven without friction and heat only"
+_CLOSE = 1e-3  # by which balls may hold less than doubles [-]
 _FINE = 720  # angles of a turn
 _MOVED = 0.1  # share of the flywheel saved by free hardware that may go into the rollers without a word
 
@@ -26,7 +32,8 @@ class Floor:
     proofs: tuple[Proof, ...]  #: for 1, 2, 3 springs
     estimate: tuple[float, ...]  #: D_r by the ripple, for 1, 2, 3 springs [kg*m^2]
     assumes: tuple[str, ...]  #: what the proof holds for
-    proven: bool  #: of this design; with friction and heat in its programme the bound is an estimate
+    proven: bool  #: of this design, in balls
+    kind: str  #: `proven`, or what it is instead and why
 
 
 def floor(design: CoDesign, bound: Bound, ripple: np.ndarray) -> Floor:
@@ -37,17 +44,35 @@ def floor(design: CoDesign, bound: Bound, ripple: np.ndarray) -> Floor:
     total = points[0].inertia(phi) + design.flywheel + rollers
     kept = float(np.nanmax(np.append(ripple, design.task.ripple)))
     terms = Terms(rollers=float(np.ptp(rollers)), ambient=float(np.ptp(_ambient(design, phi))))
-    found = proofs(points, bound.phi, swing_per_inertia(kept), terms, MOST)
+    q = swing_per_inertia(kept)
+    found = list(proofs(points, bound.phi, q, terms, MOST))
+    kind = _in_balls(design, bound, q, terms, found) if design.task.losses is None else _LOSSY
     return Floor(
         total_inertia=float(total.max()),
         rollers=float(np.mean(rollers)),
         ripple=kept,
         terms=terms,
-        proofs=found,
+        proofs=tuple(found),
         estimate=tuple(swing / kept for swing in bound.swing),
         assumes=_assumes(design, kept, terms),
-        proven=design.task.losses is None,
+        proven=kind == PROVEN,
+        kind=kind,
     )
+
+
+def _in_balls(design: CoDesign, bound: Bound, q: float, terms: Terms, found: list[Proof]) -> str:
+    """What the bound of a design's springs is; where balls prove it, the proof is what they prove."""
+    place = design.task.springs - 1
+    if not found[place].points:
+        return PROVEN  # that nothing is proven
+    try:
+        proven = enclosed(design.task.points, bound.phi, q, terms, found[place].points)
+    except BadInput as error:  # MissingExtra too
+        return f"computed in doubles and not proven ({error})"
+    if proven < (1 - _CLOSE) * found[place].total_inertia:
+        return "computed in doubles and not proven (balls hold less)"
+    found[place] = dataclasses.replace(found[place], total_inertia=min(proven, found[place].total_inertia))
+    return PROVEN
 
 
 def rollers_inertia(design: CoDesign) -> float:
