@@ -19,9 +19,8 @@ from mechsym.app.told import KNOWN
 from mechsym.cases.keys import keys
 from mechsym.cli import COMMANDS, mechsym
 from mechsym.cli.results import RESULTS, rows
-from mechsym.jobs.drawing import drawing
-from mechsym.quantities.display import without_unit
-from mechsym.quantities.words import key_words
+from mechsym.jobs.export import drawing
+from mechsym.quantities.display import key_words, without_unit
 
 # one example a command whose output is shown; each runs in some seconds
 EXAMPLES = {

@@ -328,7 +328,6 @@ def _of(
     inertia = _number(link["inertia"], letters)
     if length <= 0:
         return
-    about = f"inertia of {name} / (mass * (distance of its joints)^2)"
     if len(points) == 1:  # its size is that of its centre's distance: a disc beside its axis is wider, a bob thinner
         if mass > 0 and inertia:
             about = f"inertia of {name} / (mass * (twice its centre from its joint)^2)"
@@ -336,20 +335,20 @@ def _of(
         return
     if link["turns"] in rotors or link["turns"] and link["centre"] == list(link["pivot"] or ()):
         inertia = 0.0  # of a flywheel
+    # webs, discs and counterweights of a crank are wider than its throw
+    size, of = (longest, "longest link") if link["turns"] else (length, "distance of its joints")
     if mass > 0:
-        if not link["turns"]:  # webs and counterweights of a crank are wider than its throw
-            longest = length
-        yield from proportion("link_density", f"mass of {name} / (distance of joints)^3", mass / longest**3)
+        yield from proportion("link_density", f"mass of {name} / ({of})^3", mass / size**3)
         middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True))
         away = math.dist(_point(link["centre"], letters), middle)
-        yield from proportion(
-            "link_centre", f"centre of {name} from the middle of its joints / their distance", away / length
-        )
-        if inertia:
+        yield from proportion("link_centre", f"centre of {name} from the middle of its joints / {of}", away / size)
+        about, ratio = f"inertia of {name} / (mass * ({of})^2)", inertia / (mass * size**2)
+        if inertia and link["turns"]:
+            yield from proportion("link_needle", about, ratio, _CARRIES)
+        elif inertia:
             # of all that weighs m within a circle about the middle, whose centre of mass lies beside it
             reach = _BEYOND * (max(math.dist(middle, p) for p in points) + away)
-            most = _CARRIES if link["turns"] else (reach**2 - away**2) / length**2
-            yield from proportion("link_inertia", about, inertia / (mass * length**2), most)
+            yield from proportion("link_inertia", about, ratio, (reach**2 - away**2) / length**2)
     elif inertia and link["pivot"] and not link["turns"]:  # about its bearing in the frame no mass is needed
         yield from proportion("link_density", f"inertia of {name} / (distance of its joints)^5", inertia / length**5)
     elif inertia and not link["turns"]:

@@ -109,10 +109,7 @@ def _motion_of(case: Case, mechanism: Mechanism) -> tuple[np.ndarray, np.ndarray
 def of_run(
     case: Case, gas: Gas | None, length: Second, fastest: RadPerSecond = 0.0, run: RunNumbers | None = None
 ) -> tuple[Doubt, ...]:
-    """Doubts of a run in time.
-
-    gas: that drives it; length: how long it ran; fastest: highest speed of the crank in it.
-    """
+    """Doubts of a run in time. gas: that drives it; length: of the run; fastest: highest speed of the crank."""
     wanted, found = case.sections.get("simulation"), of_gas(case, gas)
     sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
     if sizes is not None:

@@ -72,10 +72,7 @@ class Place:
 
 
 def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
-    """Find the field that a key means.
-
-    key: dotted key; a bare key works if it is unique. option: where the key was written, for messages.
-    """
+    """Find the field of a dotted key, or of a bare one that is unique. option: where it was written, for messages."""
     section, dot, name = key.partition(".")
     if not dot:
         section, name = _home(tables, mechanism, key, option), key
@@ -96,10 +93,7 @@ def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
 
 
 def override(tables: Json, mechanism: str, key: str, value: object) -> None:
-    """Replace one value of a case.
-
-    tables: sections with their raw values; changed in place. key: dotted key; a bare key works if it is unique.
-    """
+    """Replace one value, by its dotted key or a bare one that is unique. tables: raw values; changed in place."""
     section, dot, name = key.partition(".")
     if not dot:
         section, name = _home(tables, mechanism, key, "--set"), key

@@ -5,8 +5,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, judge_ends, out_option, pairs, set_option, table
-from mechsym.cli.speeds import parse_speeds
+from mechsym.cli.common import (
+    case_of,
+    emit,
+    json_option,
+    judge_ends,
+    out_option,
+    pairs,
+    parse_speeds,
+    set_option,
+    table,
+)
 from mechsym.files import Json
 
 if TYPE_CHECKING:

@@ -76,7 +76,7 @@ def _left_over(found: "Identified") -> str:
 
 def _write(out: Path, found: "Identified") -> list[Path]:
     from mechsym.files import write_quantities
-    from mechsym.optimise.plots import trace_picture
+    from mechsym.optimise.shown import trace_picture
 
     columns = {"t": found.t}
     for name, values in found.measured.items():

@@ -139,10 +139,7 @@ class ForceNumbers:
 
 
 def summary(forces: Forces, case: str, source: str = "") -> ForceNumbers:
-    """The result in numbers.
-
-    case, source: name of the case, and the source whose engine it is: only the claims of that source are judged.
-    """
+    """The result in numbers. case, source: name of the case, and the source whose claims are judged."""
     one, table = forces.turn, forces.columns
     largest, smallest = extremes(table)
     name = mechanisms.listing(one.drive.name)["name"]

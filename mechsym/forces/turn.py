@@ -32,7 +32,7 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.units import Array, Kilogram, NewtonMetre, Pure, Radian, RadPerSecond
 
 if TYPE_CHECKING:
-    from mechsym.mechanisms.faces import RodlessFaces
+    from mechsym.mechanisms.closing import RodlessFaces
 
 _STEPS_PER_TURN = 1440
 _ROUNDING = 1e-9  # of a torque: less is none [-]

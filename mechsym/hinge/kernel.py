@@ -25,9 +25,7 @@ import numpy as np
 from mechsym import periodic
 from mechsym.errors import BadInput, suggest
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.bounds.face import GuideLimit, Station, asked
-from mechsym.hinge.bounds.spring import ROOM
-from mechsym.hinge.bounds.track import CENTRE
+from mechsym.hinge.bounds.face import CENTRE, ROOM, GuideLimit, Station, asked
 from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Formulas, Spring, lettered

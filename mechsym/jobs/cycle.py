@@ -12,7 +12,7 @@ from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.cases.settings import Speeds
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.figures import CycleFigures
+from mechsym.cycle.columns import CycleFigures
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
 from mechsym.cycle.kinds import KINDS, four_stroke, kind_of
 from mechsym.cycle.motion import from_top, slopes
@@ -273,9 +273,6 @@ def _extremes(case: Case, speed: float) -> dict[str, float]:
 
 
 def speed_range(speeds: Speeds) -> RadPerSecond[Array]:
-    """The speeds of a performance map.
-
-    speeds: section `[speeds]` of a case. Returns omega: lowest, lowest + step.. up to highest.
-    """
+    """Speeds of a performance map from section `[speeds]`: lowest, lowest + step.. up to highest."""
     count = int((speeds.highest - speeds.lowest) / speeds.step + 1e-9) + 1
     return speeds.lowest + speeds.step * np.arange(count)

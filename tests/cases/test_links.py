@@ -135,8 +135,10 @@ SECTION = 4.0 / 7850 / 0.35  # of a bar of steel of that mass and length [m^2]
     [
         ({}, {}, 0.0, None),
         ({"I": 9.0 * 4 * 0.35**2}, {}, 0.0, None),  # with a motor behind its gear
-        ({"I": 11.0 * 4 * 0.35**2}, {}, 0.0, "link_inertia"),
-        ({"I": 0.009 * 4 * 0.35**2}, {}, 0.0, "link_inertia"),
+        ({"I": 11.0 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
+        ({"I": 1.1e-5 * 4 * 0.35**2}, {}, 0.0, None),  # its mass at one end
+        ({"I": 0.9e-5 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
+        ({"I": 4 * 0.1**2 / 2, "l": 0.02, "L": 0.1}, {}, 0.0, None),  # a disc with a crank pin
         ({"I": 50.0}, {"centre": ["0", "0"]}, 0.0, None),  # balanced: a wheel
         ({"l": 0.05}, {}, 0.0, None),  # a crank whose webs are wider than its throw
         ({"l": 0.05, "L": 0.07}, {}, 0.0, "link_density"),
@@ -156,5 +158,5 @@ def test_a_link_that_its_drive_turns_is_held_against_its_bar(values, changes, to
 def test_a_rotor_carries_its_flywheel():
     listing = {"links": [ARM], "parameters": {}, "coordinates": {"q": "rad"}, "inputs": {}}
     heavy = SIZES | {"I": 50.0}
-    assert [d.code for d in by_links(listing, heavy, {}, {})] == ["link_inertia"]
+    assert [d.code for d in by_links(listing, heavy, {}, {})] == ["link_needle"]
     assert by_links(listing | {"roles": {"rotor": [{"name": "arm", "angle": "q"}]}}, heavy, {}, {}) == ()

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from mechsym import periodic
-from mechsym.codesign.control import _integral
-from mechsym.codesign.cylinders import counts, even_firing, together
 from mechsym.codesign.machines import from_curve
+from mechsym.codesign.manoeuvres import _integral
+from mechsym.codesign.rank import counts, even_firing, together
 
 TURN = 2 * math.pi
 PHI = np.linspace(0.0, TURN, 25)

@@ -6,7 +6,7 @@ import math
 import pytest
 
 from mechsym import cases
-from mechsym.codesign.family import cycle_at, places, scavenge_pressure
+from mechsym.codesign.machines import cycle_at, places, scavenge_pressure
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.errors import BadInput
 
