@@ -7,12 +7,14 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from mechsym.audit.judge.conventions import conditions, under
+from mechsym.audit.judge.conventions import conditions, reading, under
 from mechsym.audit.judge.dimensions import is_consistent
 from mechsym.audit.judge.orders import EXACT, lowest
-from mechsym.audit.judge.prover import POINTS, ROUNDING, Agreement, agreement, proves_equal
+from mechsym.audit.judge.prover import POINTS, ROUNDING, Agreement, agreement, proves_equal, reach
 from mechsym.audit.judge.question import Question, names, used_names, value
+from mechsym.audit.judge.window import DECADES, is_wide
 from mechsym.audit.read.reader import joined
+from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.repair.examination import Examination, Repair, exact_repair, examine, standing
 from mechsym.audit.repair.search import Found, search, truncated
@@ -23,6 +25,8 @@ PASSED = ("exact", "truncation", "convention")  # exit status 0
 FINDINGS = ("misprint", "nearer", "wrong")  # exit status 1
 OPEN = ("mixed", "untestable")  # exit status 3
 WORST = ("wrong", "nearer", "misprint", *OPEN, "convention", "truncation", "exact")  # the worst first
+RIGHT_WITH = "a misprint, or right with"  # a convention that nothing tells
+_NEAR_ONLY = "it agrees near the data and not over the whole domain; say with assume where it is meant to hold"
 _EITHER = "a term is too many, or one has lost a factor that the condition makes zero"
 _STATIC = "it has no speed at all, so that what it has lost may hold at any speed"
 
@@ -47,8 +51,8 @@ class Decision:
     note: str = ""
 
 
-def decide(question: Question) -> Decision:
-    """Compare a printed formula with the derived quantity."""
+def decide(question: Question, settled: bool = False) -> Decision:
+    """Compare a printed formula with the derived quantity; `settled`: its author's way of counting is known."""
     exam = examine(question)
     plain = _plain(exam)
     if plain is not None:
@@ -59,18 +63,23 @@ def decide(question: Question) -> Decision:
             words = "exact" if judged.verdict == "exact" else f"a truncation of relative order {judged.order}"
             note = joined(judged.note, f"{words} at {condition.told}")
             return replace(judged, verdict="convention", note=note)
-    return _searched(exam)
+    return _searched(exam, settled)
 
 
 def _plain(exam: Examination) -> Decision | None:
     # what needs no search: exact, without values, or a truncation
     tree = exam.question.formula.tree
     met = agreement(exam.judged, tree)
-    if met.exact:
-        proof = "polynomial" if proves_equal(exam.question, tree) else "50 digits"
+    reached = reach(exam.judged, tree) if met.exact else None
+    if reached is not None and not reached.everywhere and reached.where is None:
+        return _decision(exam, "untestable", replace(standing(exam, tree), orders={}), note=_NEAR_ONLY)
+    if reached is not None:
+        proof = "polynomial" if reached.everywhere and proves_equal(exam.question, tree) else "50 digits"
         turns = "up to whole turns" if met.turned else ""
-        where = domain(exam.question)
-        return _decision(exam, "exact", standing(exam, tree), certificate=proof, domain=where, note=turns)
+        limit = f"{to_python(reached.where)} > 0" if reached.where is not None else ""
+        where = joined(domain(exam.question), limit)
+        told = joined(turns, f"where {limit}" if limit else "")
+        return _decision(exam, "exact", standing(exam, tree), certificate=proof, domain=where, note=told)
     if met.expected <= POINTS // 2 or met.agrees or met.vanishes:
         start = replace(standing(exam, tree), orders={})
         return _decision(exam, "untestable", start, note=_without_value(met))
@@ -81,7 +90,7 @@ def _plain(exam: Examination) -> Decision | None:
     return None if note is None else _decision(exam, "truncation", start, note=note, domain=domain(exam.question))
 
 
-def _searched(exam: Examination) -> Decision:
+def _searched(exam: Examination, settled: bool) -> Decision:
     question, tree = exam.question, exam.question.formula.tree
     start = standing(exam, tree)
     condition = next(conditions(question), None)
@@ -108,6 +117,9 @@ def _searched(exam: Examination) -> Decision:
     met = agreement(exam.judged, tree)
     if verdict in ("wrong", "nearer") and 2 * met.valued <= met.expected:
         return _decision(exam, "untestable", start, note=_without_value(met))
+    # what is right in its author's way of counting is said and not blamed
+    if not settled and verdict in FINDINGS and (read := reading(exam.judged, tree)):
+        verdict, outcome = "untestable", replace(outcome, note=joined(f"{RIGHT_WITH} {read}", outcome.note))
     note = outcome.note if met.valued else joined(outcome.note, "as printed it has no real value anywhere")
     return _decision(exam, verdict, start, repairs=outcome.repairs, nearer=outcome.nearer, note=note)
 
@@ -142,6 +154,8 @@ def domain(question: Question) -> str:
     parts = [f"positive {', '.join(positive)}"] if positive else []
     parts += [f"all {', '.join(signed)}"] if signed else []
     parts += ["rods longer than their cranks"] if theory.rods else []
+    reach = f"from 1/{10**DECADES} to {10**DECADES} of the data" if is_wide(question) else "from 0.7 to 1.4 of the data"
+    parts += [reach] if positive or signed else []
     return "; ".join([*parts, *ranges, *(f"{k} = {v:g}" for k, v in question.hold.items())])
 
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.asked import question_of as question_asked
-from mechsym.audit.judge.certificate import HEAD, script
+from mechsym.audit.judge.certificate import script
+from mechsym.audit.judge.coq import HEAD
 from mechsym.audit.judge.question import Question, peak, turn, value
 from mechsym.audit.read.reader import read, statement
 from mechsym.audit.row import Row, formula_row, plain_row
@@ -128,7 +129,7 @@ def row(source: str, entry: Entry) -> Row:
         error = None if decided.rel_error is None else abs(decided.rel_error)
         return head | plain_row(verdict, error, decided.note, "")
     question = question_of(entry)
-    decision = decide(question)
+    decision = decide(question, settled=True)
     effect = entry.effect(decision) if entry.effect else _at_the_data(question, decision)
     return head | formula_row(question, decision, entry.statement, entry.note, effect)
 
