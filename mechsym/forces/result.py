@@ -65,8 +65,8 @@ def columns(turn: Turn, loads: Loads, chains: Mapping[str, Chain] | None = None)
     # what is left are forces of parts and chains
     chained = ("two_mass_M", "terskih_M")
     units = {n: known.get(n, "N*m" if n.endswith(chained) else "N") for n in table}
-    shown = turn.drive.mechanism.shown
-    return Columns(*({shown.get(n, n): v for n, v in of.items()} for of in (table, units)))
+    shown = {n: turn.drive.mechanism.shown.get(n, n) for n in table}
+    return Columns({shown[n]: v for n, v in table.items()}, {shown[n]: unit for n, unit in units.items()})
 
 
 def _of_slope(name: str, coordinates: Mapping[str, str]) -> str:

@@ -60,7 +60,8 @@ def state(
     kinds = {mechanism.units.get(name, "rad") for name in q}
     inertia, push, rate = _UNITS.get(kinds.pop(), _MIXED) if len(kinds) == 1 else _MIXED
     known = {**dict.fromkeys(outputs, ""), **_units(mechanism), **units}
-    told = Columns(*({mechanism.shown.get(n, n): v for n, v in of.items()} for of in (outputs, known)))
+    shown = {n: mechanism.shown.get(n, n) for n in known}
+    told = Columns({shown[n]: v for n, v in outputs.items()}, {shown[n]: unit for n, unit in known.items()})
     return MechanismState(
         mass_matrix=mass.tolist(), bias=bias.ravel().tolist(), generalized_force=force.ravel().tolist(),
         acceleration=qdd.tolist(), outputs=told, **energies, inertia=inertia, push=push, rate=rate,
