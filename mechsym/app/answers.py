@@ -71,10 +71,7 @@ class Answer:
 
 
 def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
-    """The hinge of a case with other values; what is impossible is an answer too, in words.
-
-    values: by key, as `--set` takes them [SI unit of the key].
-    """
+    """The hinge of a case with other values by key [SI]; what is impossible is an answer too, in words."""
     try:
         case = cases.load(name, values)
         design = hinge(case)

@@ -110,10 +110,7 @@ def pretty_words(text: str) -> str:
 
 
 def measure(value: float, unit: str) -> str:
-    """A number with its unit for people; frequencies in Hz, what rounds to nothing is said to be.
-
-    value: in SI, a frequency in rad/s [unit].
-    """
+    """A number in SI with its unit for people; frequencies in Hz; what rounds to nothing is said to be [unit]."""
     if unit in ("", "-", "1"):
         return ratio_text(value, 5) if unit == "-" else figure(value)
     value = 0.0 if unit in _BARE and abs(value) < _BARE[unit] else value

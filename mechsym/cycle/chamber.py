@@ -189,8 +189,7 @@ def piston_force(
     .. math:: F = (p - p_b) A - m\,x''\omega^2
 
     phi: crank angle from top dead centre; p: absolute pressure in the chamber. Returns force: positive away from the
-    head.
-    Source: Nunes (2017), eqs. (2.62) to (2.64), whose acceleration is -x'' omega^2.
+    head. Source: Nunes (2017), eqs. (2.62) to (2.64), whose acceleration is -x'' omega^2.
     """
     net = (p - chamber.back_pressure) * chamber.area
     return net - moving_mass(chamber.motion) * travel(chamber.motion, phi)[2] * omega**2

@@ -14,18 +14,12 @@ _BASE = ("kg", "m", "s", "K")
 
 
 def of_unit(unit: str) -> Dimension:
-    """Exponents of a unit.
-
-    unit: product of units, `"-"` for a pure number. Returns dimension: of kg, m, s, K.
-    """
+    """Exponents of a unit. unit: product of units, `"-"` for a pure number. Returns dimension: of kg, m, s, K."""
     return quantities.dimension(unit)
 
 
 def in_words(dimension: Dimension) -> str:
-    """A dimension as a unit that people write.
-
-    dimension: exponents of kg, m, s, K. Returns unit: for example ``kg*m^2/s^2``, ``-`` for a pure number.
-    """
+    """Exponents of kg, m, s, K as a unit that people write: ``kg*m^2/s^2``, ``-`` for a pure number."""
 
     def product(powers: list[tuple[str, Rational | int]]) -> str:
         return "*".join(b if p == 1 else f"{b}^{p}" for b, p in powers)

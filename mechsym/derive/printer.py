@@ -88,10 +88,7 @@ class _Printer(StrPrinter):
     printmethod = "_casadi"
 
     def doprint(self, expr: sp.Basic | float) -> str:
-        """Check every node against the list, then print.
-
-        expr: Expr, sympy expression. Returns text: Python text.
-        """
+        """Check every node against the list, then print. expr: Expr, sympy expression. Returns text: Python text."""
         require_known(expr)
         return self._print(expr)
 
@@ -212,10 +209,7 @@ class _Printer(StrPrinter):
 
 
 def known() -> str:
-    """The functions and nodes that are printed.
-
-    Returns names: sorted, separated by commas.
-    """
+    """The functions and nodes that are printed. Returns names: sorted, separated by commas."""
     return ", ".join(sorted([*_FUNCTIONS, *_NODES], key=str.lower))
 
 

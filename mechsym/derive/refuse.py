@@ -11,10 +11,7 @@ _HERE = str(Path(__file__).parent)
 
 
 def place() -> str:
-    """File and line of the declaration that is being read; those of its mechanism where all of it is read.
-
-    Returns place: for example ``scotch.py:14``.
-    """
+    """File and line, ``scotch.py:14``, of the declaration being read; of its mechanism where all of it is read."""
     frame = _declaring()
     if isinstance(frame, str):
         return frame

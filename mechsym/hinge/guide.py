@@ -65,9 +65,8 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
     """Guide that makes a spring give a torque, as the spring says, see `Spring.path`.
 
     wanted: torque to give with its work: all of it, or the part that was chosen. Returns guide: the path, or status and
-    reason. Raises BadInput: the track would not close after a turn of its shaft, or z_margin leaves no spring.
-
-    Valid: massless rollers and spring, no friction.
+    reason. Raises BadInput: the track would not close after a turn of its shaft, or z_margin leaves no spring. Valid:
+    massless rollers and spring, no friction.
     """
     refuse_open_track(parameters, wanted.period)
     if parameters.z_margin >= spring.H:

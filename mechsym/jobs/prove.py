@@ -48,10 +48,7 @@ class Extremes:
 
 
 def usual_case(mechanism: str) -> str:
-    """The case whose numbers a mechanism is proven for.
-
-    Raises BadInput: there is none.
-    """
+    """The case whose numbers a mechanism is proven for. Raises BadInput: there is none."""
     found = _OF_OTHERS.get(mechanism) or usual(mechanism)
     if not found:
         raise BadInput(f"{mechanism} has no case of its own; name one with --case")
@@ -182,9 +179,8 @@ def motion_of(
     """The motion of a case enclosed.
 
     t_end: in place of the case's [s]; out: folder in which the proof is kept, and goes on from; window: times that the
-    statement is about [s].
-
-    Raises BadInput: it cannot be enclosed; the message names the force, or the digits that it would need.
+    statement is about [s]. Raises BadInput: it cannot be enclosed; the message names the force, or the digits that it
+    would need.
     """
     problem = problem_of(case)
     symbols = {name: ca.SX.sym(name) for name in problem.mechanism.parameters}

@@ -105,11 +105,8 @@ def redundant_force(
               m = \frac1{k_c} + \frac{s^2}{k_a} + \frac{c^2}{k_b}
 
     with G = g_c, g_a|s|, g_b|c| and b = 0, X_a^0/s, X_b^0/c; S is the median of the b in ascending order and of the
-    four S that the equation gives with the first 0, 1, 2, 3 signs positive.
-
-    X_a, X_b: guide reactions at S = 0; s, c: sine and cosine of alpha. Returns S: along the crank, positive away from
-    the shaft.
-
+    four S that the equation gives with the first 0, 1, 2, 3 signs positive. X_a, X_b: guide reactions at S = 0; s, c:
+    sine and cosine of alpha. Returns S: along the crank, positive away from the shaft.
     Source: principle of virtual forces with the one self-balanced state of the mechanism. Valid: contacts without
     friction or impact, deflections small against the crank radius, the play taken up at each instant.
 

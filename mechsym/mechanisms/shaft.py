@@ -81,10 +81,7 @@ def _mean_mass(mechanism: Mechanism) -> np.ndarray:
 
 
 def with_inertia(mechanism: Mechanism, inertia: Inertia) -> Mechanism:
-    """The mechanism with more inertia on its shaft.
-
-    inertia: about the shaft axis, added.
-    """
+    """The mechanism with more inertia on its shaft. inertia: about the shaft axis, added."""
     functions = dict(mechanism.functions)
     count = len(mechanism.coordinates)
     for group, first in (("dynamics", "mass_matrix"), ("energy", "kinetic_energy"), ("kinematics", "inertia")):

@@ -133,7 +133,6 @@ def fit(
     once. breaks: angles where the function is not smooth, any real numbers. tol: largest error, as a share of the
     largest value of all parts. Returns poly: breaks from 0 to `period`; values of shape (n,), or (n, parts). Raises
     BadInput: the function is not finite, jumps at an angle that is not among the breaks, or is noisy beyond 1e-9.
-
     Degree 9 through Chebyshev nodes; none lies on a break, so a jump at a break does no harm. The error is measured at
     other points than the nodes. Where the function is rounded more coarsely than `tol`, halving stops at its noise.
     """

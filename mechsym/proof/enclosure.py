@@ -94,10 +94,7 @@ class Enclosure:
         self.n = motion.states
 
     def steps(self, start: Set, until: Fraction) -> Iterator[Step]:
-        """Steps to a time exactly.
-
-        Raises BadInput: the set has grown beyond what can be enclosed.
-        """
+        """Steps to a time exactly. Raises BadInput: the set has grown beyond what can be enclosed."""
         with ctx.workprec(self.method.bits):
             while start.t < until:
                 step = self.step(start, until - start.t)

@@ -75,9 +75,8 @@ def _fraction(value: float) -> Fraction:
 def task_of(problem: Problem, mechanism: Mechanism, letters: Mapping[str, float]) -> ClosedForm:
     """The equations of a problem in closed form.
 
-    mechanism: that of the problem, with symbols for the letters; letters: their values [SI].
-
-    Raises BadInput: a force that is no smooth closed form, or a motion that is held by more than its equations.
+    mechanism: that of the problem, with symbols for the letters; letters: their values [SI]. Raises BadInput: a force
+    that is no smooth closed form, or a motion that is held by more than its equations.
     """
     name = problem.mechanism.name
     others = [part.name for part in problem.parts if not isinstance(part.value, Steps | FormulaForce)]

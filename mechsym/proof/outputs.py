@@ -233,10 +233,7 @@ def rounding(
     words: str,
     progress: Callable[[int], object] = lambda _: None,
 ) -> ProvenRounding:
-    """All outputs of some functions.
-
-    words: over which ranges. Raises BadInput: no samples.
-    """
+    """All outputs of some functions. words: over which ranges. Raises BadInput: no samples."""
     if samples < 1:
         raise BadInput(f"--samples {samples}: a bound is held against at least 1 point")
     budget.require(f"{samples} samples", samples * len(subjects) * _PER_SAMPLE, 2e2 * samples, "give fewer --samples")

@@ -146,10 +146,7 @@ def _free(panels: Panels) -> np.ndarray:
 
 
 def flywheel_for_ripple(panels: Panels, speed: RadPerSecond, target: Pure = 1 / 50) -> Flywheel:
-    """The flywheel with which the steady motion has a wanted ripple.
-
-    speed: mean speed, see `steady_state`; target: wanted (max - min) / mean.
-    """
+    """Flywheel with which the steady motion at a mean speed has a wanted ripple (max - min) / mean."""
 
     def excess(inertia: float) -> float:
         ripple = steady_state(panels, speed, inertia).speed_ripple

@@ -94,8 +94,7 @@ def exchanger_capacity(spaces: FiveSpaces) -> Annotated[Scalar, "m^3/K"]:
     .. math:: K = V_h/T_h + V_r/T_r + V_k/T_k
 
     spaces: volumes [m^3] of heater, regenerator and cooler, temperatures [K] of heater and cooler. Returns K: sum over
-    the three.
-    Source: ideal gas at one pressure. Valid: exchangers without film resistance, T_h > T_k.
+    the three. Source: ideal gas at one pressure. Valid: exchangers without film resistance, T_h > T_k.
 
     >>> case = FiveSpaces(volumes=None, V_h=1e-4, V_r=0.0, V_k=1e-4, T_h=1000.0, T_k=500.0, gamma=1.4, R=287.0,
     ...                   mean_pressure=5e5)

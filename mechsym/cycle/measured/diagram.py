@@ -105,8 +105,5 @@ def line_prior(diagram: Diagram) -> Prior:
 
 
 def period_of(diagram: Diagram) -> Radian:
-    """Period of the diagram.
-
-    Returns period: 2 pi or 4 pi.
-    """
+    """Period of the diagram. Returns period: 2 pi or 4 pi."""
     return 2 * math.pi if diagram.working_cycle == "two-stroke" else 4 * math.pi

@@ -18,10 +18,7 @@ from mechsym.cycle.measured.smoothing import smooth
 
 
 def diagram_pressure(diagram: Diagram, cylinder: Chamber) -> Pressure:
-    """Pressure of a measured diagram.
-
-    Returns pressure: mean cycle, smooth and periodic: no kinks.
-    """
+    """Pressure of a measured diagram. Returns pressure: mean cycle, smooth and periodic: no kinks."""
     measured = measured_cycles(diagram, cylinder)
     mean = measured.cycles.mean(axis=0)
     spline = smooth(measured.phi, mean, measured.period, diagram.smoothing)

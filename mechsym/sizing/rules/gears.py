@@ -62,8 +62,7 @@ def bending_limit(sigma_FP: Pascal, Y_N: Pure = 1.0, S_F: Pure = 1.0, K_T: Pure 
     .. math:: \sigma_F \le \frac{\sigma_{FP} Y_N}{S_F K_T K_R}
 
     sigma_FP: allowable bending stress number of the material; Y_N, K_T, K_R: stress cycle, temperature and reliability
-    factor; S_F: safety factor.
-    Source: Nunes (2017), eq. 2.77.
+    factor; S_F: safety factor. Source: Nunes (2017), eq. 2.77.
 
     >>> bending_limit(454.7125e6)
     454712500.0
@@ -97,8 +96,7 @@ def face_width_bending(F_t: Newton, m: Metre, J: Pure, limit: Pascal, factors: L
 
     .. math:: b = F_t K_o K_v K_s \frac{K_m K_B}{m\,J\,\sigma_F}
 
-    F_t: tangential load; m: module; J: geometry factor of the member.
-    Source: Nunes (2017), eqs. 2.76 and 2.77.
+    F_t: tangential load; m: module; J: geometry factor of the member. Source: Nunes (2017), eqs. 2.76 and 2.77.
 
     >>> round(face_width_bending(9368.4, 0.001, 0.4385, 454.7125e6, LoadFactors()) * 1e3, 2)
     46.98
@@ -144,8 +142,7 @@ def accuracy_exponent(A_v: Pure) -> Pure:
 
     .. math:: B = 0.25\,(A_v - 5)^{0.667}
 
-    A_v: transmission accuracy grade, 6 to 12.
-    Source: Nunes (2017), eq. 4.27 (AGMA 2001-D04). Valid: 6 <= A_v <= 12.
+    A_v: transmission accuracy grade, 6 to 12. Source: Nunes (2017), eq. 4.27 (AGMA 2001-D04). Valid: 6 <= A_v <= 12.
 
     >>> accuracy_exponent(6.0)
     0.25
@@ -318,8 +315,7 @@ def reliability_factor(R: Pure) -> Pure:
 
     .. math:: K_R = 0.658 - 0.0759\ln(1 - R) \ (R < 0.99), \qquad 0.5 - 0.109\ln(1 - R) \ (R \ge 0.99)
 
-    R: reliability, 0.5 to 0.9999.
-    Source: fit of AGMA 2001-D04, table 11, as printed in Shigley, eq. 14-38.
+    R: reliability, 0.5 to 0.9999. Source: fit of AGMA 2001-D04, table 11, as printed in Shigley, eq. 14-38.
 
     >>> round(reliability_factor(0.99), 2), round(reliability_factor(0.9999), 2)
     (1.0, 1.5)

@@ -54,8 +54,7 @@ def head_stress(p: Pascal, B: Metre, t_H: Metre) -> Pascal:
 
     .. math:: \sigma = \frac{3 p B^2}{16\,t_H^2}
 
-    B: bore.
-    Source: Nunes (2017), eq. 4.2. Valid: t_H < B / 2.
+    B: bore. Source: Nunes (2017), eq. 4.2. Valid: t_H < B / 2.
 
     >>> f"{head_stress(9.604e6, 0.060, 0.01375) / 1e6:.1f}"
     '34.3'
@@ -89,8 +88,7 @@ def head_thickness_heat(H: Watt, k: Annotated[float, "W/(m*K)"], dT: Kelvin) -> 
     .. math:: t_H = \frac{H}{4\pi k\,\Delta T}
 
     H: heat flow through the head; k: thermal conductivity; dT: temperature of the middle above the edge, 75 K for
-    aluminium.
-    Source: Nunes (2017), eq. 4.3, which prints 12.56 for 4 pi.
+    aluminium. Source: Nunes (2017), eq. 4.3, which prints 12.56 for 4 pi.
 
     >>> f"{head_thickness_heat(1734.4, 134.0, 75.0) * 1e3:.2f}"
     '13.73'
@@ -107,8 +105,7 @@ def ring_radial_thickness(B: Metre, p_w: Pascal, sigma_t: Pascal) -> Metre:
     .. math:: t_1 = B\sqrt{3 p_w/\sigma_t}
 
     B: bore; p_w: pressure of the ring on the wall, 0.025 to 0.042 MPa; sigma_t: allowable bending stress, 85 to 110 MPa
-    for cast iron.
-    Source: Nunes (2017), eq. 4.6. Valid: the ranges above.
+    for cast iron. Source: Nunes (2017), eq. 4.6. Valid: the ranges above.
 
     >>> [f"{ring_radial_thickness(0.060, *x) * 1e3:.2f}" for x in ((0.025e6, 110e6), (0.042e6, 85e6))]
     ['1.57', '2.31']
@@ -123,8 +120,7 @@ def ring_axial_thickness(B: Metre, n_rings: int) -> Metre:
 
     .. math:: t_2 = B/(10 n)
 
-    B: bore.
-    Source: Nunes (2017), eq. 4.7.
+    B: bore. Source: Nunes (2017), eq. 4.7.
 
     >>> ring_axial_thickness(0.060, 3)
     0.002
@@ -209,9 +205,8 @@ def rod_length(reach: Metre, e: Metre, d_TDC: Metre, t_H: Metre, ID_cap: Metre) 
     reach: crank axis to the engine's plane of symmetry, 145 mm in the source. e: throw of the hypocycloid's crank, a
     quarter of the piston's stroke: S/4 = 2 e of the source's S. d_TDC: distance between the two piston heads at top
     dead centre. t_H: thickness of the head. ID_cap: inner diameter of the rod's cap. Raises BadInput: the rod has no
-    length left.
-    Source: Nunes (2017), eq. 4.12. Print: 88.6 mm comes from d_TDC = 1.2 mm, which is 11.56 mm (`cylinder.tdc_gap`).
-    Valid: the opposed pistons of the thesis, each at its top dead centre.
+    length left. Source: Nunes (2017), eq. 4.12. Print: 88.6 mm comes from d_TDC = 1.2 mm, which is 11.56 mm
+    (`cylinder.tdc_gap`). Valid: the opposed pistons of the thesis, each at its top dead centre.
 
     >>> [f"{rod_length(0.145, 0.013, gap, 0.01375, 0.032) * 1e3:.1f}" for gap in (0.0012, 0.01156)]
     ['88.6', '83.5']
@@ -227,8 +222,7 @@ def wall_thickness(p: Pascal, B: Metre, sigma_c: Pascal, reboring: Metre) -> Met
     .. math:: t_{cw} = \frac{p B}{2\sigma_c} + C
 
     p: largest pressure. B: bore. sigma_c: allowable hoop stress, 35 to 100 MPa. reboring: allowance C: thickness of a
-    dry liner, 0.03 to 0.035 of the bore.
-    Source: Nunes (2017), eqs. 4.13 and 4.14.
+    dry liner, 0.03 to 0.035 of the bore. Source: Nunes (2017), eqs. 4.13 and 4.14.
 
     >>> f"{wall_thickness(9.604e6, 0.060, 52.5e6, 0.002) * 1e3:.2f}"
     '7.49'
@@ -260,8 +254,7 @@ def flange_range(t_cw: Metre) -> tuple[Metre, Metre]:
 
     .. math:: 1.2\,t_{cw} \le t_f \le 1.4\,t_{cw}
 
-    t_cw: thickness of the wall. Returns low, high: range.
-    Source: Nunes (2017), ch. 4.3 (Khurmi and Gupta).
+    t_cw: thickness of the wall. Returns low, high: range. Source: Nunes (2017), ch. 4.3 (Khurmi and Gupta).
 
     >>> [f"{t * 1e3:.1f}" for t in flange_range(0.0075)]
     ['9.0', '10.5']
@@ -347,8 +340,7 @@ def root_diameter(nominal_mm: int) -> Metre:
 
     .. math:: d_3 = d - 1.226869\,P
 
-    nominal_mm: nominal diameter d of the thread [mm]. Raises BadInput: no coarse thread of that size.
-    Source: ISO 724.
+    nominal_mm: nominal diameter d of the thread [mm]. Raises BadInput: no coarse thread of that size. Source: ISO 724.
 
     >>> f"{root_diameter(10) * 1e3:.3f}"
     '8.160'
@@ -362,8 +354,7 @@ def thread_for(d_c: Metre) -> int:
     """Smallest standard thread whose root is not thinner than asked.
 
     d_c: core diameter needed. Returns nominal_mm: nominal diameter of the thread [mm]. Raises BadInput: thicker than
-    the largest thread in the list.
-    Source: ISO 261 and 724.
+    the largest thread in the list. Source: ISO 261 and 724.
 
     >>> thread_for(9.94e-3), thread_for(14.06e-3)
     (14, 18)

@@ -91,8 +91,7 @@ def static_factor(
     .. math:: n = R / \max_\theta\sqrt{\sigma^2 + 3\tau^2}
 
     M_x, M_y, T: bending moment and torque, shape (k, n); strength: yield or ultimate strength R. Returns n: safety
-    factor at each speed, shape (k,).
-    Source: Shigley, eq. 7-15, without notches.
+    factor at each speed, shape (k,). Source: Shigley, eq. 7-15, without notches.
 
     >>> section, none = Section(d=0.008, S_e=7e8, S_ut=1.985e9), np.zeros((1, 1))
     >>> f"{static_factor(section, none, none, np.full((1, 1), 243.6), 1.565e9)[0]:.2f}"
@@ -140,9 +139,8 @@ def outer_shares(shaft: Shaft) -> tuple[Pure, Pure]:
         \delta_F = \int_0^{z_i}\frac{(z_i - z) L}{EI}\,\mathrm{d}z
 
     Returns force, tooth: s_F of the pin's half force (in its own sense) and s_T of the load at the gear (against it).
-    Source: unit load method.
-
-    A uniform shaft with thin webs and journals at 1 and 3, gear at 2: s_F = 1/(4 + 8/3), s_T = (2 + 5/6)/(4 + 8/3).
+    Source: unit load method. A uniform shaft with thin webs and journals at 1 and 3, gear at 2: s_F = 1/(4 + 8/3), s_T
+    = (2 + 5/6)/(4 + 8/3).
 
     >>> spans = Spans(inner=1.0, gear=2.0, outer=3.0, outboard=4.0)
     >>> shaft = Shaft(spans=spans, pin=1.0, pin_bore=0.0, pin_half=0.5, web=1e-9, seat=1.0, seat_end=1.0, thin=1.0)
@@ -168,8 +166,7 @@ def moment(
 
     and the outer journal's reaction times its lever beyond the gear. z: place, up to the inner journal, or the gear
     itself; force, pull: half of the crankpin's force, and the load at the gear of one side, shape (2, k, n). Returns M:
-    moment, shape (2, k, n).
-    Source: statics with the redundant reaction of `outer_shares`.
+    moment, shape (2, k, n). Source: statics with the redundant reaction of `outer_shares`.
 
     >>> spans = Spans(inner=1.0, gear=2.0, outer=3.0, outboard=4.0)
     >>> float(moment(0.0, spans, (0.15, 0.425), np.array(-10.0), np.array(0.0)))
@@ -196,8 +193,7 @@ def inner_slope(shaft: Shaft, E: Pascal, moment_at: Callable[[float], np.ndarray
     .. math:: \beta = \int_0^{z_i}\frac{M}{E I}\,\mathrm{d}z
 
     E: modulus of elasticity; moment_at: distance from the middle [m] -> moment (2, k, n) [N*m]. Returns beta: slope,
-    shape (k, n).
-    Source: beam theory. Shigley, table 7-2, allows 0.0008 to 0.0012 rad for rollers under a steady load.
+    shape (k, n). Source: beam theory. Shigley, table 7-2, allows 0.0008 to 0.0012 rad for rollers under a steady load.
 
     >>> spans = Spans(inner=1.0, gear=2.0, outer=3.0, outboard=4.0)
     >>> shaft = Shaft(spans=spans, pin=1.0, pin_bore=0.0, pin_half=0.5, web=1e-9, seat=1.0, seat_end=1.0, thin=1.0)
@@ -247,11 +243,9 @@ def endurance_limit(S_ut: Pascal, d: Metre, surface: str) -> Pascal:
     .. math:: S_e = k_a k_b \min(0.5\,S_{ut}, 700\,\mathrm{MPa}), \quad k_a = a (S_{ut}/\mathrm{MPa})^b
 
     with k_b = (d/7.62 mm)^-0.107 up to 51 mm, 1.51 (d/mm)^-0.157 above, and at most 1. S_ut: ultimate strength, up to
-    2400 MPa; d: diameter, up to 254 mm.
-    Source: Shigley, eqs. 6-8, 6-18 to 6-20. Valid: steels, 50 % reliability, room temperature.
-
-    Shigley, example 7-1: k_a = 0.787, k_b = 0.870 and S_ut = 105 kpsi give 35.95 kpsi before the reliability; the
-    factors unrounded give 35.99.
+    2400 MPa; d: diameter, up to 254 mm. Source: Shigley, eqs. 6-8, 6-18 to 6-20. Valid: steels, 50 % reliability, room
+    temperature. Shigley, example 7-1: k_a = 0.787, k_b = 0.870 and S_ut = 105 kpsi give 35.95 kpsi before the
+    reliability; the factors unrounded give 35.99.
 
     >>> f"{endurance_limit(105 * 6.894757e6, 1.1 * 0.0254, 'machined') / 6.894757e6:.1f}"
     '36.0'
@@ -318,9 +312,8 @@ def goodman_factor(sigma_a: Pascal[Scalar], sigma_m: Pascal[Scalar], S_e: Pascal
 
     sigma_a, sigma_m: amplitude and mean of the equivalent stress, notches included; a mean of compression counts as 0.
     S_e: endurance limit. S_ut: ultimate strength. Returns n: safety factor against load, both parts growing alike.
-    Source: Shigley, eqs. 6-46 and 7-7 (DE-Goodman).
-
-    Shigley, problem 7-1 (8th ed.), d = 1.073 in for n = 2: both parts as 16/(pi d^3) times 2920 and 2391 lbf.in.
+    Source: Shigley, eqs. 6-46 and 7-7 (DE-Goodman). Shigley, problem 7-1 (8th ed.), d = 1.073 in for n = 2: both parts
+    as 16/(pi d^3) times 2920 and 2391 lbf.in.
 
     >>> per = 16 / (np.pi * 1.073**3)
     >>> f"{goodman_factor(per * 2920, per * 2391, 30e3, 100e3):.2f}"
@@ -346,10 +339,8 @@ def shaft_diameter_goodman(
               + \frac{\sqrt{4 (K_f M_m)^2 + 3 (K_{fs} T_m)^2}}{S_{ut}}\right)\right]^{1/3}
 
     moments: M_a, M_m, T_a, T_m: amplitude and mean of bending moment and torque. S_e, S_ut: endurance limit and
-    ultimate strength. n: wanted safety factor. K_f, K_fs: notch factors in bending and torsion.
-    Source: Shigley, eq. 7-8 (DE-Goodman).
-
-    Shigley, problem 7-1 (8th ed.): d = 1.073 in (in pounds and inches).
+    ultimate strength. n: wanted safety factor. K_f, K_fs: notch factors in bending and torsion. Source: Shigley, eq.
+    7-8 (DE-Goodman). Shigley, problem 7-1 (8th ed.): d = 1.073 in (in pounds and inches).
 
     >>> f"{shaft_diameter_goodman((600, 500, 400, 300), 30e3, 100e3, 2.0, K_f=2.2, K_fs=1.8):.3f}"
     '1.073'
