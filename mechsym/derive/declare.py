@@ -128,8 +128,8 @@ class Declaration(Linkage, Elements, Drawing):
     def watch(self, point: object, name: str) -> None:
         """Put a point among the outputs under a name of its own, with its motion.
 
-        point: of a link, or a pair (x, y) [m]. name: P is told as `P.x, P.dx_dphi, P.x_d, P.x_dd` and the same of y; in
-        formulas the letters are `P_x`, `P_y`.
+        point: of a link, or a pair (x, y) [m]. name: before a dot and x or y, with the slope by each coordinate, the rate
+        (`_d`) and the acceleration (`_dd`); letters of formulas have a low line in place of the dot.
         """
         pair = self._pair(point, "m", f"watched {name}") if isinstance(point, tuple) else point_of(point).xy
         for axis, value in zip("xy", pair, strict=True):
