@@ -128,7 +128,7 @@ class Declaration(Linkage, Elements, Drawing):
     def watch(self, point: object, name: str) -> None:
         """Put a point among the outputs under a name of its own, with its motion.
 
-        point: of a link, or a pair (x, y) [m]. name: before a dot and x or y, with the slope by each coordinate, the rate
+        point: of a link, or a pair (x, y) [m]. name: before a dot and x or y, with the slope by each coordinate, rate
         (`_d`) and the acceleration (`_dd`); letters of formulas have a low line in place of the dot.
         """
         pair = self._pair(point, "m", f"watched {name}") if isinstance(point, tuple) else point_of(point).xy
