@@ -40,7 +40,7 @@ def box_over(start, torque, h):
         image = [b + whole * f for b, f in zip(start, rates(*box, torque), strict=True)]
         if all(b.contains(i) for b, i in zip(box, image, strict=True)):
             return image
-        box = [b.union(i) for b, i in zip(box, image, strict=True)]
+        box = image
     raise AssertionError("Picard's iteration does not come to rest")
 
 

@@ -4,11 +4,14 @@ Sizes follow from bore and stroke by similarity with engines of the kind that ru
 are a start to replace, not a design.
 """
 
+import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+import numpy as np
 
 from mechsym.cases import load
 from mechsym.cases.cylinder_layout import CylinderLayout, boxer, in_line, in_v, opposed, radial
@@ -16,7 +19,7 @@ from mechsym.cycle.kinds import four_stroke
 from mechsym.errors import BadInput
 from mechsym.files import write_text
 from mechsym.mechanisms.crank_train.firing import lateness
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.plausible import Doubt
 from mechsym.quantities import RPM
 from mechsym.quantities.units import Metre, Pure
@@ -64,17 +67,20 @@ def _detuned(text: str, bore: float, stroke: float) -> str:
         first.write_text(fill(text, **_shaft(bore, stroke, 1, 1.0)), encoding="utf-8")
         case = load(str(first))
     parameters, turns = case.need("parameters"), 2 if four_stroke(case.need("cycle")) else 1
-    factor = stiffness_factor(parameters, case.need("operation").speed, 2 * math.pi * turns)
-    return fill(text, **_shaft(bore, stroke, max(parameters.throw), factor or 1.0))
+    z = sorted(set(each(parameters, "z")))
+    long = {"bay": min(np.diff(z)) / bore} if len(z) > 1 else {}
+    plain = dataclasses.replace(parameters, k=_shaft(bore, stroke, 1, 1.0, **long)["k"])
+    factor = stiffness_factor(plain, case.need("operation").speed, 2 * math.pi * turns)
+    return fill(text, **_shaft(bore, stroke, max(parameters.throw), factor or 1.0, **long))
 
 
-def _shaft(bore: float, stroke: float, throws: int, factor: Pure) -> dict[str, float]:
+def _shaft(bore: float, stroke: float, throws: int, factor: Pure, bay: Pure = 1.2) -> dict[str, float]:
     """Stiffness [N*m/rad] and damping [N*m*s/rad] of a section, and the width of its shaft by the bore [-].
 
-    factor: of the stiffness, by that of a shaft of 0.6 bores.
+    factor: of the stiffness, by that of a shaft of 0.6 bores. bay: length of a section, by the bore.
     """
     wide = 0.6 * factor**0.25
-    stiffness = 0.5 * 80e9 * math.pi / 32 * (wide * bore) ** 4 / (1.2 * bore)
+    stiffness = 0.5 * 80e9 * math.pi / 32 * (wide * bore) ** 4 / (bay * bore)
     # first natural frequency of equal throws on equal sections whose flywheel stands still
     first = 2 * math.sqrt(stiffness / _throw_inertia(bore, stroke)) * math.sin(math.pi / (4 * throws + 2))
     return {"k": stiffness, "c": 2 * _DAMPING * stiffness / first, "wide": wide}

@@ -87,7 +87,8 @@ def forces(
     findings = ranked([*found.view.findings(), *criticals(numbers.vibration)])
     report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out, findings)]
     beside = {"doubts": doubts, "files": report["files"]}
-    emit(numbers, as_json, lambda: _text(report, found), beside=beside, files=report["files"], findings=findings)
+    said = {one.words for one in findings}
+    emit(numbers, as_json, lambda: _text(report, found, said), beside=beside, files=report["files"], findings=findings)
     ctx.exit(1 if found.unbalanced else 0)
 
 
@@ -117,7 +118,7 @@ def _over_time(report: "DrivenNumbers") -> str:
     return "\n".join(lines)
 
 
-def _text(report: Json, found: "Forces") -> str:
+def _text(report: Json, found: "Forces", said: set[str]) -> str:
     from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
 
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm", ""]
@@ -138,7 +139,7 @@ def _text(report: Json, found: "Forces") -> str:
     if report["comparison"]:
         shown = ["mechanism", "side_force_max", "crank_pin_max", "friction_per_piston", "mechanical_efficiency"]
         lines += ["", table(report["comparison"], shown, heads(ComparedMechanism) | heads(ComparedFriction))]
-    lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith(_SHOWN)]
+    lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith(_SHOWN) and fact not in said]
     lines += [f"{row['verdict']}: {row['claim']} ({_named(row['source'])}); {row['note']}" for row in report["claims"]]
     return "\n".join(lines)
 

@@ -1,5 +1,6 @@
 """`mechsym prove`: numbers that come with a theorem."""
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -59,6 +60,7 @@ def prove(
     """
     from mechsym import cases, mechanisms
     from mechsym.jobs.prove import GUIDES, of_guides_at, of_mechanism_at, usual_case
+    from mechsym.mechanisms.record import generated
     from mechsym.quantities.results import tell
 
     if name != GUIDES and name not in mechanisms.names() and name in cases.names() or name.endswith(".toml"):
@@ -69,7 +71,8 @@ def prove(
     if name != GUIDES:
         mechanisms.parameters_class(name)  # refuses what is none
     case = only_of(case_of(case_name or usual_case(name), pairs(overrides)), "prove")
-    with progress(0, name) as bar:
+    functions = 2 if name == GUIDES else len(generated(name).FUNCTIONS)
+    with progress(samples * functions, f"samples of {name}") as bar:
         if name == GUIDES:
             found = of_guides_at(case, samples, bar.update)
         else:
@@ -81,6 +84,7 @@ def prove(
 def _motion(
     name: str, t_end: str | None, window: str | None, out: Path | None, overrides: dict[str, str], as_json: bool
 ) -> None:
+    from mechsym.cases.runs import simulation_of
     from mechsym.jobs.prove import motion_of
     from mechsym.quantities import parse
     from mechsym.quantities.ranges import read_range
@@ -93,7 +97,7 @@ def _motion(
     ends = None if window is None else read_range(window, "--window", "s").values
     if ends is not None and len(ends) != 2:
         raise BadInput(f"--window {window}: two times with two dots between, such as 55..93 s")
-    with progress(int(until or 0), f"seconds of {case.name}") as bar:
+    with progress(math.ceil(until or simulation_of(case).t_end or 0), f"seconds of {case.name}") as bar:
         found = motion_of(case, until, out, None if ends is None else (ends[0], ends[1]), bar.update)
     emit(tell(found), as_json, lambda: _motion_text(found))
 

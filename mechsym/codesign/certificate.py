@@ -19,9 +19,11 @@ good ones. For given weights nu . g = -M int T f, T the sum of nu beyond an angl
 epsilon shrinks by the share 2/P of that integral.
 """
 
+import dataclasses
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 import scipy
@@ -35,8 +37,9 @@ from mechsym.hinge.springs.face import affine_energy
 from mechsym.plausible import Doubt
 from mechsym.quantities import RPM, quantity, record
 from mechsym.quantities.display import figure, quantity_text
-from mechsym.quantities.units import Array, Pure, Radian
+from mechsym.quantities.units import Array, Inertia, Pure, Radian
 
+_NOTHING, _SAME = 1e-12, 1e-6  # weights that are none; works that differ so little are the same [-]
 _SUBSETS = 2000  # of points that are looked at; any subset proves a bound
 
 
@@ -72,15 +75,19 @@ def swing_per_inertia(ripple: Pure, by: str = "mean") -> Pure:
 
 def proofs(points: Sequence[Point], phi: Radian[Array], q: Pure, terms: Terms, springs: int) -> tuple[Proof, ...]:
     """The best bound on total inertia for 1 to some springs. phi: ascending, of a period. q: `swing_per_inertia`."""
+    facts = _facts(points, phi, q, terms)
+    return tuple(_best(facts, r, q) for r in range(1, springs + 1))
+
+
+def _facts(points: Sequence[Point], phi: np.ndarray, q: float, terms: Terms) -> "_Facts":
     omega, period = np.array([p.omega for p in points]), points[0].period
     lag = np.array([abs(p.load_torque) * period / 2 if p.law == "propeller" else 0.0 for p in points])
-    facts = _Facts(
+    return _Facts(
         works=np.array([p.work(phi) for p in points]) / omega[:, None] ** 2,
         sides=np.column_stack([np.full(omega.size, terms.rollers / 2), terms.ambient / omega**2]),
         lag=q * lag / omega**2,
         share=np.diff(phi, append=phi[0] + period) / period,
     )
-    return tuple(_best(facts, r, q) for r in range(1, springs + 1))
 
 
 @record
@@ -128,24 +135,84 @@ def _hope(facts: _Facts) -> float:
     return float(np.ptp(a @ facts.works) - np.abs(a @ facts.sides).sum())
 
 
+def enclosed(points: Sequence[Point], phi: Radian[Array], q: Pure, terms: Terms, chosen: Sequence[int]) -> Inertia:
+    """The total inertia that chosen points prove, in balls: works by the formulas of the torque, weights as they are.
+
+    phi: as of `proofs`. Raises BadInput: a law that cannot be enclosed, or is not the one whose work the point has.
+    """
+    from mechsym.proof.balls import arb, ctx
+
+    facts = _facts(points, phi, q, terms).at(chosen)
+    weighed = [
+        (signs, offset, _weights(signs[:, None] * facts.works, offset)) for signs, offset in _combinations(facts)
+    ]
+    used = np.flatnonzero(np.max([np.abs(nu) for *_, nu in weighed], axis=0) > 0)
+    least = np.inf
+    with ctx.workprec(80):
+        works = [[w / arb(points[k].omega) ** 2 for w in _work_in_balls(points[k], phi[used])] for k in chosen]
+        for signs, offset, nu in weighed:
+            lag = _lag(nu, facts) * (1 + 1e-9)
+            weights = [[arb(max(sign * v, 0.0)) for v in nu[used].tolist()] for sign in (1, -1)]
+            up, down = ([w / sum(side, arb(0)) for w in side] for side in weights)  # sums of 1, exactly
+            for i, row in enumerate(works):
+                swing = sum(((a - b) * y for a, b, y in zip(up, down, row, strict=True)), arb(0))
+                left = swing * int(signs[i]) + arb(float(offset[i])) - arb(float(lag[i]))
+                least = min(least, float(left.lower()))
+    return least / q * (1 - 1e-12)
+
+
+def _work_in_balls(point: Point, phi: np.ndarray) -> list[Any]:
+    """The work wanted at ascending angles, but for a constant: of inertia, gas and weight, and the load they drive."""
+    from mechsym.native.tape import read
+    from mechsym.proof.balls import REAL, arb, evaluate
+    from mechsym.proof.work import integrals
+
+    if point.inertia_formula is None:
+        raise BadInput("the torque is no formula of the angle")
+    pieces = [(a, b, read(f)) for a, b, f in point.formulas]
+    start, turn = pieces[0][0], 2 * arb.pi()
+    order = np.argsort(np.where(phi < pieces[-1][1], phi, phi - 2 * math.pi))
+    # an angle behind the last piece is one before; its double is another by a rounding, which the torque there covers
+    angles = [float(phi[n]) if phi[n] < pieces[-1][1] else float(phi[n] - 2 * math.pi) for n in order]
+    *given, whole = integrals(pieces, [*angles, pieces[-1][1]])
+    inertia, works = read(point.inertia_formula), [arb(0)] * len(phi)
+    for n, angle, done in zip(order, angles, given, strict=True):
+        at = arb(angle, 4e-15 * abs(angle))
+        torque = max(abs(float(b.mid())) + float(b.rad()) for b in (whole, done)) + abs(point.load_torque) * 10
+        moved = evaluate(inertia, REAL, [at])[0] * arb(point.omega) ** 2 / 2
+        works[n] = moved - done + whole * (at - arb(start)) / turn + arb(0, 1e-13 * torque)
+    floats = point.work(phi)
+    off = [abs(float(w.mid()) - float(works[0].mid()) - (f - floats[0])) for w, f in zip(works, floats, strict=True)]
+    if max(off) > _SAME * float(np.ptp(floats)):
+        raise BadInput("the formulas of the torque are not those of the work")
+    return works
+
+
 def _value(facts: _Facts, enough: float) -> float:
     """The least left side [kg*m^2] over all combinations of mixed signs; given up where it is not above `enough`."""
     least = np.inf
+    for signs, offset in _combinations(facts):
+        works = signs[:, None] * facts.works
+        nu = _weights(works, offset)
+        least = min(least, float(np.min(works @ nu + offset - _lag(nu, facts))))
+        if least <= enough:
+            return least
+    return least
+
+
+def _combinations(facts: _Facts) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Mixed signs of the points, and what rollers and pressure outside may take from each [kg*m^2]."""
     for rest in itertools.product((1.0, -1.0), repeat=len(facts.works) - 1):
         signs = np.array([1.0, *rest])
         if signs.min() > 0:
             continue
         # -|x| is the smaller of x and -x
         for side in itertools.product(*((1.0, -1.0) if column.any() else (0.0,) for column in facts.sides.T)):
-            offset = signs * (facts.sides @ np.array(side))
-            least = min(least, _proven(signs[:, None] * facts.works, offset, facts))
-            if least <= enough:
-                return least
-    return least
+            yield signs, signs * (facts.sides @ np.array(side))
 
 
-def _proven(works: np.ndarray, offset: np.ndarray, facts: _Facts) -> float:
-    """What the best weights prove [kg*m^2]; the solver only finds them, their sums are seen to here."""
+def _weights(works: np.ndarray, offset: np.ndarray) -> np.ndarray:
+    """Weights on the angles that prove much; the solver only finds them, their sums are seen to here."""
     count, n = works.shape
     scale = float(np.ptp(works, axis=1).max()) or 1.0
     rows = np.hstack([-works / scale, works / scale, np.ones((count, 1))])
@@ -156,14 +223,20 @@ def _proven(works: np.ndarray, offset: np.ndarray, facts: _Facts) -> float:
         bounds=[(0.0, None)] * (2 * n) + [(None, None)], method="highs-ds",
     )  # fmt: skip
     if found.x is None:
-        return -np.inf
-    up, down = (np.maximum(part, 0.0) for part in (found.x[:n], found.x[n : 2 * n]))
-    nu = up / up.sum() - down / down.sum()
+        return np.zeros(n)  # proves nothing: 0 less what stands beside it
+    up, down = (np.where(part > _NOTHING, part, 0.0) for part in (found.x[:n], found.x[n : 2 * n]))
+    return up / up.sum() - down / down.sum()
+
+
+def _lag(nu: np.ndarray, facts: _Facts) -> np.ndarray:
+    """What a load with the square of the speed takes of what weights prove [kg*m^2]."""
     beyond = nu.sum() - np.cumsum(nu)
-    lag = facts.lag * 2 * float(facts.share @ np.abs(beyond - facts.share @ beyond))
-    return float(np.min(works @ nu + offset - lag))
+    return facts.lag * 2 * float(facts.share @ np.abs(beyond - facts.share @ beyond))
 
 
+PROVEN = "proven"
+_LOSSY = "an estimate, proven without friction and heat only"
+_CLOSE = 1e-3  # by which balls may hold less than doubles [-]
 _FINE = 720  # angles of a turn
 _MOVED = 0.1  # share of the flywheel saved by free hardware that may go into the rollers without a word
 
@@ -179,7 +252,8 @@ class Floor:
     proofs: tuple[Proof, ...]  #: for 1, 2, 3 springs
     estimate: tuple[float, ...]  #: D_r by the ripple, for 1, 2, 3 springs [kg*m^2]
     assumes: tuple[str, ...]  #: what the proof holds for
-    proven: bool  #: of this design; with friction and heat in its programme the bound is an estimate
+    proven: bool  #: of this design, in balls
+    kind: str  #: `proven`, or what it is instead and why
 
 
 def floor(design: CoDesign, bound: Bound, ripple: np.ndarray) -> Floor:
@@ -190,17 +264,35 @@ def floor(design: CoDesign, bound: Bound, ripple: np.ndarray) -> Floor:
     total = points[0].inertia(phi) + design.flywheel + rollers
     kept = float(np.nanmax(np.append(ripple, design.task.ripple)))
     terms = Terms(rollers=float(np.ptp(rollers)), ambient=float(np.ptp(_ambient(design, phi))))
-    found = proofs(points, bound.phi, swing_per_inertia(kept), terms, MOST)
+    q = swing_per_inertia(kept)
+    found = list(proofs(points, bound.phi, q, terms, MOST))
+    kind = _in_balls(design, bound, q, terms, found) if design.task.losses is None else _LOSSY
     return Floor(
         total_inertia=float(total.max()),
         rollers=float(np.mean(rollers)),
         ripple=kept,
         terms=terms,
-        proofs=found,
+        proofs=tuple(found),
         estimate=tuple(swing / kept for swing in bound.swing),
         assumes=_assumes(design, kept, terms),
-        proven=design.task.losses is None,
+        proven=kind == PROVEN,
+        kind=kind,
     )
+
+
+def _in_balls(design: CoDesign, bound: Bound, q: float, terms: Terms, found: list[Proof]) -> str:
+    """What the bound of a design's springs is; where balls prove it, the proof is what they prove."""
+    place = design.task.springs - 1
+    if not found[place].points:
+        return PROVEN  # that nothing is proven
+    try:
+        proven = enclosed(design.task.points, bound.phi, q, terms, found[place].points)
+    except BadInput as error:  # MissingExtra too
+        return f"computed in doubles and not proven ({error})"
+    if proven < (1 - _CLOSE) * found[place].total_inertia:
+        return "computed in doubles and not proven (balls hold less)"
+    found[place] = dataclasses.replace(found[place], total_inertia=min(proven, found[place].total_inertia))
+    return PROVEN
 
 
 def rollers_inertia(design: CoDesign) -> float:

@@ -6,7 +6,9 @@ import dataclasses
 import io
 import math
 from collections.abc import Callable, Sequence
+from typing import Any
 
+import casadi as ca
 import numpy as np
 import scipy
 
@@ -37,7 +39,7 @@ def point(machine: Machine, load: Pascal, law: str = "propeller", weight: Pure =
     weight: share of the time at this point.
     """
     torques, wanted = engine_torques(machine), torque(machine)
-    found = _point(wanted, torques, load, law, weight)
+    found = dataclasses.replace(_point(wanted, torques, load, law, weight), **_formulas(machine))
     gas = only_gas(machine)
     # of a torque alone no turn without combustion is known, and what takes work has none to lose
     if gas is None or wanted.load_torque <= 0:
@@ -51,6 +53,24 @@ def point(machine: Machine, load: Pascal, law: str = "propeller", weight: Pure =
     return dataclasses.replace(
         found, misfire=_remembered(misfire), misfire_kinks=unfired_kinks(torques.kinks, torques.period)
     )
+
+
+def _formulas(machine: Machine) -> dict[str, Any]:
+    """Torque and inertia as formulas of the angle, where gas by formulas and weight are all that acts."""
+    gas = only_gas(machine)
+    if gas is None or machine.forces or not gas.pressure.formulas:
+        return {}
+    dynamics, (q,) = machine.mechanism.functions["dynamics"], machine.mechanism.coordinates
+    letters = {name: ca.SX(0) for name in dynamics.name_in()}
+    phi = letters[q] = ca.SX.sym("phi")
+
+    def torque_of(pressure: Callable[[Any], Any]) -> Any:
+        force = (pressure(phi) - gas.p_back) * gas.chamber.area
+        return dynamics(**letters | {machine.gas_input: force})["generalized_force"]
+
+    pieces = ((a, b, ca.Function("torque", [phi], [torque_of(law)])) for a, b, law in gas.pressure.formulas)
+    inertia = ca.Function("inertia", [phi], [dynamics(**letters)["mass_matrix"]])
+    return {"formulas": tuple(pieces), "inertia_formula": inertia}
 
 
 def _remembered(function: Function) -> Function:

@@ -8,6 +8,7 @@ phi = 0 at top dead centre, positive in the sense of rotation; pressures of spri
 
 from collections.abc import Callable, Sequence
 
+import casadi as ca
 import numpy as np
 import scipy
 
@@ -38,6 +39,9 @@ class Point:
     misfire: Function | None = None  #: the same for a turn without combustion [N*m]
     kinks: tuple[float, ...] = ()  #: angles where the torque is not smooth [rad]
     misfire_kinks: tuple[float, ...] = ()  #: the same of the turn without combustion [rad]
+    #: Formulas of the torque, gas and gravity, from angle to angle [rad], and of the inertia; none where a table is
+    formulas: tuple[tuple[float, float, ca.Function], ...] = ()
+    inertia_formula: ca.Function | None = None
 
 
 @record

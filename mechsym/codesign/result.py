@@ -116,7 +116,8 @@ class BoundNumbers:
     swing_bare: float = quantity("kg*m^2")  #: The same without a spring
     springs_that_pay: int = quantity("-")  #: Up to which each one more at least halves the swing
     total_inertia: tuple[float, ...] = quantity("kg*m^2")  #: Least that has to turn in all
-    proven: bool = quantity("-")  #: Of this design; with friction and heat in its programme it is an estimate
+    proven: bool = quantity("-")  #: Of this design, in balls
+    kind: str = part()  #: `proven`, or what it is instead and why
     ripple: float = quantity("-")  #: For which it holds
     speeds_rpm: tuple[float, ...] = quantity("rpm")  #: Points that prove it for the design's number of springs
     assumes: tuple[str, ...] = part()
@@ -282,6 +283,7 @@ def _bound(result: CoDesignResult) -> BoundNumbers:
         springs_that_pay=bound.pays,
         total_inertia=tuple(proof.total_inertia for proof in floor.proofs),
         proven=floor.proven,
+        kind=floor.kind,
         ripple=floor.ripple,
         speeds_rpm=proving(floor, result.design),
         assumes=floor.assumes,
@@ -325,8 +327,10 @@ def bound_words(numbers: CoDesignNumbers) -> str:
     if least == 0:
         return f"with {springs} spring{'s' * (springs > 1)} nothing is proven: these points may need no flywheel"
     speeds = " and ".join(f"{speed:.4g}" for speed in bound.speeds_rpm)
-    kind = "proven" if bound.proven else "an estimate, proven without friction and heat only,"
-    return f"no guide does with less than {quantity_text(least, 'kg*m^2', 4)} in all, {kind} by {speeds} rpm"
+    comma = "" if bound.proven else ","
+    return (
+        f"no guide does with less than {quantity_text(least, 'kg*m^2', 4)} in all, {bound.kind}{comma} by {speeds} rpm"
+    )
 
 
 def prices(numbers: CoDesignNumbers) -> list[tuple[str, str]]:

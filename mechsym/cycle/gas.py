@@ -59,6 +59,9 @@ class Pressure:
     phases: Mapping[str, float] = dataclasses.field(default_factory=dict)
     facts: tuple[str, ...] = ()  #: What was assumed and what came out, one sentence each
     doubts: tuple[str, ...] = ()  #: What looks physically implausible, one sentence each; empty if nothing does
+    #: Formulas by which it is made, from angle to angle of a period [rad], each a callable of a CasADi symbol; empty
+    #: where a table or an integration makes it
+    formulas: tuple[tuple[float, float, Callable[[Any], Any]], ...] = ()
 
 
 def periodic(function: Callable[[Scalar], Scalar], period: Radian, start: Radian = 0.0) -> Callable[[Scalar], Scalar]:

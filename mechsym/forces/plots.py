@@ -206,8 +206,9 @@ def _order_bars(axis: "Axes", orders: dict[str, Harmonics], si: str, name: str) 
 
 def balance_orders(one: BalancedEngine) -> "Figure":
     """Force and couple on the frame by order, before and after."""
-    figure, axes = panels(9, 3.8, 1, 2, "Force and couple on the frame by order")
-    for axis, name, unit in zip(axes, ("force", "couple"), ("N", "N*m"), strict=True):
+    names = ["force", *(["couple"] if np.any(one.before.couple) or np.any(one.after.couple) else [])]
+    figure, axes = panels(9, 3.8, 1, len(names), f"{' and '.join(names).capitalize()} on the frame by order")
+    for axis, name, unit in zip(axes, names, ("N", "N*m"), strict=False):
         both = [amplitudes(getattr(shaken, name), one.turn) for shaken in (one.before, one.after)]
         factor, shown = axis_unit(unit, *(np.array(list(values.values())) for values in both))
         for values, label, color, beside in zip(both, ("before", "after"), SERIES, (-0.2, 0.2), strict=False):

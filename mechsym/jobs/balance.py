@@ -17,6 +17,7 @@ from mechsym.jobs.machine import turn
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import KilogramMetre, Metre
 
+_NO_ANGLE = 1e-6  # deg
 _ROUNDING = 1e-9  # of the largest value of a curve: an amplitude that is not larger is 0
 
 
@@ -118,7 +119,9 @@ def _largest(values: np.ndarray, least: float) -> float:
 
 
 def _weight(one: Weight) -> WeightNumbers:
-    return WeightNumbers(order=one.order, z=one.z, x=one.x, unbalance=one.unbalance, angle_deg=math.degrees(one.angle))
+    angle = math.degrees(one.angle) % 360.0
+    angle = 0.0 if 360.0 - angle < _NO_ANGLE else angle  # just below a whole turn by rounding
+    return WeightNumbers(order=one.order, z=one.z, x=one.x, unbalance=one.unbalance, angle_deg=angle)
 
 
 def write(one: BalancedEngine, told: BalanceOfEngine, folder: Path, about: str) -> list[Path]:

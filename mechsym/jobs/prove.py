@@ -235,8 +235,9 @@ def _told(
         raise BadInput(f"--window {window}: no whole second lies in it; they end at {times[0]:g} to {times[-1]:g} s")
     mean = means[inside, 0, 0].min(), means[inside, 0, 1].max()
     of_all = low[inside, n].min(), high[inside, n].max()
-    claim = getattr(case.sections.get("startup"), "claim_speed", None)
-    never = claim is not None and not mean[0] <= claim <= mean[1]
+    startup = case.sections.get("startup")
+    claim, since = getattr(startup, "claim_speed", None), getattr(startup, "claim_time", None) or 0.0
+    never = claim is not None and times[inside][-1] >= since and not mean[0] <= claim <= mean[1]
     statement = (
         f"with the decimals of {case.name} every solution has {speeds[0]} within [{of_all[0]:.6g}, {of_all[1]:.6g}] "
         f"{units[speeds[0]]} from {times[inside][0] - 1:g} to {times[inside][-1]:g} s, its mean over each second in "

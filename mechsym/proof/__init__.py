@@ -6,5 +6,6 @@ sampled     what the compiled code returns, against 60 digits
 outputs     both side by side, output by output
 taylor      Taylor coefficients of a motion by recurrences from the tape
 enclosure   steps from a set of states to the next
+work        integrals of a law over the angle: the bound of a co-design in balls
 motion      a motion from its start to a time: equations, digits that it needs, what is kept on the way
 """

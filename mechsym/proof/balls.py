@@ -13,7 +13,7 @@ try:
 except ImportError as error:
     raise MissingExtra("prove needs python-flint: pip install 'mechsym[proof]'") from error
 
-acb, arb, arb_mat, ctx = flint.acb, flint.arb, flint.arb_mat, flint.ctx
+acb, arb, arb_mat, arb_series, ctx = flint.acb, flint.arb, flint.arb_mat, flint.arb_series, flint.ctx
 #: A sum of a few thousand doubles of one sign, each rounded to nearest, is below this times what comes out
 UP = 1 + 1e-9
 Ball = Any  # arb or acb: python-flint has no types

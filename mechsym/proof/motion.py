@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from mechsym.errors import BadInput
-from mechsym.files import write_text
+from mechsym.files import publish, write_text
 from mechsym.mechanisms.record import Mechanism, acceleration_function
 from mechsym.native.tape import read
 from mechsym.proof import enclosure
@@ -192,6 +192,7 @@ def _keep(folder: Path | None, name: str, passed: Sequence[Passed]) -> None:
     if folder is not None:
         rows = [{"steps": p.steps, "low": p.low, "high": p.high, **kept(p.at)} for p in passed]
         write_text(folder / "proof.json", json.dumps({"identity": name, "seconds": rows}))
+        publish()  # a proof that is broken off goes on from here
 
 
 def _kept_of(folder: Path | None, name: str) -> list[Passed]:

@@ -12,7 +12,7 @@ from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.measured.facts import diagram_facts
 from mechsym.cycle.measured.figures import mean_pressures
 from mechsym.cycle.measured.measure import measured_cycles
-from mechsym.cycle.measured.swing import closing, half_integral
+from mechsym.cycle.measured.swing import closing, half_integral, without_drift
 from mechsym.errors import BadInput
 
 EXHAUST = 1.1e5  # of every made record
@@ -47,6 +47,22 @@ def test_what_a_cycle_misses_of_closing_is_its_drift():
     smooth = 3.0 + np.sin(phi / 2 + 0.4)
     assert closing(smooth) == pytest.approx(0.0, abs=1e-6)
     assert closing(smooth + 0.25 * phi / (4 * math.pi)) == pytest.approx(0.25, abs=1e-6)
+
+
+def test_drift_is_taken_off_as_far_as_it_is_more_than_noise():
+    phi = np.arange(1440) * DEG / 2
+    peak = np.exp(4 * (np.cos((phi - 2 * math.pi) / 2) - 1))
+    peak -= peak.min()
+    drifting = peak + 0.01 * phi / (4 * math.pi)
+    clean = without_drift(drifting[None])
+    assert np.ptp(clean - peak) < 1e-5 and clean.mean() == pytest.approx(drifting.mean())
+    # cycles whose ends scatter by three times the drift: four of them leave the third part of it, 1/(1 + 1.5^2)
+    ends = 0.03 * np.array([-1, 1, 1, -1]) * math.sqrt(3) / 2
+    rows = drifting + ends[:, None] * phi / (4 * math.pi)
+    left = closing(without_drift(rows).mean(axis=0))
+    assert left == pytest.approx(0.01 * (1 - 1 / (1 + 1.5**2)), rel=0.02)
+    cut = np.roll(drifting, 720)[None]
+    assert without_drift(cut) is cut
 
 
 def net(measured, cylinder):

@@ -230,6 +230,73 @@ def peak(one: Turn, before: Shaken, weights: Sequence[Weight]) -> float:
     return max(float(held.load.max()) for held in _with(one, before, weights, (), MainShaft()).journals)
 
 
+def _turning(values: np.ndarray, times: int) -> np.ndarray:
+    """Derivative of a periodic complex signal by the angle, by its spectrum."""
+    orders = np.fft.fftfreq(len(values), 1 / len(values))
+    return np.fft.ifft(np.fft.fft(values) * (1j * orders) ** times)
+
+
+@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(s, marks=pytest.mark.slow) for s in range(4, 30))])
+def test_engines_of_any_kind_shake_as_their_masses_accelerate(seed: int) -> None:
+    """Pins, banks, offsets, hung rods at random: places by complex numbers, differentiated by their spectrum."""
+    g = np.random.default_rng(seed)
+    throws, rows, count = int(g.integers(1, 8)), int(g.integers(1, 3)), 512
+    n, hung = throws * rows, rows == 2 and g.random() < 0.5
+    throw, phase = np.tile(np.arange(throws), rows), g.uniform(0, 2 * math.pi, n)
+    master = np.tile(np.arange(throws), rows) if hung else np.zeros(n, int)
+    phase[throws:] = phase[: n - throws] if hung else phase[throws:]
+    spans = {"l1": (0.03, 0.06), "l2": (0.08, 0.12), "bank": (-1, 1), "offset": (-4e-3, 4e-3), "m_rod": (0.3, 0.8),
+             "m_piston": (0.3, 0.9), "I_rod": (1e-3, 4e-3), "z_rod": (-0.01, 0.01)}  # fmt: skip
+    spans |= {"knuckle": (0.01, 0.03), "knuckle_angle": (-0.5, 0.5)} if hung else {}
+    p = {name: g.uniform(*span, n) for name, span in spans.items()} | {"phase": phase}
+    p |= {name: g.uniform(*span, throws) for name, span in (("u0", (-0.05, 0.05)), ("u_phase", (0, 6)))}
+    z, r, omega = np.cumsum(g.uniform(0.06, 0.12, throws)), g.uniform(0.02, 0.05), g.uniform(50, 600)
+    hangs = tuple(int(m) + 1 if hung and i >= throws else 0 for i, m in enumerate(master))
+    train = CrankTrainParameters(
+        **{name: tuple(map(float, values)) for name, values in p.items()}, throw=tuple(int(t) + 1 for t in throw),
+        z=tuple(map(float, z)), r=r, master=hangs, firing=(0.0,) * n, I0=0.01, I_f=0.1, k=1e5,
+    )  # fmt: skip
+    one = turn(crank_drive("crank_train", train), None, omega)
+    phi, force, couple_, energy, swirl = 2 * math.pi * np.arange(count) / count, 0j, 0j, 0.0, 0.0
+    for k in range(throws):
+        pull = omega**2 * p["u0"][k] * np.exp(1j * (phi + p["u_phase"][k]))
+        force, couple_ = force + pull, couple_ + (z[k] - (z[0] + z[-1]) / 2) * pull
+    at = {}
+    for i in range(n):
+        way, start = np.exp(1j * p["bank"][i]), r * np.exp(1j * (phi + p["phase"][i]))
+        if hangs[i]:
+            pin, wrist = at[hangs[i] - 1]
+            start = pin + p["knuckle"][i] * (wrist - pin) / abs(wrist - pin) * np.exp(1j * p["knuckle_angle"][i])
+        length, own = p["l1"][i] + p["l2"][i], start / way
+        wrist = (own.real + np.sqrt(length**2 - (own.imag - p["offset"][i]) ** 2) + 1j * p["offset"][i]) * way
+        at[i] = start, wrist
+        lever = z[throw[i]] + p["z_rod"][i] - (z[0] + z[-1]) / 2
+        pointing = (wrist - start) / length
+        for mass, place in (
+            (p["m_rod"][i], start + p["l1"][i] * pointing),
+            (p["m_piston"][i], wrist),
+            (p["I_rod"][i], pointing),
+        ):
+            moved = omega**2 * _turning(place, 2)
+            if place is not pointing:
+                force, couple_ = force - mass * moved, couple_ - lever * mass * moved
+            # a unit vector with the inertia as its mass turns as the rod does
+            swirl = swirl + mass * (np.conj(place) * moved).imag
+            energy = energy + mass * abs(omega * _turning(place, 1)) ** 2 / 2
+    # the load is no part of the frame: it gives what the masses take of power at constant speed
+    roll = -swirl + _turning(energy, 1).real
+    before = balance(one, weights="none").before
+    assert before.roll is not None
+    for mine, its in ((before.force, force), (before.couple, couple_), (before.roll, roll)):
+        for order in (*range(-12, 0), *range(1, 13)):
+            wanted = np.mean(its * np.exp(-1j * order * phi))
+            assert abs(part(mine, one, order) - wanted) < 1e-12 * max(np.abs(its).max(), 1e-9)
+    held = [sum(getattr(journal, way) for journal in before.journals) for way in "xy"]
+    for way, whole in zip("xy", held, strict=True):
+        carried = -sum(one.reactions[f"main_bearing_force_{way}_{k + 1}"] for k in range(throws))
+        assert throws == 1 or np.abs(whole - carried).max() < 1e-12 * np.abs(carried).max()
+
+
 def test_bearings_without_places_are_refused() -> None:
     with pytest.raises(BadInput, match=r"give shaft\.bearings"):
         balance(in_line(0), least="mains")

@@ -215,7 +215,7 @@ def test_bad_input_is_one_line(words, capsys, monkeypatch):
 @pytest.mark.slow
 def test_the_statement_is_about_the_window():
     found = motion_of(cases.load("chmielewski"), 2.0, None, (1.0, 2.0))
-    assert "from 1 to 2 s" in found.statement and "never in steady motion at 194" in found.statement
+    assert "from 1 to 2 s" in found.statement and "never in steady" not in found.statement  # the claim is of 90 s
     assert found.mean_least["phi0d"][1] <= 0.8921567534505 <= found.mean_largest["phi0d"][1]
     assert json.dumps(found.lower["phi0"]) and math.isfinite(found.digits)
 

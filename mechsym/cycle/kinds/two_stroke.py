@@ -122,13 +122,25 @@ def kinks(cycle: TwoStrokeMarine) -> tuple[Radian, ...]:
 
 
 def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: Pure) -> Callable[[Scalar], Scalar]:
-    r"""The cycle's pressure for a given temperature ratio.
+    """The cycle's pressure for a given temperature ratio, as `formulas` give it, over any real angles [rad]."""
+    _, (_, _, closed), (evo, spo, line), (_, _, still) = formulas(cycle, cylinder, ratio)
+
+    def one_turn(phi: Scalar) -> Scalar:
+        return np.where(phi <= evo, closed(phi), np.where(phi < spo, line(phi), still(phi)))[()]
+
+    return periodic(one_turn, 2 * math.pi, start=cycle.evc)
+
+
+def formulas(
+    cycle: TwoStrokeMarine, cylinder: Chamber, ratio: Pure
+) -> tuple[tuple[float, float, Callable[[Any], Any]], ...]:
+    r"""The cycle's pressure for a given temperature ratio, from angle to angle.
 
     .. math:: p = (1-f)\,p_{comp} + f\,\rho\,p_{comp}(0)\,(V_c/V)^{n_e}
 
     between EVC and EVO, then a straight line to p_evc at SPO, then p_evc. ratio: T_ref / T_comp at top dead centre, 1
-    without fuel. Returns absolute: callable, ndarray of crank angles, any real [rad], to absolute pressure of the same
-    shape [Pa].
+    without fuel. Returns pieces: from and to an angle [rad], and the absolute pressure there [Pa] as a callable of
+    numbers, arrays or a CasADi symbol.
     """
     v_c, p_evc = cylinder.clearance, scavenging_pressure(cycle.p_s)
     p_comp = p_evc * (float(volume(cylinder, cycle.evc)) / v_c) ** cycle.n_c
@@ -142,11 +154,15 @@ def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: Pure) ->
 
     p_evo = float(closed(cycle.evo))
 
-    def one_turn(phi: Scalar) -> Scalar:
-        line = p_evo + (p_evc - p_evo) * (phi - cycle.evo) / (cycle.spo - cycle.evo)
-        return np.where(phi <= cycle.evo, closed(phi), np.where(phi < cycle.spo, line, p_evc))[()]
+    def line(phi: Scalar) -> Scalar:
+        return p_evo + (p_evc - p_evo) * (phi - cycle.evo) / (cycle.spo - cycle.evo)
 
-    return periodic(one_turn, 2 * math.pi, start=cycle.evc)
+    return (
+        (cycle.evc, cycle.soc, lambda phi: p_comp * (volume(cylinder, phi) / v_c) ** -cycle.n_c),
+        (cycle.soc, cycle.evo, closed),
+        (cycle.evo, cycle.spo, line),
+        (cycle.spo, cycle.evc + 2 * math.pi, lambda phi: p_evc + 0 * phi),
+    )
 
 
 def as_diagram(cycle: TwoStrokeMarine) -> dict[str, str | float]:
@@ -253,6 +269,7 @@ def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
     return pressure_over(
         "two-stroke-marine", absolute, 2 * math.pi, kinks(cycle), cylinder, t_max=hottest,
         phases=events(cycle), facts=_facts(cycle, cylinder, state), doubts=_doubts(state),
+        formulas=formulas(cycle, cylinder, state.p_ref / state.p_comp),
     )  # fmt: skip
 
 

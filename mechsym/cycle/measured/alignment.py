@@ -23,6 +23,7 @@ from mechsym.cycle.measured.file import Recording, read_diagram
 from mechsym.cycle.measured.joint_fit import JointFit, Prior, joint_fit
 from mechsym.cycle.measured.sanity import refuse_no_cylinder
 from mechsym.cycle.measured.smoothing import noise
+from mechsym.cycle.measured.swing import without_drift
 from mechsym.cycle.measured.timing import spread_error, turn_speeds
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -50,14 +51,14 @@ def sound_cycles(file: str, diagram: Diagram, cylinder: Chamber) -> tuple[Record
     """A recording and its cycles, refused where no cylinder made them.
 
     Returns recording: as it stands in the file; angle: evenly spaced angles of the first cycle, zero as in the file;
-    rows: measured pressure, shape (k, n).
+    rows: measured pressure, without drift where its offset is sought anyway, shape (k, n).
     """
     period = period_of(diagram)
     recording = read_diagram(file, period, diagram.angle_column, diagram.pressure_column, diagram.recorded_speed)
     angle, rows = cut_cycles(recording, period)
     steps = np.abs(np.diff(recording.pressure))
     refuse_no_cylinder(file, angle, rows, cylinder, period, float(steps[steps > 0].min()))
-    return recording, angle, rows
+    return recording, angle, rows if diagram.pegging in ("none", "gauge") else without_drift(rows)
 
 
 def align(

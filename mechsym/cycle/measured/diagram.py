@@ -48,7 +48,8 @@ class Diagram:
     )
     #: Offset: `none` (the file is absolute), `gauge` (it is above p_back), `inlet` (inlet_pressure at the bottom dead
     #: centre before compression) or `polytropic` (the compression line follows the exponent n_c) or `joint` (its joint
-    #: fit with dead centre, exponent and losses)
+    #: fit with dead centre, exponent and losses). The last three take off first what the mean cycle drifts by: it ends
+    #: where it began
     pegging: str = choice("none", "gauge", "inlet", "polytropic", "joint", default="joint")
     #: `checked` (as read, refused where the compression line starts outside 0.7 to 1.4 times inlet_pressure),
     #: `as_given` (as read, a doubt there), `trapped` (that line starts from inlet_pressure at bottom dead centre) or

@@ -6,7 +6,6 @@ import numpy as np
 
 from mechsym.cycle.chamber import Chamber, wall_area
 from mechsym.cycle.heat import Annand, GasAtWall, Hohenberg, Woschni, heat_flux
-from mechsym.quantities import record
 from mechsym.quantities.units import Pure, RadPerSecond
 
 _BOTTOM, _CHARGE, _WALL = 0.9e5, 340.0, 430.0  # Pa and K of a fresh charge, K of a wall: usual
@@ -16,21 +15,17 @@ HEAT_BY_SPEED, LEAK_BY_SPEED, HEAT_BY_PRESSURE = -0.3, -1.0, -0.2
 _LEAK, _BORE, _PISTON_SPEED = 0.012, 0.08, 8.0
 
 
-@record
-class ExpectedLosses:
-    """Shares of the pressure that are lost at top dead centre, as middle and standard deviation."""
-
-    heat: tuple[float, float]  #: To the walls [1/rad]
-    leak: tuple[float, float]  #: Past the rings [1/rad]
+_HEAT, _LEAKS = 1.75, 2.2  # factors of a standard deviation: laws of heat differ by two to three, worn rings by more
 
 
-def expected_losses(cylinder: Chamber, omega: RadPerSecond) -> ExpectedLosses:
+def expected_losses(cylinder: Chamber, omega: RadPerSecond) -> tuple[tuple[float, float], tuple[float, float]]:
     r"""Losses of an unfired charge by three laws of heat transfer and a usual blow-by.
 
     .. math:: k_h = \frac{(\gamma - 1) q A_w}{p V \omega}, \quad
         k_l = 0.012\,\frac{80\,\mathrm{mm}}{B}\,\frac{8\,\mathrm{m/s}}{\bar S_p}
 
-    Returns losses: heat as the mean of the laws, with their own spread and at least half of it; blow-by to 0.8 of it.
+    Returns heat, leak: shares of the pressure lost at top dead centre to the walls, as the mean of the laws, and past
+    the rings, each the middle of a log-normal distribution [1/rad] and its factor of a standard deviation [-].
 
     Sources: Woschni (1967), Annand (1963), Hohenberg (1979), without radiation; they differ by a factor of two to three
     (Heywood 1988, section 12.4). Blow-by: about 1 % of the charge at rated speed (Heywood 1988, section 8.6), through
@@ -49,7 +44,21 @@ def expected_losses(cylinder: Chamber, omega: RadPerSecond) -> ExpectedLosses:
     by = (_GAMMA - 1) * wall_area(cylinder, cylinder.clearance) / (p * cylinder.clearance * omega)
     shares = np.array([float(heat_flux(law, state)) for law in laws]) * by
     heat, leak = float(shares.mean()), _LEAK * _BORE / cylinder.bore * _PISTON_SPEED / speed
-    return ExpectedLosses(heat=(heat, max(float(shares.std(ddof=1)), 0.5 * heat)), leak=(leak, 0.8 * leak))
+    return (heat, _HEAT), (leak, _LEAKS)
+
+
+def log_normal(of: tuple[float, float], at: float) -> tuple[float, float]:
+    """Middle and deviation of the normal distribution that is like a log-normal one near a value.
+
+    of: middle [1/rad] and factor [-] of the log-normal one; at: the value [1/rad]. Returns normal: middle and
+    deviation of the normal one [1/rad].
+
+    >>> log_normal((0.1, math.e), 0.1)
+    (0.1, 0.1)
+    """
+    middle, factor = of
+    at = min(max(at, middle / factor**3), middle * factor**3)
+    return at * (1 + math.log(middle / at)), at * math.log(factor)
 
 
 def by_state(speed: Pure, pressure: Pure) -> tuple[Pure, Pure]:

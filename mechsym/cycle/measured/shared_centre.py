@@ -21,7 +21,7 @@ from mechsym.cycle.measured.dead_centre import ENCODER, DeadCentre, from_compres
 from mechsym.cycle.measured.diagram import Diagram, period_of
 from mechsym.cycle.measured.joint_fit import JointFit, Prior, information
 from mechsym.cycle.measured.lag import USUAL
-from mechsym.cycle.measured.losses import by_state, expected_losses
+from mechsym.cycle.measured.losses import by_state, expected_losses, log_normal
 from mechsym.cycle.measured.timing import recorded_speed
 from mechsym.quantities import record
 from mechsym.quantities.units import Radian, RadPerSecond
@@ -30,7 +30,7 @@ _FREE = 10.0  # standard deviation of what nothing is known of [rad]
 _EACH = (0.01, 0.01, 0.15, 0.15)  # n0, n1, loss (as a share of it), sharpness: from record to record of one engine
 # standard deviation about the exponent to expect, known to 0.06 for mixture or air; a record alone allows for more
 _EXPONENT = 0.03
-_ROUNDS, _TURN = 3, 2 * math.pi
+_ROUNDS, _TURN = 5, 2 * math.pi
 _LAG = (sum(USUAL) / 2, (USUAL[1] - USUAL[0]) / (2 * 1.96))
 
 
@@ -71,9 +71,10 @@ def shared_centre(
     prior = dataclasses.replace(prior, n0=(prior.n0[0], _EXPONENT))
     expected = expected_losses(cylinder, float(omega.mean()))
     priors = [prior] * len(records)
+    heat, leak = (log_normal(of, of[0]) for of in expected)
     for _ in range(_ROUNDS):
         fits = [_fit(one, cylinder, between, p) for one, p in zip(records, priors, strict=True)]
-        middle, known = _before(records, fits, prior, expected.heat, expected.leak)
+        middle, known, shares = _before(records, fits, prior, heat, leak)
         data, pull = np.zeros_like(known), np.zeros_like(middle)
         for k, (fit, p) in enumerate(zip(fits, priors, strict=True)):
             at = slice(1 + 5 * k, 6 + 5 * k)
@@ -81,6 +82,8 @@ def shared_centre(
         inverse = np.linalg.inv(known)
         covariance = np.linalg.inv(inverse + data)
         x = covariance @ (inverse @ middle + pull)
+        moved = np.array([heat[0], leak[0]]) + shares @ inverse @ (x - middle)
+        heat, leak = (log_normal(of, float(at)) for of, at in zip(expected, moved, strict=True))
         priors = [_prior(x[1 + 5 * k :][:5], np.diag(covariance)[1 + 5 * k :][:5]) for k in range(len(records))]
     share = float((covariance @ inverse @ covariance)[0, 0])
     return SharedCentre(
@@ -99,7 +102,7 @@ def _fit(one: EncoderRecord, cylinder: Chamber, between: tuple[float, float], pr
 def _before(
     records: Sequence[EncoderRecord], fits: Sequence[JointFit], prior: Prior, heat: tuple[float, float],
     leak: tuple[float, float],
-) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:  # fmt: skip
     """Middle and covariance of all values before the samples are looked at: what is shared, and what each has more."""
     omega = np.array([one.omega for one in records])
     level = np.array([fit.level for fit in fits])
@@ -116,9 +119,9 @@ def _before(
         ways.append(rows)
         own.append(np.array([max(one.spread / 1.96, 1e-5), *_EACH]) * [1, 1, 1, loss, 1])
     way = np.vstack(ways)
-    return way @ shared[:, 0], way @ np.diag(shared[:, 1] ** 2) @ way.T + np.diag(
-        np.maximum(np.concatenate(own), 1e-6) ** 2
-    )
+    spread = np.diag(shared[:, 1] ** 2)
+    known = way @ spread @ way.T + np.diag(np.maximum(np.concatenate(own), 1e-6) ** 2)
+    return way @ shared[:, 0], known, (spread @ way.T)[3:5]
 
 
 def _prior(values: np.ndarray, variances: np.ndarray) -> Prior:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _FROM, _TO = math.radians(-60.0), math.radians(120.0)
+_READ = 12  # cycles whose curves are read one by one
 _FAINT = 0.35
 
 
@@ -121,15 +122,24 @@ def _angles(axis: "Axes") -> float:
 
 
 def _pressure(found: DiagramCombustion) -> "Figure":
+    from matplotlib.collections import LineCollection
+
     from mechsym.style import BLUE, GREY, panels
 
     figure, (axis,) = panels(8, 3.6, title="Pressure of every cycle over the crank angle")
     phi, rows = _rows(found)
     inside = (phi >= _FROM) & (phi <= _TO)
     (factor, unit), angle = _pressure_unit(rows), _angles(axis)
-    for row in rows:
-        axis.plot(phi[inside] * angle, row[inside] * factor, color=GREY, linewidth=0.6, alpha=_FAINT)
-    axis.plot(phi[inside] * angle, rows.mean(axis=0)[inside] * factor, color=BLUE)
+    if len(rows) <= _READ:
+        for number, row in enumerate(rows, 1):
+            axis.plot(
+                phi[inside] * angle, row[inside] * factor, color=GREY, linewidth=0.6, alpha=_FAINT,
+                label=f"cycle {number}",
+            )  # fmt: skip
+    else:
+        curves = [np.column_stack([phi[inside] * angle, row[inside] * factor]) for row in rows]
+        axis.add_collection(LineCollection(curves, colors=GREY, linewidths=0.6, alpha=_FAINT))
+    axis.plot(phi[inside] * angle, rows.mean(axis=0)[inside] * factor, color=BLUE, label="mean")
     axis.set_ylabel(f"absolute pressure [{unit}]")
     return figure
 
