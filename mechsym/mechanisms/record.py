@@ -46,7 +46,7 @@ class Mechanism:
     )  #: Held by constraints, with their guesses
 
     units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: Of coordinates that are no angles [rad]
-    #: How outputs of watched points are told, `P.x` for `P_x`, which the code calls by an identifier
+    #: How outputs of watched points are told, with a dot where the code has an identifier
     shown: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     @property
