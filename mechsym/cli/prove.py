@@ -10,10 +10,10 @@ from mechsym.cli.common import (
     budget_option,
     case_of,
     emit,
-    folder_option,
     in_rows,
     json_option,
     only_of,
+    out_option,
     pairs,
     progress,
     set_option,
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 )
 @click.option("--t-end", metavar="TIME", help="How far the motion of CASE is enclosed; to its own end without.")
 @click.option("--window", metavar="A..B", help="Times that the statement about CASE is for, e.g. 55..93 s.")
-@folder_option
+@out_option
 @set_option
 @budget_option
 @json_option

@@ -184,12 +184,16 @@ def _draw(m: Declaration) -> None:
         return
     for link in m.links:
         sides = [j.side(link) for j in m.link_joints if link in (j.first.link, j.second.link)]
-        points = [p.link.at(p.u, p.v) for p in sides]
+        points = [p.link.at(p.u, p.v) for p in (*sides, *(p for p in m.watched.values() if _of(p, link)))]
         where = list({(str(p.u), str(p.v)): p for p in points}.values())
         if len(where) > 1:
             m.draw_line(*where, *(where[:1] if len(where) > 2 else ()), role="crank" if link.given else "rod")
         elif link.mass != 0 and where:
             m.draw_line(where[0], link.at(*link.centre), role="piston")
+
+
+def _of(point: object, link: Link) -> bool:
+    return isinstance(point, LinkPoint) and point.link is link
 
 
 def _between(joint: Joint) -> str:

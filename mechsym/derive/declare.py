@@ -75,6 +75,7 @@ class Declaration(Linkage, Elements, Drawing):
         self.constraints: dict[str, Expr] = {}
         self.gravity: tuple[Expr, Expr] = (Integer(0), Integer(0))
         self.given: tuple[list[list[Expr]], list[Expr], list[Expr]] | None = None
+        self.watched: dict[str, object] = {}
         self._start_linkage()
         self._start_roles()
         self._start_drawing()
@@ -127,7 +128,8 @@ class Declaration(Linkage, Elements, Drawing):
     def watch(self, point: object, name: str) -> None:
         """Put a point among the outputs under a name of its own, with its motion.
 
-        point: of a link, or a pair (x, y) [m]. name: before `_x, _y`; rates end in `_d`, accelerations in `_dd`.
+        point: of a link, or a pair (x, y) [m]. name: before a dot and x or y, with the slope by each coordinate, rate
+        (`_d`) and the acceleration (`_dd`); letters of formulas have a low line in place of the dot.
         """
         pair = self._pair(point, "m", f"watched {name}") if isinstance(point, tuple) else point_of(point).xy
         for axis, value in zip("xy", pair, strict=True):
@@ -135,6 +137,7 @@ class Declaration(Linkage, Elements, Drawing):
             rates.output(self, place, order=2)
             rates.output_dynamic(self, f"{name}_{axis}_d", rates.velocity(self, place), "m/s")
             rates.output_dynamic(self, f"{name}_{axis}_dd", rates.acceleration(self, place), "m/s^2")
+        self.watched[name] = point
 
     def weight(self, x: Expr | float, y: Expr | float) -> None:
         """Declare the acceleration of free fall by its components [m/s^2]."""

@@ -47,6 +47,7 @@ class Listing(TypedDict):
     links: NotRequired[list[Json]]
     springs: NotRequired[list[str]]
     dampers: NotRequired[list[str]]
+    watched: NotRequired[list[str]]  #: Points that `m.watch` names
     open_sides: NotRequired[list[str]]  #: Joints of loops of pins whose side nobody chose
 
 
@@ -87,6 +88,7 @@ def _own(m: Declaration) -> Json:
         "links": [link for link in map(partial(_link, m), m.links) if link],
         "springs": _constants(m, m.springs),
         "dampers": _constants(m, m.dampers),
+        "watched": [*m.watched],
         "open_sides": [side.joint for side in m.sides if side.pins and not side.by],
     }
     return {key: value for key, value in said.items() if value}

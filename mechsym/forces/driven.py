@@ -77,7 +77,9 @@ def forces(
     bad = [n for n, v in table.items() if not np.isfinite(v).all()]
     if bad:
         raise BadInput(f"{mechanism.name}: {bad[0]} is not finite on the way; give another path")
-    return DrivenForces(name=mechanism.name, one=one, columns=Columns(table, {n: known.get(n, "N") for n in table}))
+    shown = {mechanism.shown.get(n, n): n for n in table}
+    columns = Columns({n: table[of] for n, of in shown.items()}, {n: known.get(of, "N") for n, of in shown.items()})
+    return DrivenForces(name=mechanism.name, one=one, columns=columns)
 
 
 def numbers(found: DrivenForces, case: str) -> DrivenNumbers:

@@ -66,7 +66,7 @@ def _borne_most(result: Forces) -> tuple[dict[str, np.ndarray], str]:
     """Forces on the first crank pin; of a mechanism without one the largest joint forces; and what they are."""
     if pins := result.loads.pins:
         return {"radial, outwards": radial(pins[0]), "tangential": tangential(pins[0])}, _label(pins[0].name)
-    forces = [(n, v) for n, v in result.turn.reactions.items() if result.columns.units[n] == "N"]
+    forces = [(n, v) for n, v in result.turn.reactions.items() if result.columns.units.get(n) == "N"]
     largest = sorted(forces, key=lambda one: -float(np.abs(one[1]).max()))[:4]
     return dict(largest) or {"no joint force": np.zeros_like(result.turn.phi)}, "joint forces"
 

@@ -64,7 +64,9 @@ def columns(turn: Turn, loads: Loads, chains: Mapping[str, Chain] | None = None)
     known |= {name: _of_slope(name, listed["coordinates"]) for name in turn.kinematics if name not in known}
     # what is left are forces of parts and chains
     chained = ("two_mass_M", "terskih_M")
-    return Columns(table, {n: known.get(n, "N*m" if n.endswith(chained) else "N") for n in table})
+    units = {n: known.get(n, "N*m" if n.endswith(chained) else "N") for n in table}
+    shown = {n: turn.drive.mechanism.shown.get(n, n) for n in table}
+    return Columns({shown[n]: v for n, v in table.items()}, {shown[n]: unit for n, unit in units.items()})
 
 
 def _of_slope(name: str, coordinates: Mapping[str, str]) -> str:

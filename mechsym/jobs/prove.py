@@ -7,6 +7,7 @@ from pathlib import Path
 import casadi as ca
 import numpy as np
 
+from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.numbers import usual
 from mechsym.errors import BadInput
@@ -16,6 +17,7 @@ from mechsym.hinge.torque import torque
 from mechsym.jobs.machine import machine
 from mechsym.jobs.problem import problem_of
 from mechsym.machine.record import acting, shaft_torque
+from mechsym.mechanisms.own import is_file
 from mechsym.mechanisms.record import Mechanism, bind, evaluate, generated, listing, velocities
 from mechsym.proof.enclosure import EnclosureMethod
 from mechsym.proof.motion import MOST, Passed, balls_of, digits, enclose, half_widths, method_for, task_of
@@ -29,9 +31,6 @@ _SHARE = 0.01  # of a parameter's value, to both sides
 _SHARE_OF_GUIDES = 0.001  # beyond it balls do not see that the kernel's Newton steps come to an end
 GUIDES = "hinge"  #: What stands for the limits of guides among the names of mechanisms
 _FASTER = 1.1  # highest speed by that of operation
-#: Cases that give numbers to mechanisms that have none of their own
-_OF_OTHERS = {GUIDES: "zotov-89", "crank_throw": "opposed-pistons", "crankshaft_flywheel_printed": "chmielewski", 
-              "rodless_constraints": "balandin", "crosshead": "zotov-89"}  # fmt: skip
 _TURN = np.arange(1440) * 4 * np.pi / 1440
 
 Ranges = dict[str, tuple[float, float]]
@@ -48,11 +47,16 @@ class Extremes:
 
 
 def usual_case(mechanism: str) -> str:
-    """The case whose numbers a mechanism is proven for. Raises BadInput: there is none."""
-    found = _OF_OTHERS.get(mechanism) or usual(mechanism)
-    if not found:
-        raise BadInput(f"{mechanism} has no case of its own; name one with --case")
-    return found
+    """The case whose numbers a mechanism is proven for, the last that has them all. Raises BadInput: there is none."""
+    if is_file(mechanism) and (beside := usual(mechanism)):
+        return beside
+    for name in reversed([] if is_file(mechanism) else cases.names()):
+        case = cases.load(name)
+        wanted = ("spring",) if mechanism == GUIDES else listing(mechanism)["parameters"]
+        there = case.sections if mechanism == GUIDES else vars(case.sections.get("parameters", object))
+        if all(there.get(letter) is not None for letter in wanted):
+            return name
+    raise BadInput(f"{mechanism} has no case of its own; name one with --case")
 
 
 def of_mechanism_at(
@@ -220,8 +224,9 @@ def _told(
     ends = np.array([[(float(b.lower()), float(b.upper())) for b in balls_of(p.at)] for p in passed])
     times, starts = np.array([float(p.at.t) for p in passed]), np.array([[q, q] for q in problem.q0])
     # over a second the mean of a velocity is the change of its coordinate by its length, doubles a hair outwards
+    begins = np.array([problem.t_start, *times[:-1]])
     moved = ends[:, :n] - np.concatenate([starts[None], ends[:-1, :n]])[:, :, ::-1]
-    means = moved / np.diff(times, prepend=problem.t_start)[:, None, None] + [-1e-11, 1e-11]
+    means = moved / (times - begins)[:, None, None] + [-1e-11, 1e-11]
 
     def columns(values: np.ndarray, names: Sequence[str] = states) -> Columns:
         return Columns({k: tuple(v) for k, v in zip(names, np.transpose(values).tolist(), strict=True)}, units)
@@ -240,7 +245,7 @@ def _told(
     never = claim is not None and times[inside][-1] >= since and not mean[0] <= claim <= mean[1]
     statement = (
         f"with the decimals of {case.name} every solution has {speeds[0]} within [{of_all[0]:.6g}, {of_all[1]:.6g}] "
-        f"{units[speeds[0]]} from {times[inside][0] - 1:g} to {times[inside][-1]:g} s, its mean over each second in "
+        f"{units[speeds[0]]} from {begins[inside][0]:g} to {times[inside][-1]:g} s, its mean over each second in "
         f"[{mean[0]:.6g}, {mean[1]:.6g}]{f': never in steady motion at {claim:g}' if never else ''}; at "
         f"{times[-1]:g} s the state is known to +-{max(half_widths(passed[-1].at)[:n]):.1g} in its coordinates"
     )

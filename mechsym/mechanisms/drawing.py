@@ -72,6 +72,8 @@ def declared(mechanism: Mechanism, said: "Listing") -> Callable[[float], Shapes]
         return (*(_shape(shape, at) for shape in said["shapes"]), *pins)
 
     start = places(0.0)
+    if len({(start[x], start[y]) for shape in said["shapes"] for x, y in shape["points"]}) < 2:
+        return None  # a point has no extent
     radius = _PIN * max((math.dist((start[a], start[b]), (start[c], start[d])) for a, b in joints for c, d in joints),
                         default=0.0)  # fmt: skip
     return shapes

@@ -9,6 +9,7 @@ the right; a reaction R_j is the force of the first body on the second along the
 import dataclasses
 import functools
 import json
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module, resources
 from types import ModuleType
@@ -45,6 +46,8 @@ class Mechanism:
     )  #: Held by constraints, with their guesses
 
     units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: Of coordinates that are no angles [rad]
+    #: How outputs of watched points are told, with a dot where the code has an identifier
+    shown: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     @property
     def state_units(self) -> tuple[str, ...]:
@@ -127,6 +130,16 @@ def _stored(name: str) -> "Listing":
     return json.loads(stored.read_text(encoding="utf-8"))
 
 
+def _named(name: str, bound: Mechanism) -> Mechanism:
+    """A mechanism with what its listing says beside the code: units, and names as they are told."""
+    known, shown = listing(name), dict[str, str]()
+    for point in known.get("watched", ()):
+        of_point = re.compile(rf"(d\d*)?{point}_([xy])((?:_d.*)?)")
+        matches = ((n, of_point.fullmatch(n)) for n in known["outputs"])
+        shown |= {n: f"{point}.{m[1] or ''}{m[2]}{m[3]}" for n, m in matches if m}
+    return dataclasses.replace(bound, name=name, units=known["coordinates"], shown=shown)
+
+
 def bind(name: str, parameters: Mapping[str, Scalar]) -> Mechanism:
     """Build the named CasADi functions of a generated module for given parameters.
 
@@ -137,13 +150,13 @@ def bind(name: str, parameters: Mapping[str, Scalar]) -> Mechanism:
     values = tuple((p, parameters[p]) for p in module.PARAMETERS if p in parameters)
     if len(values) == len(module.PARAMETERS) and all(isinstance(v, float) for _, v in values):
         return _bound(module, name, values, repr(values))
-    return dataclasses.replace(bind_module(module, parameters), name=name, units=listing(name)["coordinates"])
+    return _named(name, bind_module(module, parameters))
 
 
 # points of a sweep, and trials of one engine, ask for the same mechanism again; the text tells 0 from -0
 @functools.lru_cache(maxsize=64)
 def _bound(module: ModuleType, name: str, values: tuple[tuple[str, float], ...], text: str) -> Mechanism:
-    return dataclasses.replace(bind_module(module, dict(values)), name=name, units=listing(name)["coordinates"])
+    return _named(name, bind_module(module, dict(values)))
 
 
 def bind_module(module: ModuleType, parameters: Mapping[str, Scalar]) -> Mechanism:

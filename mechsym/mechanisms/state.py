@@ -59,7 +59,9 @@ def state(
         energies |= _named(mechanism.functions["energy"], numbers([*q, *u]))
     kinds = {mechanism.units.get(name, "rad") for name in q}
     inertia, push, rate = _UNITS.get(kinds.pop(), _MIXED) if len(kinds) == 1 else _MIXED
-    told = Columns(outputs, {**dict.fromkeys(outputs, ""), **_units(mechanism), **units})
+    known = {**dict.fromkeys(outputs, ""), **_units(mechanism), **units}
+    shown = {n: mechanism.shown.get(n, n) for n in known}
+    told = Columns({shown[n]: v for n, v in outputs.items()}, {shown[n]: unit for n, unit in known.items()})
     return MechanismState(
         mass_matrix=mass.tolist(), bias=bias.ravel().tolist(), generalized_force=force.ravel().tolist(),
         acceleration=qdd.tolist(), outputs=told, **energies, inertia=inertia, push=push, rate=rate,

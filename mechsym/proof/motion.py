@@ -159,7 +159,9 @@ def enclose(
 ) -> list[Passed]:
     """The motion second by second; what a folder keeps of the same proof is not made again."""
     with ctx.workprec(method.bits):
-        passed = _kept_of(folder, identity(task, method))
+        kept = _kept_of(folder, identity(task, method))
+        # what was kept of a longer proof, or of one that ended within a second, is no part of this one
+        passed = [p for p in kept if p.at.t <= until and (p.at.t.denominator == 1 or p.at.t in task.phases(until))]
         letters = [decimal(v) for v in task.letters]
         start = point(_fraction(task.t_start), [decimal(v) for v in task.start])
         at, begun = (passed[-1].at, passed[-1].steps) if passed else (start, 0)

@@ -108,7 +108,7 @@ WRITERS = {
     "cycle": ["cycle", "none"], "derive": ["derive", "./none.py"], "export": ["export", "none", "--to", "c"],
     "flywheel": ["flywheel", "none", "--ripple", "2%"], "fmu": ["fmu", "none"], "forces": ["forces", "none"],
     "hinge": ["hinge", "none"], "new": ["new", "mechanism", "press"], "optimise": ["optimise", "none"],
-    "page": ["page", "none"], "reproduce": ["reproduce"], "report": ["report", "none"],
+    "page": ["page", "none"], "prove": ["prove", "none.toml"], "reproduce": ["reproduce"], "report": ["report", "none"],
     "simulate": ["simulate", "none"], "size": ["size", "none"],
     "identify": ["identify", "none", "--trace", "none.csv", "--free", "I1"],
     "study": ["study", "none"], "sweep": ["sweep", "none", "--over", "m3=1..2:2"],
@@ -163,7 +163,7 @@ LONG = {
     "codesign": ["codesign", "zotov-89", "--speeds", "89", "--ripple", "5%"],
     "optimise": ["optimise", "nunes-hypocycloid"],
     "audit": ["audit", "--formula", "2*e*(1 - cos(theta))", "--against", "hypocycloid.x"],
-    "reproduce": ["reproduce", "prymak"],
+    "prove": ["prove", "chmielewski", "--t-end", "0.1 s"], "reproduce": ["reproduce", "prymak"],
 }  # fmt: skip
 SLOW = [pytest.param(name, marks=pytest.mark.slow) for name in LONG]
 
@@ -175,7 +175,7 @@ def test_the_summary_tells_the_files_of_its_run(monkeypatch, capsys, tmp_path, c
     numbers = json.loads((tmp_path / "summary.json").read_text())
     files_ = {p.relative_to(tmp_path).as_posix(): p for p in tmp_path.rglob("*") if p.is_file()}
     at = {name: hashlib.sha256(p.read_bytes()).hexdigest() for name, p in files_.items()}
-    store = {"sweep.db"}  # it grows from run to run
+    store = {"sweep.db", "proof.json"}  # they grow from run to run
     assert numbers["run"]["files"] == {n: d for n, d in at.items() if n != "summary.json" and Path(n).name not in store}
     assert len(at) > 1 and len(numbers["run"]["id"]) == 16 and "doubts" in numbers
 

@@ -32,6 +32,7 @@ LONG = {
     "optimise": (["optimise", "nunes-hypocycloid"], [], ["--set", "chamber.back_pressure=101325 Pa"]),
     "page": (["page", "zotov-89"], ["--out", "FILE.html"], ["--out", "FILE.html", "--set", "spring.p0=8 MPa"]),
     "report": (["report", "chmielewski"], ["--out", "FILE.html"], ["--out", "FILE.html", "--set", "c1=2"]),
+    "prove": (["prove", "chmielewski"], ["--t-end", "0.2 s"], ["--t-end", "0.1 s"]),
     "reproduce": (["reproduce"], ["prymak"], ["moroianu2017"]),
     "simulate": (["simulate", "chmielewski", "--set", "t_end=2"], ["--dampings", "1,2"], ["--set", "c1=2"]),
     "size": (["size", NUNES], [], ["--set", "bore=0.07"]),
@@ -83,7 +84,8 @@ def files_in(folder, differs):
             assert differs < numbers.keys()
             numbers["run"].pop("id")  # the digest of these numbers too
             data = {k: v for k, v in numbers.items() if k not in differs}
-        if not path.name.startswith("sweep") or path.suffix != ".db":  # points go on by design
+        stores = path.name.startswith("sweep") and path.suffix == ".db" or path.name == "proof.json"
+        if not stores:  # they go on by design
             found[path.relative_to(folder).as_posix()] = data
     return found
 
