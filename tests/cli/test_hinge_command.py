@@ -184,6 +184,7 @@ def test_report_opens_offline(written):
         "purl.org",
         "creativecommons.org",
         "matplotlib.org",
+        "github.com",  # the notice of the charts' licence
     }
     for word in ("approximately 2 times", "1.9 (5 to 9.5 MPa)", "almost constant", "Why they differ"):
         assert word in text
