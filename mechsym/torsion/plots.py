@@ -10,7 +10,7 @@ from mechsym.quantities.units import RadPerSecond
 from mechsym.simulate import Result
 from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import StartUp
-from mechsym.torsion.twist import pairs
+from mechsym.torsion.twist import pairs, section_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -91,7 +91,7 @@ def twist(result: Result, shafts: int) -> "Figure":
     figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
     ends_of = pairs(result, shafts)
     ends = {"free end": result.columns[f"{ends_of[0][0]}d"], "flywheel": result.columns[f"{ends_of[-1][1]}d"]}
-    twists = {f"{a} - {b}".replace("_", " "): result.columns[a] - result.columns[b] for a, b in ends_of}
+    twists = {section_words(k, len(ends_of)): result.columns[a] - result.columns[b] for k, (a, b) in enumerate(ends_of)}
     last = result.columns[ends_of[0][0]] >= result.columns[ends_of[0][0]][-1] - 4 * np.pi
     for row, (curves, si, label) in enumerate(((ends, "rad/s", "speed"), (twists, "rad", "twist"))):
         whole, zoomed = axes[2 * row : 2 * row + 2]
