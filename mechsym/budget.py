@@ -46,9 +46,7 @@ def require(what: str, seconds: Second, size: float, way_out: str) -> None:
     """Refuse work beyond the budget before it begins.
 
     what: the work with its size, for the message; seconds: forecast of its time on a processor; size: of its memory
-    [B].
-
-    Raises BadInput: with what it would take and how to allow it.
+    [B]. Raises BadInput: with what it would take and how to allow it.
     """
     chosen = allowed()
     if seconds <= chosen.seconds and size <= chosen.size:

@@ -144,10 +144,7 @@ def name_of(letter: sp.Basic) -> str:
 
 
 def names(letters: Sequence[sp.Basic]) -> list[str]:
-    """Names of letters, in order.
-
-    Raises BadInput: two letters would get one name.
-    """
+    """Names of letters, in order. Raises BadInput: two letters would get one name."""
     called = [name_of(s) for s in letters]
     for name in called:
         if called.count(name) > 1:
@@ -185,9 +182,8 @@ _BINARY: dict[str, Callable[[ca.SX, ca.SX], ca.SX]] = {
 def evaluate(expression: sp.Basic, letters: Mapping[sp.Basic, ca.SX]) -> ca.SX:
     """The expression on CasADi symbols.
 
-    letters: mapping of Basic to SX, a symbol for each free letter; filled up with the values of all parts.
-
-    Raises BadInput: a node without a counterpart, or a letter without a symbol.
+    letters: mapping of Basic to SX, a symbol for each free letter; filled up with the values of all parts. Raises
+    BadInput: a node without a counterpart, or a letter without a symbol.
     """
     known: dict[sp.Basic, ca.SX] = dict(letters)
     # innermost first, without recursion: equations of motion are deeper than Python's stack

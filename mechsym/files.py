@@ -52,9 +52,8 @@ def user_cache() -> Path:
 def make_folder(path: Path) -> Path:
     """Make a folder for results, before the work whose results it takes.
 
-    path: folder; its parents are made when they are missing.
-
-    Raises BadInput: it cannot be made, or nothing can be written into it.
+    path: folder; its parents are made when they are missing. Raises BadInput: it cannot be made, or nothing can be
+    written into it.
     """
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -172,7 +171,6 @@ def write_summary(folder: Path, numbers: Mapping[str, Any], command: str, read: 
     """Write `summary.json`: the numbers, and the files of this run in a folder by the digest of what is in them.
 
     What the run of the same command before left there, as its summary tells, goes when the files of this one appear.
-
     `run.id` is the digest of all of them: a folder whose files do not give it holds files of several runs. `run.beside`
     has the files that other commands left in the folder, `run.inputs` those that were `read` for it.
     """
@@ -238,10 +236,7 @@ def write_quantities(
 
 
 def write_netcdf(path: Path, data: "xarray.Dataset") -> Path:
-    """Write a data set of xarray as netCDF.
-
-    Raises MissingExtra: xarray or h5netcdf is not installed.
-    """
+    """Write a data set of xarray as netCDF. Raises MissingExtra: xarray or h5netcdf is not installed."""
     try:
         import h5netcdf  # type: ignore[import-untyped,unused-ignore]
         from xarray.backends import H5NetCDFStore

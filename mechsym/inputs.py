@@ -64,10 +64,9 @@ def read_bytes(path: Path | str) -> bytes:
 def read_text(path: Path | str, option: str = "", way_out: str = "", encoding: str = "utf-8") -> str:
     """Text of a file that the user names.
 
-    option: what the path was given for, set before it in the message; way_out: what to give in its place.
-
-    Raises BadInput: there is no such file, or no text in it. OSError: the system does not give it: no permission,
-    device broken.
+    option: what the path was given for, set before it in the message; way_out: what to give in its place. Raises
+    BadInput: there is no such file, or no text in it. OSError: the system does not give it: no permission, device
+    broken.
     """
     said, more = f"{option} {path}".strip(), f"; {way_out}" if way_out else ""
     try:

@@ -42,10 +42,8 @@ def _typed(words: Sequence[str]) -> Iterator[Path]:
 def refuse_foreign(path: Path) -> None:
     """Refuse to run a file that the user has neither written nor trusted.
 
-    path: a Python file, resolved.
-
-    Raises BadInput: a command runs, and the file is neither typed, nor below the working folder, nor in a folder that
-    is known.
+    path: a Python file, resolved. Raises BadInput: a command runs, and the file is neither typed, nor below the working
+    folder, nor in a folder that is known.
     """
     if not _commands:
         return

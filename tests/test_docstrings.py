@@ -1,7 +1,7 @@
 """Signatures say units, docstrings what signatures do not, never a repetition; and sizes stay readable.
 
 Every float or array that a public function takes or gives has its unit in its annotation, or in brackets where words
-must say more; every such field of a record has one too. What a letter is stands in one paragraph, `N: contact force;
+must say more; every such field of a record has one too. What a letter is stands after the words, `N: contact force;
 rho: radius of the path. Returns p: absolute.`, or in a section where it takes a page. An entry of a section without a
 unit or shape and of five words or fewer repeats its name and is refused.
 """
@@ -29,6 +29,7 @@ UNITS = {
 # a part of an annotation that carries a unit: `Metre`, `Metre[Array]`, `Annotated[float, "W/(m*K)"]`
 CARRIED = re.compile(rf"\b(?:{'|'.join(UNITS)})\b(?:\[\w+(?:\.\w+)?\])?|Annotated\[[^\[\]]+, ['\"][^'\"]+['\"]\]")
 ITEM = re.compile(r"(?:^|(?<=[.;] )|(?<=Returns ))((?:\*{0,2}\w+, )*\*{0,2}\w+): ")
+OTHER = re.compile(r"(?:^|(?<=[.;] ))(?:Sources?: |Valid: |Print: |Raises |>>> )")  # what follows is no letter
 NAMED = re.compile(r"Mapping|dict|Callable|Sequence\[tuple|Expr|Basic")  # the unit belongs to each name, or letter
 
 
@@ -93,21 +94,27 @@ def is_bare_number(kind):
     return bool(NUMBER.search(rest)) and not NAMED.search(rest)
 
 
+def names_of(item):
+    return [n.lstrip("*") for n in item[1].split(", ")]
+
+
+def is_returned(text, item):
+    return text[: item.start()].endswith("Returns ")
+
+
 def letters(node, doc):
-    """What the paragraph of letters says of each, as (names, text, whether it is returned), and the other words."""
+    """What is said of each letter, as (names, text, whether it is returned), and the words before."""
     told, rest = [], []
     for block in re.split(r"\n\s*\n", in_words(doc)):
-        text = " ".join(block.split())
-        if re.match(r"Source: |Raises |>>> ", text):
-            continue
-        starts = list(ITEM.finditer(text)) if ITEM.match(text.removeprefix("Returns ")) else []
-        names = [[n.lstrip("*") for n in m[1].split(", ")] for m in starts]
-        if not starts or not (text.startswith("Returns ") or set(names[0]) & set(arguments(node))):
-            rest.append(text)
-            continue
-        back = False
-        for match, own, end in zip(starts, names, [*(m.start() for m in starts[1:]), len(text)], strict=True):
-            back |= text[: match.start()].endswith("Returns ")
+        text = OTHER.split(" ".join(block.split()))[0]
+        starts = list(ITEM.finditer(text))
+        while starts and not (is_returned(text, starts[0]) or set(names_of(starts[0])) & set(arguments(node))):
+            del starts[0]  # a colon in the words before the letters
+        rest.append(text[: starts[0].start()] if starts else text)
+        names, back = [names_of(m) for m in starts], False
+        ends = [*(m.start() for m in starts), len(text)][1:]
+        for match, own, end in zip(starts, names, ends, strict=True):
+            back |= is_returned(text, match)
             told.append((own, text[match.end() : end], back))
     return told, " ".join(rest)
 

@@ -70,10 +70,7 @@ class Case:
         self.__dict__["sections"] = Sections(self.sections, self.read)
 
     def need(self, section: str) -> Any:
-        """The record of a section that the caller cannot do without.
-
-        Raises BadInput: the case has no such section.
-        """
+        """The record of a section that the caller cannot do without. Raises BadInput: the case has no such section."""
         if section not in self.sections:
             why = f"section [{section}] is missing; this command needs it; see 'mechsym check' and 'mechsym cases'"
             raise MissingSection(f"{self.file}: {why}")
@@ -98,9 +95,7 @@ def _built_in() -> tuple[str, ...]:
 def text(name: str) -> str:
     """The TOML text of a built-in case, or of a file.
 
-    name: name of a built-in case or a path.
-
-    Raises BadInput: neither a built-in name nor a readable file.
+    name: name of a built-in case or a path. Raises BadInput: neither a built-in name nor a readable file.
     """
     return _read(name)[1]
 
@@ -109,9 +104,7 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
     """Read a case and check every key, unit and range.
 
     name: name of a built-in case or a path to a TOML file. overrides: mapping, optional, values to replace, by dotted
-    key; a bare key works if it is unique.
-
-    Raises BadInput: names file, key, value and what is allowed.
+    key; a bare key works if it is unique. Raises BadInput: names file, key, value and what is allowed.
 
     >>> case = load("zotov-89", {"spring.p0": "8 MPa"})
     >>> case.mechanism, case.need("spring").p0
@@ -167,9 +160,7 @@ def locate(name: str, key: str, overrides: Mapping[str, object] | None = None, o
     """Where a key belongs in a case, and in which unit its value is.
 
     name: name of a built-in case or a path to a TOML file. key: dotted key; a bare key works if it is unique. option:
-    where the key was written, for messages.
-
-    Raises BadInput: unknown or ambiguous key.
+    where the key was written, for messages. Raises BadInput: unknown or ambiguous key.
 
     >>> found = locate("zotov-89", "p0")
     >>> found.section, found.field, found.unit

@@ -51,9 +51,7 @@ def check_file(name: str, trust: bool = False) -> Checked:
     """Check a case.
 
     name: name of a built-in case or a path to a TOML file; trust: whether a mechanism file that the case names may be
-    run to learn its letters.
-
-    Raises BadInput: there is no such file.
+    run to learn its letters. Raises BadInput: there is no such file.
     """
     text = cases.text(name)
     try:

@@ -21,9 +21,7 @@ def keys(section: str | None = None) -> list[Json]:
     """Rows for people and programs: one for each key of each section and variant.
 
     Returns rows: list of dict, keys `section`, `variant` (such as `law = coil`; empty), `key`, `kind`, `unit`, `above`,
-    `below`, `low`, `high`, `options`, `default`, `required`, `about`, `commands`.
-
-    Raises BadInput: no such section.
+    `below`, `low`, `high`, `options`, `default`, `required`, `about`, `commands`. Raises BadInput: no such section.
     """
     if section is not None and section not in schema.sections():
         raise BadInput(f"section {section!r} is not known; {suggest(section, schema.sections())}")

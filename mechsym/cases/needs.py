@@ -29,9 +29,7 @@ _SPARK = "[cycle] kind = 'spark-ignition'"
 def require(case: Any, command: str, given: str = "") -> None:
     """Refuse a case that lacks what a command needs.
 
-    given: what an option of the command gives in place of the case.
-
-    Raises MissingSection: names all that is missing.
+    given: what an option of the command gives in place of the case. Raises MissingSection: names all that is missing.
     """
     facts = facts_of(case.mechanism, case.sections)
     missing = COMMANDS[command].lacks(facts)

@@ -96,10 +96,7 @@ def _throw_inertia(bore: float, stroke: float) -> float:
 
 
 def in_line(count: int, turns: int) -> CylinderLayout:
-    """Cylinders in line, evenly fired, one throw each.
-
-    turns: 1 for two-stroke, 2 for four-stroke.
-    """
+    """Cylinders in line, evenly fired, one throw each. turns: 1 for two-stroke, 2 for four-stroke."""
     order = _ORDERS.get(count, (*range(1, count + 1, 2), *range(count - count % 2, 0, -2)))
     firing, bank = firing_angles(order, turns * 2 * math.pi), (0.0,) * count
     return CylinderLayout(

@@ -25,10 +25,7 @@ def count_turns(case: Case, turns: float) -> None:
 
 
 def count_times(case: Case, t_end: Second, output_step: Second) -> None:
-    """Refuse results closer than fit.
-
-    t_end, output_step: length of the run and spacing of its results.
-    """
+    """Refuse results closer than fit. t_end, output_step: length of the run and spacing of its results."""
     way_out = f"give at least {t_end / MOST:.3g} s, or a shorter t_end"
     _count(case, "output_step", t_end / output_step, way_out)
 

@@ -29,10 +29,7 @@ _Told = tuple[str, str, float]  # kind, what it is, value
 
 
 def by_size(sections: Records, sizes: Proportions, bore: Metre | None) -> tuple[Doubt, ...]:
-    """What is out of proportion to the machine.
-
-    bore: of the piston; None where it is not known.
-    """
+    """What is out of proportion to the machine. bore: of the piston; None where it is not known."""
     told = [*_inertias(sections, sizes), *_by_part(sections, sizes), *_fitted(sections)]
     measures = {"stroke": sizes.stroke}
     if "cycle" in sections:  # what a press moves is as heavy as its flywheel carries

@@ -113,18 +113,12 @@ LETTERS = {"parameters": "parameters_class", "inputs": "inputs_class", "start": 
 
 
 def sections() -> list[str]:
-    """Names of all sections.
-
-    Returns names: in the order of a case file.
-    """
+    """Names of all sections. Returns names: in the order of a case file."""
     return [*LETTERS, *ENTRIES]
 
 
 def selector(section: str) -> str | None:
-    """The key that chooses a section's variant.
-
-    Returns key: None when the section has one record only.
-    """
+    """The key that chooses a section's variant. Returns key: None when the section has one record only."""
     entry = ENTRIES.get(section)
     return entry[0] if isinstance(entry, tuple) else None
 

@@ -92,10 +92,7 @@ class LazyGroup(click.Group):
                 formatter.write_dl([(name, one.get_short_help_str(100)) for name, one in commands if one])
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """The command of that name.
-
-        Returns command: None when there is no such command.
-        """
+        """The command of that name. Returns command: None when there is no such command."""
         if cmd_name not in COMMANDS:
             return None
         command: click.Command = load(COMMANDS[cmd_name])

@@ -155,7 +155,6 @@ def judge_ends(case: Case, key: str, values: Sequence[float]) -> None:
     """Put the doubts of a case at the smallest and largest of some values into what the command prints.
 
     key: `section.field`; a case without that section is not judged. values: what the command computes it for [SI].
-
     Raises BadInput: a value that no such engine has.
     """
     section, _, field = key.partition(".")

@@ -25,10 +25,7 @@ _COAST = 60.0  # most turns of a stop
 
 
 def rows(found: CoDesign, k: int, scavenged: Point | None = None) -> list[Scenario]:
-    """Scenarios of a point.
-
-    scavenged: the same point with a tenth less scavenge pressure and the load as it was.
-    """
+    """Scenarios of a point. scavenged: the same point with a tenth less scavenge pressure and the load as it was."""
     machine = machine_at(found, k)
     made = [] if scavenged is None else [_scavenge_step(found, machine, scavenged, k)]
     made += [_leak(machine, k), _controlled(found, k)]

@@ -69,9 +69,8 @@ def roller_inertia(
     .. math:: I_h = c\,(\rho^2 + \rho'^2)\left(m_h + \frac{J_r}{r^2}\right)
 
     rho, drho: path of the roller centres and its derivative; mass: m_h of each roller; inertia: J_r of each roller
-    about its pin; radius: of a roller. Returns I_h: about the axis of the guide's shaft.
-
-    Spring and rollers turn with the shaft and press outwards on tracks around them; the rollers roll without slip.
+    about its pin; radius: of a roller. Returns I_h: about the axis of the guide's shaft. Spring and rollers turn with
+    the shaft and press outwards on tracks around them; the rollers roll without slip.
 
     >>> round(roller_inertia(0.7, 0.0, 100.0, 0.0, 0.1, 2), 6)
     98.0

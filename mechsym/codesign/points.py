@@ -103,10 +103,8 @@ def bare_flywheel(points: Sequence[Point], wanted: Pure) -> Inertia:
 
     .. math:: J + \overline{I} \approx \frac{1}{\delta} \max_k \frac{\mathrm{ptp}\,W_k}{\omega_k^2}
 
-    for weak ripple; here the motion is exact.
-
-    wanted: largest ripple, (max - min) / mean of the speed. Returns inertia: added to the engine's own; 0 where none is
-    needed.
+    for weak ripple; here the motion is exact. wanted: largest ripple, (max - min) / mean of the speed. Returns inertia:
+    added to the engine's own; 0 where none is needed.
     """
 
     def excess(flywheel: float) -> float:

@@ -61,10 +61,9 @@ def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
 
     .. math:: D_r = \min_{S, c} \max_k \mathrm{ptp}(W_k - c_k S) / \omega_k^2
 
-    Returns bound: D_r [kg*m^2], singular values [-], shapes, and how many springs pay.
-
-    Bilinear: IPOPT starts from the singular vectors; the freedom of mixing shapes is taken away by holding them at r
-    angles. Alternating linear programmes get stuck (20.66 for 17.21 in the built-in family from 75 to 142 rpm).
+    Returns bound: D_r [kg*m^2], singular values [-], shapes, and how many springs pay. Bilinear: IPOPT starts from the
+    singular vectors; the freedom of mixing shapes is taken away by holding them at r angles. Alternating linear
+    programmes get stuck (20.66 for 17.21 in the built-in family from 75 to 142 rpm).
     """
     samples = sample(points, round(_ANGLES * points[0].period / (2 * np.pi)))
     wanted = _wanted(samples)

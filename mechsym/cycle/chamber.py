@@ -163,10 +163,7 @@ def volume_and_slope(chamber: Chamber, phi: Value) -> tuple[Value, Value]:
 
 
 def moving_mass(motion: Motion) -> Kilogram[Scalar]:
-    """Mass that moves with one piston.
-
-    Returns mass: sum of the parameters named in `masses`.
-    """
+    """Mass that moves with one piston. Returns mass: sum of the parameters named in `masses`."""
     return sum(motion.parameters[name] for name in motion.masses)
 
 
@@ -176,7 +173,6 @@ def wall_area(chamber: Chamber, v: Volume[Scalar]) -> Area[Scalar]:
     .. math:: A_w = 2 A + 4 V/B
 
     v: volume of the chamber. Returns area: two crowns, or crown and flat head, and the liner between them.
-
     Source: Nunes (2017), eq. (2.40), for a cylinder closed by two flat ends.
     """
     return 2 * chamber.area + 4 * v / chamber.bore
@@ -191,7 +187,6 @@ def piston_force(
 
     phi: crank angle from top dead centre; p: absolute pressure in the chamber. Returns force: positive away from the
     head.
-
     Source: Nunes (2017), eqs. (2.62) to (2.64), whose acceleration is -x'' omega^2.
     """
     net = (p - chamber.back_pressure) * chamber.area

@@ -68,10 +68,7 @@ def crossovers(speed: Pure[Array], a: Pure[Array], b: Pure[Array]) -> Pure[Array
 
 
 def compare(a: Json, b: Json, cases: tuple[str, ...] = ()) -> EngineComparison:
-    """Two engines at the same speeds.
-
-    a, b: `cycle.columns` of each engine; equal `speed_rpm`.
-    """
+    """Two engines at the same speeds. a, b: `cycle.columns` of each engine; equal `speed_rpm`."""
     speed = np.asarray(a["speed_rpm"])
     flat_a, flat_b = _flat(a), _flat(b)
     crossing = crossovers(speed, flat_a["torque_avg"], flat_b["torque_avg"])

@@ -18,9 +18,8 @@ def chamber_over(kinematics: ca.Function, bore: Metre, compression_ratio: Pure, 
 
     kinematics: one input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]. bore: diameter of the
     piston. compression_ratio: largest volume by smallest volume. back_pressure: absolute pressure on the other side of
-    the piston. Returns chamber: its stroke is x at bottom dead centre.
-
-    Valid: top dead centre at 0, one bottom dead centre in a turn.
+    the piston. Returns chamber: its stroke is x at bottom dead centre. Valid: top dead centre at 0, one bottom dead
+    centre in a turn.
     """
     motion = motion_over(kinematics)
     stroke, area = travel(motion, motion.bottom)[0], piston_area(bore)

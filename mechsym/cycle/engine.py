@@ -44,9 +44,8 @@ def over_design(engine: ClosedEngine, design: Mapping[str, np.ndarray], progress
     """Figures over any of the engine's values, by the method that the cycle names.
 
     design: mapping of str to ndarray, shape (n,), operating points, see `model.design_names`; must hold `omega`
-    [rad/s]. progress: called with the number of points done after each block of them.
-
-    Raises BadInput: the printed method knows no other variable than the speed.
+    [rad/s]. progress: called with the number of points done after each block of them. Raises BadInput: the printed
+    method knows no other variable than the speed.
     """
     printed = engine.cycle.method == "nunes2017_printed"
     if printed and set(design) != {"omega"}:

@@ -51,9 +51,8 @@ def friction_pressure(
         \text{Chen-Flynn:}\quad & f = A + B\,p_{max} + C\,\bar S_p + D\,\bar S_p^2 \\
         \text{Heywood:}\quad & f = 0.97 + 0.15\,n + 0.05\,n^2 \;\text{bar}, \; n \text{ in 1000 rpm}
 
-    p_max: peak pressure.
-
-    Sources: Chen and Flynn (1965), SAE 650733, with coefficients of usual size; Heywood (1988), eq. (13.6).
+    p_max: peak pressure. Sources: Chen and Flynn (1965), SAE 650733, with coefficients of usual size; Heywood (1988),
+    eq. (13.6).
     """
     match law:
         case NoFriction():

@@ -79,10 +79,8 @@ def heat_flux(law: Law, state: GasAtWall) -> Annotated[Scalar, "W/m^2"]:
             w = C_1 \bar S_p + C_2 \frac{V_d T_r}{p_r V_r}(p - p_0) \\
         \text{Hohenberg:}\quad & q = C_1 V^{-0.06} p_{bar}^{0.8} T^{-0.4} (\bar S_p + C_2)^{0.8} (T - T_w)
 
-    Returns flux: positive from the gas to the walls.
-
-    Sources: Annand (1963) as printed in Nunes (2017), eqs. (2.30) to (2.37); Woschni (1967) after Heywood (1988),
-    eqs. (12.19) and (12.20); Hohenberg (1979).
+    Returns flux: positive from the gas to the walls. Sources: Annand (1963) as printed in Nunes (2017), eqs. (2.30) to
+    (2.37); Woschni (1967) after Heywood (1988), eqs. (12.19) and (12.20); Hohenberg (1979).
     """
     match law:
         case Annand():

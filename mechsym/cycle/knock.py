@@ -27,7 +27,6 @@ def ignition_delay(p: Pascal[Scalar], T: Kelvin[Scalar], octane: Pure[Scalar]) -
               \left(\frac{p}{1\,\mathrm{atm}}\right)^{-1.7} \exp\frac{3800\,\mathrm{K}}{T}
 
     p: absolute pressure; T: temperature of the end gas; octane: octane number of the fuel. Returns tau: delay.
-
     Source: A. M. Douaud, P. Eyzat, SAE 780080 (1978), as printed in J. B. Heywood, Internal Combustion Engine
     Fundamentals (1988), eq. (9.27). Valid: octane number 80 to 100, stoichiometric, engine conditions; fitted on few
     engines, so a limit of 1 is good for comparing designs and not for guaranteeing one.
@@ -48,7 +47,6 @@ def end_gas_temperature(
 
     p, p_0: absolute pressure, and that when combustion starts; T_0: temperature when combustion starts; kappa: gas
     constant by heat capacity at constant pressure.
-
     Source: isentropic ideal gas. Valid: no heat to the walls, kappa taken where combustion starts.
 
     >>> round(float(end_gas_temperature(40e5, 20e5, 700.0, 0.25)), 1)

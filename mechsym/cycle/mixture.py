@@ -66,9 +66,8 @@ def properties(gas: ConstantGamma | NasaMixture, t: Kelvin[Scalar], burnt: Pure[
     .. math:: u = c_v T \;\text{(constant)}, \qquad
         u = (1 - X)\,u_{air}(T) + X\,u_{products}(T), \; R = (1 - X) R_{air} + X R_{products} \;\text{(NASA)}
 
-    burnt: burnt mass fraction X, 0 to 1. Returns properties: u [J/kg], c_v [J/(kg*K)], du/dX [J/kg], R [J/(kg*K)].
-
-    Fuel vapour is counted as air and products do not dissociate. NASA fits hold from 300 to 5000 K [K].
+    burnt: burnt mass fraction X, 0 to 1. Returns properties: u [J/kg], c_v [J/(kg*K)], du/dX [J/kg], R [J/(kg*K)]. Fuel
+    vapour is counted as air and products do not dissociate. NASA fits hold from 300 to 5000 K [K].
     """
     match gas:
         case ConstantGamma():
@@ -87,18 +86,12 @@ def properties(gas: ConstantGamma | NasaMixture, t: Kelvin[Scalar], burnt: Pure[
 
 
 def viscosity(t: Kelvin[Scalar]) -> Viscosity[Scalar]:
-    """Dynamic viscosity of air.
-
-    Source: Blair (1999) as printed in Nunes (2017), eq. (2.34).
-    """
+    """Dynamic viscosity of air. Source: Blair (1999) as printed in Nunes (2017), eq. (2.34)."""
     return 7.457e-6 + 4.1547e-8 * t - 7.4793e-12 * t**2
 
 
 def conductivity(t: Kelvin[Scalar]) -> Annotated[Scalar, "W/(m*K)"]:
-    """Thermal conductivity of air.
-
-    Source: Blair (1999) as printed in Nunes (2017), eq. (2.36).
-    """
+    """Thermal conductivity of air. Source: Blair (1999) as printed in Nunes (2017), eq. (2.36)."""
     return 6.1944e-3 + 7.3814e-5 * t - 1.2491e-8 * t**2
 
 

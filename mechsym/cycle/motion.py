@@ -56,10 +56,7 @@ def piston_motion(
 
 
 def pistons_of(name: str) -> tuple[PistonRole, ...]:
-    """What the declaration of a mechanism says of its pistons.
-
-    Raises BadInput: it has none.
-    """
+    """What the declaration of a mechanism says of its pistons. Raises BadInput: it has none."""
     found = mechanisms.roles_of(name).pistons
     if not found:
         raise BadInput(
@@ -74,10 +71,7 @@ def one_coordinate(mechanism: Mechanism, guesses: Mapping[str, float] | None = N
 
 
 def top_of(travel: ca.Function) -> Radian:
-    """Angle of top dead centre.
-
-    travel: angle [rad] to travel [m] and its slope [m/rad]. Returns phi: in [0, 2 pi).
-    """
+    """Angle of top dead centre. travel: angle [rad] to travel [m] and its slope [m/rad]. Returns phi: in [0, 2 pi)."""
     return dead_centre(travel, 1.0)
 
 

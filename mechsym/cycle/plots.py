@@ -33,10 +33,7 @@ _LOOKS = (("-", BLUE), ("--", RED), (":", GREEN))
 
 
 def cycle_picture(path: Path, curves: Mapping[str, np.ndarray]) -> Path:
-    """Pressure over volume and angle, and the torque of one piston.
-
-    curves: see `cycle.curves`, shape (k,).
-    """
+    """Pressure over volume and angle, and the torque of one piston. curves: see `cycle.curves`, shape (k,)."""
     figure, axes = panels(12, 3.6, 1, 3, "Pressure over volume and crank angle, and torque of one piston")
     phi, p, v, torque = np.radians(curves["phi_deg"]), curves["p_pa"], curves["v_m3"], curves["torque_nm"]
     (factor, unit), (room, room_unit) = axis_unit("Pa", p), axis_unit("m^3", v)
@@ -133,10 +130,7 @@ def _without_start(engines: Mapping[str, Json], key: str) -> tuple[float, float]
 
 
 def breathing_picture(path: Path, curves: Mapping[str, np.ndarray], breathing: Breathing) -> Path:
-    """Pressure over volume, and pressures and valve lifts over the angle.
-
-    curves: see `breathing.engine.curves`.
-    """
+    """Pressure over volume, and pressures and valve lifts over the angle. curves: see `breathing.engine.curves`."""
     figure, axes = panels(12, 3.9, 1, 3, "Both loops, pressures of the three volumes, and lift of the valves")
     phi, p, v = np.radians(curves["phi_deg"]), curves["p_pa"], curves["v_m3"]
     (factor, unit), (room, room_unit), (angle, angle_unit) = (

@@ -61,10 +61,7 @@ def periodic(function: Callable[[Scalar], Scalar], period: Radian, start: Radian
 
 
 def wrapped(angles: Radian[Scalar], period: Radian) -> Radian[Scalar]:
-    """Angles moved into [0, period).
-
-    angles: any real angles; period: 2 pi or 4 pi.
-    """
+    """Angles moved into [0, period). angles: any real angles; period: 2 pi or 4 pi."""
     inside = np.remainder(angles, period)
     # the remainder of a tiny negative number rounds up to the period itself
     return np.where(inside >= period, 0.0, inside)[()]

@@ -28,9 +28,7 @@ def wiebe(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]:
     .. math:: f = 1 - \exp(-a\,y^{m+1}), \quad y \ge 0
 
     y: (phi - start) / duration; values below 0 count as 0. a: completeness: f(1) = 1 - exp(-a). m: form factor, m >= 0.
-
-    Valid: m >= 0; for -1 < m < 0 the rate at y = 0 is infinite.
-    Source: Wiebe (1956); Shen et al. (2020).
+    Valid: m >= 0; for -1 < m < 0 the rate at y = 0 is infinite. Source: Wiebe (1956); Shen et al. (2020).
     """
     return -_expm1(-a * _from_start(y) ** (m + 1))
 
@@ -41,9 +39,7 @@ def dwiebe_dy(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]
     .. math:: \frac{df}{dy} = a (m+1)\, y^m \exp(-a\,y^{m+1}), \quad y \ge 0
 
     y: (phi - start) / duration; the rate is 0 below 0. a: completeness. m: form factor, m >= 0. Returns rate: df/dy;
-    divide by the duration for df/dphi.
-
-    For m = 0 the rate steps to a at y = 0, the value given there.
+    divide by the duration for df/dphi. For m = 0 the rate steps to a at y = 0, the value given there.
     """
     t = _from_start(y)
     return _where_burning(y, a * (m + 1) * t**m * _exp(-a * t ** (m + 1)))
@@ -58,7 +54,6 @@ def double_wiebe(
 
     y: (phi - start) / duration; values below 0 count as 0. a_p, m_p: completeness and form factor of the share 1 - b.
     a_d, m_d: completeness and form factor of the share b. b: share of the second function, 0 <= b <= 1.
-
     Source: Shen et al. (2020), J. Mar. Sci. Eng.; the letters p and d are theirs.
     """
     return (1 - b) * wiebe(y, a_p, m_p) + b * wiebe(y, a_d, m_d)

@@ -84,7 +84,6 @@ def rotation(eccentricity: Pure, width: Pure) -> tuple[Pure, Radian]:
 
     eccentricity: over the clearance; width: b = B/D. Returns both: So over eps, and the angle from the load to the
     narrowest gap.
-
     Source: H.-J. Butenschoen, thesis, Karlsruhe (1976); coefficients as in the multibody code MBDyn. Valid: full
     bearing, film that ends where its pressure and slope are 0. Against a solution of Reynolds' equation, eccentricity
     0.1 to 0.95: So within 6 % at B/D of 0.25, 0.5 and 1, 10 % at 0.75; the angle within 5 degrees.
@@ -115,9 +114,8 @@ def squeeze(eccentricity: Pure, width: Pure) -> Pure:
               \frac{a_8 (1 - \varepsilon)}{-a_9 - \varepsilon}, \qquad
               So_v = \frac{F \psi^2}{B D \eta\, \dot\varepsilon}
 
-    eccentricity: over the clearance, negative where it shrinks; width: b = B/D.
-
-    Source and validity: as `rotation`; within 5 % at B/D of 0.25, 0.5 and 1, 19 % too large at 0.75.
+    eccentricity: over the clearance, negative where it shrinks; width: b = B/D. Source and validity: as `rotation`;
+    within 5 % at B/D of 0.25, 0.5 and 1, 19 % too large at 0.75.
 
     >>> round(squeeze(0.8, 0.5), 2)
     27.33

@@ -77,7 +77,6 @@ def ring_power(
 
     phi: angles from the piston's firing dead centre, evenly spaced over a period. Returns power: a mean rule is spread
     over the cycle like the speed of the piston.
-
     Source: Patton, Nitschke, Heywood, SAE 890836 (1989), n in rpm, B in mm; four-stroke, bore 70 to 110 mm.
     """
     if isinstance(law, NoRings):
@@ -94,9 +93,8 @@ def ring_power(
 def patton_pressure(law: Patton1989, gas: "Gas", omega: RadPerSecond) -> Pascal:
     """Mean pressure of ring friction after Patton, Nitschke and Heywood (1989).
 
-    Returns fmep: friction mean effective pressure of the rings.
-
-    A bore of 80 mm at 3000 rpm: ring tension alone costs 7.4 kPa.
+    Returns fmep: friction mean effective pressure of the rings. A bore of 80 mm at 3000 rpm: ring tension alone costs
+    7.4 kPa.
     """
     rpm, bore = omega * 30 / np.pi, gas.chamber.bore * 1e3
     mean_speed = gas.chamber.stroke * omega / np.pi
@@ -237,11 +235,9 @@ def mesh_power(
     .. math:: P = \mu\,|W_t|\,\omega_{rel}\,\pi m\,\epsilon / 4
 
     The flanks slide with omega_rel times the distance from the pitch point, on average a quarter of the length of
-    contact eps pi m cos(alpha_n); the normal force is W_t / cos(alpha_n).
-
-    tooth_force: tangential force; omega_rel: speed of one gear against the other.
-
-    Valid: pitch point in the middle of the path of contact, load spread evenly over the path.
+    contact eps pi m cos(alpha_n); the normal force is W_t / cos(alpha_n). tooth_force: tangential force; omega_rel:
+    speed of one gear against the other. Valid: pitch point in the middle of the path of contact, load spread evenly
+    over the path.
     """
     slide = np.pi * friction.module * friction.contact_ratio / 4
     return friction.mu_mesh * np.abs(tooth_force) * omega_rel * slide

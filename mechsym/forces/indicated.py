@@ -55,11 +55,9 @@ def shaft_lines(
 
     .. math:: M_0 = Q(0) - b, \qquad h = Q(A) - Q(0)
 
-    with generalised force Q and bias b of the derived equations at constant speed.
-
-    mechanism: reduced to the angle of its shaft, as `crank_drive` builds it; areas: by input the force that one pascal
-    gives it, with its sign; held: inputs that do not change [N] or [N*m].
-
+    with generalised force Q and bias b of the derived equations at constant speed. mechanism: reduced to the angle of
+    its shaft, as `crank_drive` builds it; areas: by input the force that one pascal gives it, with its sign; held:
+    inputs that do not change [N] or [N*m].
     Source: derived here, from the equations of the mechanism. Valid at constant speed.
 
     A crank of 1 m, massless but for its rotor, and a long rod: at 90 degrees each newton on the piston is one newton
@@ -93,13 +91,9 @@ def pressure_from_torque(
     .. math:: p = p_\mathrm{back} + \frac{M - M_0}{h}, \qquad \sigma_p = \frac{\sigma_M}{|h|}
 
     Told is what has a 95 % interval of a half width below the pressure that the largest gas torque shows at the largest
-    lever: :math:`1.96\,\sigma_p < \max|M - M_0| / \max|h|`. The gap about a dead centre grows with the noise.
-
-    idle, lever: M_0 and h, as `shaft_lines` gives them; p_back: absolute pressure on the other side of the piston.
-    Returns pressure: at every angle of the torque [Pa].
-
-    Raises BadInput: the noise is as large as the torque.
-
+    lever: :math:`1.96\,\sigma_p < \max|M - M_0| / \max|h|`. The gap about a dead centre grows with the noise. idle,
+    lever: M_0 and h, as `shaft_lines` gives them; p_back: absolute pressure on the other side of the piston. Returns
+    pressure: at every angle of the torque [Pa]. Raises BadInput: the noise is as large as the torque.
     Source: derived here. Valid for independent normal noise of the torque; friction in the torque counts as gas, an
     error of the angle or of the masses is not in the interval.
 
@@ -131,7 +125,6 @@ def work(measured: CrankTorque, pressure: IndicatedPressure, period: Radian) -> 
         \sigma_W = \sigma_M \sqrt{\sum_i w_i^2}
 
     period: 2 pi or 4 pi, over which the rows go.
-
     Source: trapezoidal rule over a period. Valid for rows that resolve the torque.
 
     >>> phi = np.arange(4) * np.pi / 2
@@ -151,7 +144,6 @@ def scatter(torque: NewtonMetre[Array]) -> NewtonMetre:
     .. math:: \sigma \approx 1.4826\,\mathrm{median}|\Delta^3 M| / \sqrt{20}
 
     torque: rows one after the other.
-
     Source: third differences of independent noise have 20 times its variance. Valid for steps that are even and small.
 
     >>> scatter(np.arange(9.0) ** 2)
@@ -161,9 +153,6 @@ def scatter(torque: NewtonMetre[Array]) -> NewtonMetre:
 
 
 def gaps(pressure: IndicatedPressure) -> list[tuple[Radian, Radian]]:
-    """Angles where nothing is told [rad].
-
-    Returns gaps: first and last row without a pressure, one pair a gap.
-    """
+    """Angles where nothing is told [rad]. Returns gaps: first and last row without a pressure, one pair a gap."""
     edges = np.flatnonzero(np.diff(np.concatenate([[True], pressure.told, [True]]).astype(int)))
     return [(float(pressure.phi[a]), float(pressure.phi[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True)]

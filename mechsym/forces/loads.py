@@ -68,18 +68,12 @@ def pin_torque(loads: Loads) -> NewtonMetre[Array]:
 
 
 def radial(pin: Pin) -> Newton[Array]:
-    """Force on a crank pin along its crank.
-
-    Returns force: positive outwards.
-    """
+    """Force on a crank pin along its crank. Returns force: positive outwards."""
     return pin.x * np.cos(pin.angle) + pin.y * np.sin(pin.angle)
 
 
 def tangential(pin: Pin) -> Newton[Array]:
-    """Force on a crank pin across its crank.
-
-    Returns force: positive in the sense of rotation.
-    """
+    """Force on a crank pin across its crank. Returns force: positive in the sense of rotation."""
     return pin.sense * (pin.y * np.cos(pin.angle) - pin.x * np.sin(pin.angle))
 
 

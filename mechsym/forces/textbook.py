@@ -68,7 +68,6 @@ def terskih(omega: RadPerSecond) -> Pure:
     .. math:: L_m / L = 0.2\,\frac{(0.001 n)^2 + 2}{(0.001 n)^2 + 1}, \quad n \text{ in rpm}
 
     Returns ratio: between 0.2 (fast) and 0.4 (slow).
-
     Source: Moroianu (2017), eq. (3). Empirical.
 
     >>> round(terskih(89 * math.pi / 30), 4)
@@ -105,7 +104,6 @@ def chain(turn: Turn, ratio: Pure) -> Chain:
         Z = B\cos(\alpha+\beta) + F_{ibm}, \; T = B\sin(\alpha+\beta), \; M = T R
 
     ratio: L_m / L: the rod's centre of mass from the crank pin, as part of its length.
-
     Source: Moroianu (2017), eqs. (2), (4), (6) to (13). The share on the crank pin, m_b (1 - L_m/L), is not printed.
     Valid: constant speed, no weight.
     """
@@ -139,10 +137,7 @@ def weight_shares(turn: Turn) -> dict[str, Pure]:
 
 
 def with_weight(turn: Turn, g: Annotated[float, "m/s^2"]) -> Turn:
-    """The same cycle under another gravity.
-
-    g: acceleration of free fall.
-    """
+    """The same cycle under another gravity. g: acceleration of free fall."""
     rod, parameters = rod_of(turn), turn.drive.parameters
     if rod is not None and rod.gravity is not None:
         parameters = dataclasses.replace(parameters, **{rod.gravity: g})

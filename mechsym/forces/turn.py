@@ -141,9 +141,7 @@ def crank_drive(
 
     parameters: of the mechanism of that name; a crank train stands on a rigid shaft. faces: record, optional, where gas
     acts, for a mechanism that has a choice. closing: closing rule, optional, what an overconstrained mechanism needs
-    besides.
-
-    Raises BadInput: more than one coordinate is free, or the closing rule is missing.
+    besides. Raises BadInput: more than one coordinate is free, or the closing rule is missing.
     """
     return drive_with(mechanisms.rigid(name, parameters), name, parameters, faces, closing)
 
@@ -169,9 +167,8 @@ def gas_faces(
 ) -> tuple[GasFace, ...]:
     """Where gas acts on a mechanism: on its pistons with their dead centres at 0, or on faces, as the case chooses.
 
-    letters: its parameters [SI]; faces: record, optional, section `[faces]`.
-
-    Raises BadInput: the case has to choose, and does not.
+    letters: its parameters [SI]; faces: record, optional, section `[faces]`. Raises BadInput: the case has to choose,
+    and does not.
     """
     if not roles.faces:
         return tuple(

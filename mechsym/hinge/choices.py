@@ -66,10 +66,7 @@ def closing_ratio(arrangement: str, period: Radian) -> Pure:
 
 
 def refuse_open_track(parameters: GuideParameters, period: Radian) -> None:
-    """Refuse a shaft ratio with which the track would not close.
-
-    period: period of the torque over the crank angle.
-    """
+    """Refuse a shaft ratio with which the track would not close. period: period of the torque over the crank angle."""
     multiple = _PERIODS_MULTIPLE_OF[parameters.arrangement]
     periods = 2 * math.pi / (period * parameters.shaft_ratio)
     if round(periods) < 1 or abs(periods - round(periods)) > 1e-9 or round(periods) % multiple:

@@ -47,10 +47,7 @@ class Contact:
 
 
 def at_angles(guide: Guide, parameters: RollerParameters, theta: Radian[Array]) -> Contact:
-    """The turn at given angles, for tables and plots.
-
-    theta: angles of the guide's shaft.
-    """
+    """The turn at given angles, for tables and plots. theta: angles of the guide's shaft."""
     rho = path(guide)
     values = [rho(theta), rho.derivative()(theta), rho.derivative(2)(theta)]
     return _contact(guide, parameters, np.asarray(theta, dtype=float), values)

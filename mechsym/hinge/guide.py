@@ -52,9 +52,7 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
     """Guide that makes a spring give a torque, as the spring says, see `Spring.path`.
 
     wanted: torque to give with its work: all of it, or the part that was chosen. Returns guide: the path, or status and
-    reason.
-
-    Raises BadInput: the track would not close after a turn of its shaft, or z_margin leaves no spring.
+    reason. Raises BadInput: the track would not close after a turn of its shaft, or z_margin leaves no spring.
 
     Valid: massless rollers and spring, no friction.
     """
@@ -82,9 +80,7 @@ def refit(guide: Guide, spring: Spring) -> Guide:
 def path(guide: Guide) -> "scipy.interpolate.PPoly":
     """The path of the roller centres.
 
-    Returns rho: over the angle of the guide's shaft [m].
-
-    Raises BadInput: there is no path; the message says why.
+    Returns rho: over the angle of the guide's shaft [m]. Raises BadInput: there is no path; the message says why.
     """
     if guide.rho is None:
         raise BadInput(f"there is no guide: {guide.reason}")
@@ -141,7 +137,6 @@ def crank_torque(guide: Guide, phi: Radian[Array]) -> NewtonMetre[Array]:
     .. math:: M_h^* = \text{shaft ratio}\; c\, F(z)\, \frac{d\rho}{d\theta}
 
     Returns torque: on the crank, positive driving.
-
     Source: Zotov et al. (2024), eqs. (12) to (14). For the gauge law it is proportional to p0, for the others not.
     """
     rho, ratio = path(guide), guide.parameters.shaft_ratio

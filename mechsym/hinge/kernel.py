@@ -75,7 +75,6 @@ def design_kernel(
     """Compile the limits of guides for one torque.
 
     free: fields that differ between designs: `spring.p0`, `guide.rho0`, `rollers.radius`, `limits.closing_share`, .
-
     Raises BadInput: a name is no number of these sections.
     """
     if spring.state:

@@ -73,9 +73,8 @@ def bearing_torque(
 
     N: contact force of each roller; rho, drho: path of the roller centres and its derivative; mu: friction of the
     bearing; bearing_radius: r_b, where it acts; radius: r of the roller. Returns torque: on the shaft.
-
-    Source: the roller rolls along the track while its pin turns with the shaft: by the path's length over r the one
-    way and by the shaft's angle the other way round, so their speeds add.
+    Source: the roller rolls along the track while its pin turns with the shaft: by the path's length over r the one way
+    and by the shaft's angle the other way round, so their speeds add.
 
     >>> round(float(bearing_torque(1e5, 0.7, 0.0, 0.0018, 0.05, 0.1, 2)), 6)
     144.0
@@ -90,7 +89,6 @@ def seal_torque(force: Newton[Scalar], drho: MetrePerRadian[Scalar], mu: Pure, c
 
     force: of the spring on each roller; drho: derivative of the path; mu: friction force by spring force. Returns
     torque: on the shaft.
-
     Source: definition of mu_s. A spring that closes and opens once in a turn loses 2 mu_s times its swing of energy.
 
     >>> seal_torque(1e5, -0.1, 0.01, 2)
@@ -113,7 +111,6 @@ def side_force(
 
     force: of the spring on each roller; rho, drho, d2rho: path of the roller centres; mass: m_h, moving with each
     roller. Returns S: signed.
-
     Source: tangential part of the track's force, less the Coriolis force of the mass. Valid: spring and rollers turn
     with the shaft, without the traction that the roller's own inertia asks for.
 
@@ -131,7 +128,6 @@ def guide_torque(side: Newton[Scalar], drho: MetrePerRadian[Scalar], mu: Pure, c
 
     side: side force S of each piston; drho: derivative of the path; mu: friction of the guide. Returns torque: on the
     shaft.
-
     Source: Coulomb friction.
 
     >>> guide_torque(1e4, -0.1, 0.05, 2)

@@ -65,10 +65,7 @@ def pressure(design: Design) -> "Figure":
 
 
 def torque(design: Design) -> "Figure":
-    """The hinge torque with its parts, and its work.
-
-    Returns figure: two panels over the crank angle.
-    """
+    """The hinge torque with its parts, and its work. Returns figure: two panels over the crank angle."""
     hinge = design.hinge
     name = "Torque of the hinge with its parts, and its work"
     figure, (upper, lower) = panels(9, 5.0, 2, 1, name, sharex=True, height_ratios=[2, 1])
@@ -153,10 +150,7 @@ def contact(turn: Contact) -> "Figure":
 
 
 def speeds(design: Design) -> "Figure":
-    """Crank speed of the trials side by side.
-
-    Returns figure: two panels: with hinge, and all.
-    """
+    """Crank speed of the trials side by side. Returns figure: two panels: with hinge, and all."""
     figure, (left, right) = panels(9, 4.2, 1, 2, "Crank speed of the runs over the turns")
     fitted = [t for t in design.trials if t.name not in ("without", "flywheel")]
     for axis, trials, words in ((left, fitted, "with the hinge"), (right, design.trials, "all, first two turns")):

@@ -52,9 +52,7 @@ class Retuning:
 def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
     """Spring setting with which a guide comes nearest to the hinge that another speed needs.
 
-    hinge: torque that the other speed needs.
-
-    Raises BadInput: unknown criterion.
+    hinge: torque that the other speed needs. Raises BadInput: unknown criterion.
     """
     parts, least = affine(guide, hinge), _least_setting(guide.spring)
     near = max(_least_squares_work(parts), least)

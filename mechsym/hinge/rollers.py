@@ -87,9 +87,7 @@ def parallel(
 
     rho, drho: path and its derivative. theta: angle of the guide's shaft. distance: d: roller radius for the profile,
     roller radius minus cutter radius for the centre of a cutter. Returns x, y: in the frame of the track, x along theta
-    = 0.
-
-    A change of rho by the roller radius is not this curve: it misses by the pressure angle.
+    = 0. A change of rho by the roller radius is not this curve: it misses by the pressure angle.
     """
     s = np.hypot(rho, drho)
     along, across = rho + distance * rho / s, -distance * drho / s
@@ -112,9 +110,7 @@ def reaction(force: Newton[Scalar], rho: Metre[Scalar], drho: MetrePerRadian[Sca
     .. math:: N = \frac{F}{\cos\alpha} = F\sqrt{1 + (\rho'/\rho)^2}
 
     force: spring force F; rho, drho: path and its derivative. Returns N: along the normal; both rollers of a pair carry
-    the same.
-
-    Virtual work: the tangential part N sin(alpha) at the radius rho is F drho/dtheta for each roller.
+    the same. Virtual work: the tangential part N sin(alpha) at the radius rho is F drho/dtheta for each roller.
     """
     return force * _root(1 + (drho / rho) ** 2)
 
@@ -152,7 +148,6 @@ def hertz_stress(N: Newton[Array], kappa: Annotated[Array, "1/m"], rollers: Roll
 
     kappa: curvature of the path. Returns p_H: pressure in the middle of the contact; infinite where the profile is
     undercut, 0 where nothing presses.
-
     Source: K. L. Johnson, Contact Mechanics (1985), section 4.2(c), load per unit width N / w. Valid: both bodies of
     one material, contact much narrower than r, no edge loading.
     """
@@ -174,10 +169,9 @@ def contact_force(
     .. math:: N = \left[F + m_h \omega^2 (\rho - \rho'')\right] \sqrt{1 + (\rho'/\rho)^2}
 
     force: spring force F on each roller; rho, drho, d2rho: path and its derivatives; mass: m_h, moving with the roller;
-    omega: speed of the guide's shaft. Returns N: along the normal of the track.
-
-    The torque of the track on the shaft is N sin(alpha) rho less the Coriolis force on the spring's guide; together
-    they are F rho' - omega^2 I_h'/2 for each roller. Without the traction that the roller's own inertia asks for.
+    omega: speed of the guide's shaft. Returns N: along the normal of the track. The torque of the track on the shaft is
+    N sin(alpha) rho less the Coriolis force on the spring's guide; together they are F rho' - omega^2 I_h'/2 for each
+    roller. Without the traction that the roller's own inertia asks for.
     """
     return reaction(force + mass * inertia_force(rho, d2rho, omega), rho, drho)
 
@@ -201,9 +195,8 @@ def loss_torque(
     .. math:: M_f = \frac{f N}{r}\,\sqrt{\rho^2 + \rho'^2}
 
     N: contact force. rho, drho: path and its derivative. rollers: friction by name; 0 for `none`. Returns M_f: against
-    the rotation.
-
-    A roller whose centre moves by ds turns by ds / r against the track and loses f N ds / r. f is 1e-6 m in the source.
+    the rotation. A roller whose centre moves by ds turns by ds / r against the track and loses f N ds / r. f is 1e-6 m
+    in the source.
     """
     if rollers.friction == "none":
         return np.zeros(N.shape)

@@ -39,26 +39,17 @@ class Affine:
 
 
 def setting_of(spring: Spring) -> float:
-    """The value that retuning changes.
-
-    Returns setting: p0 [Pa], or F0 of a coil [N].
-    """
+    """The value that retuning changes. Returns setting: p0 [Pa], or F0 of a coil [N]."""
     return float(getattr(spring, spring.setting[0]))
 
 
 def setting_text(spring: Spring, setting: float) -> str:
-    """A setting with its unit, for people, four digits.
-
-    setting: p0 [Pa], or F0 of a coil [N].
-    """
+    """A setting with its unit, for people, four digits. setting: p0 [Pa], or F0 of a coil [N]."""
     return quantity_text(setting, spring.setting[1], 4)
 
 
 def with_setting(spring: Spring, setting: float) -> Spring:
-    """The same spring with another setting.
-
-    setting: p0 [Pa], or F0 of a coil [N].
-    """
+    """The same spring with another setting. setting: p0 [Pa], or F0 of a coil [N]."""
     return dataclasses.replace(spring, **{spring.setting[0]: setting})
 
 
@@ -103,10 +94,7 @@ def _work(torque: np.ndarray, period: float) -> np.ndarray:
 
 
 def missing_work(parts: Affine, setting: float) -> Joule[Array]:
-    """Work that is wanted and missing.
-
-    setting: p0 [Pa], or F0 of a coil [N]. Returns work: from phi = 0.
-    """
+    """Work that is wanted and missing. setting: p0 [Pa], or F0 of a coil [N]. Returns work: from phi = 0."""
     return parts.work_wanted - parts.work_0 - setting * parts.work_1
 
 

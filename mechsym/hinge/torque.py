@@ -100,7 +100,6 @@ def torque(machine: Machine, tol: Pure = 1e-12) -> Hinge:
 
     machine: engine with gas, one coordinate, and its speed of operation; tol: error of the piecewise polynomials, as a
     share of the largest part. Returns hinge: torque, parts, work, existence and extremes.
-
     Source: Zotov et al. (2024), eqs. (4), (5) and (8), with the exact kinematics. Valid: rigid links, one degree of
     freedom, constant speed. The mean of M_h is not set to zero: it is what quadrature leaves, and it is checked.
     """

@@ -138,9 +138,8 @@ _ONLY = ("speed_rpm", "fractions", "loads")  # of every piston the same, or put 
 def unlike_pistons(case: Case, omega: RadPerSecond[Array], friction: Friction) -> Json:
     """Figures of an engine from a file whose pistons do not move alike.
 
-    Returns figures: as `mechsym.jobs.cycle`, with `pistons`: the figures of each by its name in the declaration.
-
-    Raises BadInput: Pistons that share a chamber, or gas that a turbocharger changes.
+    Returns figures: as `mechsym.jobs.cycle`, with `pistons`: the figures of each by its name in the declaration. Raises
+    BadInput: Pistons that share a chamber, or gas that a turbocharger changes.
     """
     if _sharing(case) != 1 or charged(case):
         raise BadInput(
@@ -237,9 +236,7 @@ def engine(case: Case) -> ClosedEngine:
     """The engine that a case describes.
 
     case: as for `engine_with`; `[friction_pressure]` defaults to no friction, its law `mechanism` is fitted to the
-    case's `[friction]`.
-
-    Raises BadInput: a section is missing, or the cycle is of another kind.
+    case's `[friction]`. Raises BadInput: a section is missing, or the cycle is of another kind.
     """
     return engine_with(case, _friction(case))
 

@@ -57,8 +57,7 @@ def forces(case: Case, comparison: bool = False) -> Forces:
     """Forces of a case over one cycle at constant speed.
 
     case: see `turn`; `[friction]`, `[rings]`, `[friction_pressure]`, `[shaking]` and `[comparison]` are read where they
-    stand. comparison:
-    whether the mechanisms are put side by side as well.
+    stand. comparison: whether the mechanisms are put side by side as well.
 
     >>> from mechsym import cases
     >>> found = forces(cases.load("zotov-89"))
@@ -99,10 +98,7 @@ def _whole(case: Case) -> Friction | None:
 
 
 def told(case: Case, found: Forces, law: Sequence[RadPerSecond] | None = None) -> ForceReport:
-    """The forces of a case in numbers.
-
-    law: speeds over which the friction is fitted as a law of the cycle.
-    """
+    """The forces of a case in numbers. law: speeds over which the friction is fitted as a law of the cycle."""
     numbers, shaking = summary(found, case.name, case.source), vibration(case, found.turn)
     if shaking is not None:
         numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *train.words(shaking)])

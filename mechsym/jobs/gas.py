@@ -122,9 +122,7 @@ def engine_with(case: Case, friction: Friction, number: int = 0) -> ClosedEngine
     """The engine that a case describes, with a friction law whose numbers are known.
 
     case: with a cycle whose closed period is integrated, and what that needs; number: place of its role in the
-    declaration, from 0.
-
-    Raises BadInput: a section is missing, or the cycle is of another kind.
+    declaration, from 0. Raises BadInput: a section is missing, or the cycle is of another kind.
     """
     if not kind_of(case.need("cycle")).closed:
         why = "[cycle] kind must be 'spark-ignition' for this command; 'mechsym check' tells which take the case"
@@ -267,10 +265,7 @@ def _room(case: Case, travel: ca.Function, area: float) -> Chamber:
 
 
 def mean_torque(case: Case, mechanism: Mechanism, acting: list[Piston]) -> NewtonMetre:
-    """Mean torque of the gas on the shaft.
-
-    Returns torque: over a period.
-    """
+    """Mean torque of the gas on the shaft. Returns torque: over a period."""
     return float(np.mean(gas_torque(case, mechanism, acting)(np.linspace(0, common_period(acting), 7201)[:-1])))
 
 

@@ -64,10 +64,7 @@ class Workshop:
 
 
 def workshop(case: Case, diagram: str | None = None) -> Workshop:
-    """The guide of a case for the workshop.
-
-    Raises BadInput: no guide can be cut, or a section is missing.
-    """
+    """The guide of a case for the workshop. Raises BadInput: no guide can be cut, or a section is missing."""
     require(case, "guide", NO_FILE if diagram else "")
     rollers, limits = case.need("rollers"), case.need("limits")
     engine, wanted, guide = guide_of(case, diagram)
@@ -115,10 +112,8 @@ def hinge(case: Case, diagram: str | None = None, loads: Sequence[Pure] = ()) ->
     case: with sections parameters, operation, cycle, spring, guide, rollers, limits; diagram: CSV file of a measured
     diagram in place of the case's cycle; loads: other loads to try the guide at, as shares of the case's mean indicated
     pressure. Returns design: guide and verdict, also when it cannot be built; runs, flywheels and sensitivities of what
-    could be cut.
-
-    Raises BadInput: a section is missing, a value is impossible, or the cycle has one load only and others are asked
-    for.
+    could be cut. Raises BadInput: a section is missing, a value is impossible, or the cycle has one load only and
+    others are asked for.
     """
     require(case, "hinge", NO_FILE if diagram else "")
     spring, choices, rollers, limits = (case.need(name) for name in ("spring", "guide", "rollers", "limits"))
@@ -138,9 +133,7 @@ def hinge(case: Case, diagram: str | None = None, loads: Sequence[Pure] = ()) ->
 def design_load(case: Case) -> Pascal:
     """The load that a case is designed for.
 
-    Returns mean_indicated_pressure: of its cycle.
-
-    Raises BadInput: the cycle has no mean indicated pressure to change.
+    Returns mean_indicated_pressure: of its cycle. Raises BadInput: the cycle has no mean indicated pressure to change.
     """
     cycle = case.need("cycle")
     if not kind_of(cycle).load:
@@ -152,9 +145,8 @@ def at_loads(case: Case, guide: Guide, loads: Sequence[Pascal]) -> list[AtLoad]:
     """Steady running of a guide at other loads, at the speed of operation.
 
     The guide stays as it was cut. At another load the gas torque has another shape, so the hinge misses it; a spring
-    set anew for that load takes part of the rest away.
-
-    guide: guide of the case's hinge, status `cut`; loads: mean indicated pressures to try.
+    set anew for that load takes part of the rest away. guide: guide of the case's hinge, status `cut`; loads: mean
+    indicated pressures to try.
     """
     return [_at_load(case, guide, load) for load in loads]
 

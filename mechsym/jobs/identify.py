@@ -32,9 +32,8 @@ def identify(case: Case, file: str, free: Sequence[str]) -> Identified:
     """Find parameters of a case in a measured run.
 
     case: with `[parameters]`, which give what is not looked for; `[drive]` and constants of `[inputs]` act where the
-    trace has no column for them. free: names among the parameters, and those of `FRICTION`.
-
-    Raises BadInput: unknown names, a push that was not measured, a trace that cannot be trusted or does not tell.
+    trace has no column for them. free: names among the parameters, and those of `FRICTION`. Raises BadInput: unknown
+    names, a push that was not measured, a trace that cannot be trusted or does not tell.
     """
     require(case, "identify")
     known = mechanisms.listing(case.mechanism)

@@ -110,9 +110,7 @@ def indicated(case: Case, file: str, noise: NewtonMetre) -> TorquePressure:
 
     case: with `[operation]` and `[cycle]`, which gives areas, back pressure and period; its own pressure plays no part.
     file: CSV as `[torque] file` takes it, of one speed and one load. noise: standard deviation of each torque in the
-    file.
-
-    Raises BadInput: the file is refused, cylinders fire one after the other, or the noise hides the gas.
+    file. Raises BadInput: the file is refused, cylinders fire one after the other, or the noise hides the gas.
     """
     table = read_torque(file)
     if len(table.curves) != 1:

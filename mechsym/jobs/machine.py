@@ -321,9 +321,7 @@ def turn(case: Case) -> Turn:
     """One cycle of a case.
 
     case: with `[operation]`; `[cycle]` gives the gas, `[torque]` a torque in its place, `[inputs]` what else acts;
-    `[faces]` and `[closing]` belong to an overconstrained mechanism.
-
-    Raises BadInput: a loop of the mechanism opens.
+    `[faces]` and `[closing]` belong to an overconstrained mechanism. Raises BadInput: a loop of the mechanism opens.
     """
     return _turn(at_recorded_speed(case))
 
@@ -376,9 +374,8 @@ def _require_closed(case: Case, found: Turn) -> None:
 def fitted_law(case: Case, omega: Sequence[RadPerSecond]) -> FittedLaw:
     """The friction of a case's joints and rings as a law of the cycle.
 
-    case: with `[cycle]` and `[friction]`, perhaps `[rings]`. omega: crank speeds; a single one gives a constant.
-
-    Raises BadInput: the case has no cycle.
+    case: with `[cycle]` and `[friction]`, perhaps `[rings]`. omega: crank speeds; a single one gives a constant. Raises
+    BadInput: the case has no cycle.
     """
     if "cycle" not in case.sections:
         raise BadInput(f"{case.file}: a friction mean pressure needs a [cycle]")

@@ -257,7 +257,6 @@ def measured_combustion(case: Case, files: Sequence[str] = (), motored: str | No
 
     case: with `[parameters]` and `[cycle]`; `[combustion]` holds the assumptions of the analysis. files: CSV files in
     place of the case's. motored: CSV file of a record without combustion on the same encoder, in place of the case's.
-
     Raises BadInput: the file is refused, or the diagram cannot be aligned.
     """
     diagrams = [with_diagram(case.need("cycle"), file, motored) for file in files or (None,)]
@@ -284,9 +283,8 @@ _TRIED = (("four-stroke", "checked"), ("four-stroke", "exhaust"), ("two-stroke",
 def case_of_trace(trace: Path, sizes: TraceSizes, folder: Path) -> tuple[str, tuple[Doubt, ...]]:
     """Text of the case of a measured pressure, and what is doubted of it when it is taken apart.
 
-    folder: where the case will stand.
-
-    Raises BadInput: no cycle and no scale makes a cylinder pressure of it; as the first of them says.
+    folder: where the case will stand. Raises BadInput: no cycle and no scale makes a cylinder pressure of it; as the
+    first of them says.
     """
     by_time, refused = not has_angles(trace), None
     for working, scale in _TRIED:

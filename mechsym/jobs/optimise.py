@@ -40,9 +40,8 @@ def programme(case: Case, section: Optimise, asked: Mapping[str, Json]) -> Figur
 
     case: with `[cycle]` of any kind that `mechsym cycle` computes. section: variables are dotted names of the case's
     numbers; of a list the number of the value comes behind it, from 1. asked: mapping of str to dict, limits of the
-    case besides; those on figures that this cycle has not are none.
-
-    Raises BadInput: a name is none, or a limit leaves no room.
+    case besides; those on figures that this cycle has not are none. Raises BadInput: a name is none, or a limit leaves
+    no room.
     """
     variables = tuple(_variable(case, name, spec) for name, spec in section.variables.items())
     names = [v.name for v in variables]

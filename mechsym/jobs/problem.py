@@ -87,10 +87,7 @@ class _Shaft:
 
 
 def problem_of(case: Case) -> Problem:
-    """The run that a case describes.
-
-    Raises BadInput: a section is missing or names what the mechanism has not.
-    """
+    """The run that a case describes. Raises BadInput: a section is missing or names what the mechanism has not."""
     return ready(case).problem
 
 

@@ -89,10 +89,7 @@ def _joints(case: Case) -> Sizing:
 
 
 def check_printed(case: Case) -> Sizing:
-    """Check the parts that a case prints, in its sections `[part_*]`.
-
-    Raises BadInput: the case prints no parts.
-    """
+    """Check the parts that a case prints, in its sections `[part_*]`. Raises BadInput: the case prints no parts."""
     if _given_drive(case):
         return _crosshead(case)
     one = task(case)

@@ -143,9 +143,6 @@ def period_of(machine: Machine) -> Radian:
 
 
 def kinks_of(machine: Machine) -> tuple[Radian, ...]:
-    """Angles at which what acts is not smooth.
-
-    Returns kinks: in [0, period).
-    """
+    """Angles at which what acts is not smooth. Returns kinks: in [0, period)."""
     own = machine.gas.pressure.kinks if machine.gas is not None and machine.gas_input else ()
     return tuple(sorted({*own, *machine.kinks}))

@@ -55,10 +55,7 @@ class TorqueTable:
 
 
 def read_torque(path: str) -> TorqueTable:
-    """Read a file of torque curves.
-
-    Raises BadInput: it cannot be read, lacks a column, or leaves a gap.
-    """
+    """Read a file of torque curves. Raises BadInput: it cannot be read, lacks a column, or leaves a gap."""
     return _parsed(path, text_of(path))
 
 
@@ -138,9 +135,7 @@ def torque_at(table: TorqueTable, omega: RadPerSecond, load: Pure, dinertia: Fun
     """The torque without inertia at a speed and a load.
 
     load: in the file's measure; dinertia: angle [rad] to the slope of the mechanism's inertia [kg*m^2/rad]. Returns
-    torque: angle [rad] to torque, positive driving [N*m].
-
-    Raises BadInput: Speed or load lie outside the file.
+    torque: angle [rad] to torque, positive driving [N*m]. Raises BadInput: Speed or load lie outside the file.
     """
     speeds = _shares(table, "speed", "rad/s", table.speeds, omega) if table.speeds else {0.0: 1.0}
     loads = _shares(table, "load", "", table.loads, load)

@@ -141,9 +141,8 @@ def clear() -> int:
 def load(source: str, mode: str) -> ctypes.CDLL:
     """Compile a source when needed and load it; compiler and cache may be others than the last time, or none.
 
-    Returns library: its `_name` is the path of the file.
-
-    Raises NoCompiler: what the compiler made cannot be loaded, and is not kept.
+    Returns library: its `_name` is the path of the file. Raises NoCompiler: what the compiler made cannot be loaded,
+    and is not kept.
     """
     return _loaded(source, mode, compiler.find(), directory())
 

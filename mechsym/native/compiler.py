@@ -114,9 +114,8 @@ def version(compiler: Compiler) -> str:
 def compile_file(compiler: Compiler, source: Path, target: Path, options: tuple[str, ...]) -> None:
     """Compile one C file into a shared object.
 
-    source, target: C file to read, shared object to write.
-
-    Raises NoCompiler: the compiler failed; the message has its first line of complaint.
+    source, target: C file to read, shared object to write. Raises NoCompiler: the compiler failed; the message has its
+    first line of complaint.
     """
     call([*compiler.command, *options, str(source), "-o", str(target), "-lm"], source.name, target)
 

@@ -52,19 +52,13 @@ NUMPY = {
 
 
 def unknown(tape: Tape, dialect: dict[str, str]) -> list[str]:
-    """Operators of a program that a dialect cannot write.
-
-    Returns operators: sorted; empty when all can be written.
-    """
+    """Operators of a program that a dialect cannot write. Returns operators: sorted; empty when all can be written."""
     known = {*dialect, "input", "constant", "sin", "cos"}
     return sorted({op for op, _ in tape.nodes} - known)
 
 
 def expression(dialect: dict[str, str], op: str, args: list[str], exponent: Pure | None = None) -> str:
-    """One operation as text.
-
-    exponent: value of a constant exponent, which may become products.
-    """
+    """One operation as text. exponent: value of a constant exponent, which may become products."""
     if op == "pow" and exponent in _PRODUCTS:
         return _PRODUCTS[exponent].format(args[0])
     if op == "pow" and exponent == 0.5:

@@ -34,7 +34,6 @@ def folder(rate: casadi.Function, method: Method, mode: str = "fast") -> Fold:
     .. math:: \frac{\mathrm{d}y}{\mathrm{d}s} = f(s, y, z)
 
     Returns fold: y at 0 (states, n), z (values, n), number of steps -> y at the ends of all steps (steps, states, n).
-
     Raises BadInput: the inputs are not s, y, z.
     """
     rates = program(rate, mode)

@@ -30,10 +30,7 @@ def sizes(program: Program) -> tuple[int, int]:
 
 
 def dop853(program: Program, lanes: int, followed: tuple[int, ...] = ()) -> str:
-    """A file that exports `ms_dop853`, see `c/run.h` for its argument.
-
-    followed: states that tables are read at.
-    """
+    """A file that exports `ms_dop853`, see `c/run.h` for its argument. followed: states that tables are read at."""
     n, _ = sizes(program)
     used = {args[0] for op, args in program.tape.nodes if op == "input"} | {1 + i for i in followed}
     # up to the last state that the rates read: works and losses, which nothing reads, stand behind it
@@ -85,10 +82,7 @@ def dop853_numbers() -> str:
 
 
 def gauss(program: Program, lanes: int, stages: int = 4) -> str:
-    """A file that exports `ms_gauss`, see `c/run.h` for its argument.
-
-    stages: order is twice the number of stages.
-    """
+    """A file that exports `ms_gauss`, see `c/run.h` for its argument. stages: order is twice the number of stages."""
     return "\n".join([system(program, lanes), _gauss_numbers(stages), header("gauss.h")])
 
 
@@ -99,7 +93,6 @@ def gauss_tableau(stages: int) -> tuple[Pure[Array], Pure[Array], Pure[Array], P
 
     Returns a, b, c, ahead: coefficients (s, s), weights (s,), nodes (s,), and the values e (s, s) that continue a
     step's polynomial.
-
     Source: E. Hairer, Ch. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed., Springer 2006, section II.1.3.
     """
     roots, weights = legendre.leggauss(stages)

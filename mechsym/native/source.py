@@ -56,10 +56,7 @@ def stored_program(stored: _Stored, mode: str) -> Program:
 
 
 def prepared(function: casadi.Function, mode: str) -> Tape:
-    """The tape of a function in the form that a mode compiles.
-
-    function: function of scalars or small vectors.
-    """
+    """The tape of a function in the form that a mode compiles. function: function of scalars or small vectors."""
     tape = read(function)
     return factored(cheaper(tape)) if mode == "fast" else marked(tape)
 

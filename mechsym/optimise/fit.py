@@ -50,10 +50,7 @@ class Intervals(NamedTuple):
 
 
 def grid(t: Second[Array], breaks: tuple[Second, ...], longest: Second) -> Intervals:
-    """Intervals over samples.
-
-    breaks: times at which the equations change; longest: length of an interval at most.
-    """
+    """Intervals over samples. breaks: times at which the equations change; longest: length of an interval at most."""
     inside = sorted({float(t[0]), float(t[-1]), *(b for b in breaks if t[0] < b < t[-1])})
     parts = [
         np.linspace(a, b, max(2, int(np.ceil((b - a) / longest)) + 1)) for a, b in zip(inside, inside[1:], strict=False)

@@ -31,9 +31,8 @@ _SLIPS = {
 def require_plausible(model: TracedMotion, trace: Trace, angles: list[float], longest: Second) -> None:
     """Refuse a trace that the machine cannot have made: too few samples for its motion, energy from nowhere.
 
-    angles: how far beyond its pose the machine may have started [rad]; longest: interval of the collocation.
-
-    Raises BadInput: with the slip of the unit that would explain it.
+    angles: how far beyond its pose the machine may have started [rad]; longest: interval of the collocation. Raises
+    BadInput: with the slip of the unit that would explain it.
     """
     period = 4 * math.pi * longest
     step = float(np.median(np.diff(trace.t)))

@@ -41,7 +41,6 @@ def ipopt(solver: ca.Function, given: Mapping[str, Any], nearly: bool = False) -
     """Call IPOPT.
 
     given: start, bounds and parameters, as CasADi calls them. nearly: whether its acceptable level is good enough.
-
     Raises BadInput: it cannot begin: what CasADi has thrown.
     """
     try:

@@ -39,10 +39,8 @@ def read_trace(path: str | Path, velocities: Mapping[str, str], inputs: Mapping[
     """Read a trace and refuse what cannot be trusted.
 
     path: CSV file, columns divided by commas; velocities, inputs: units of the mechanism's velocities and inputs by
-    their names.
-
-    Raises BadInput: no such file, no column of time or speed, no number, times that do not grow, too few samples, a
-    gap.
+    their names. Raises BadInput: no such file, no column of time or speed, no number, times that do not grow, too few
+    samples, a gap.
     """
     header, rows = _table(str(path))
     first, usual = next(iter(velocities.items()))

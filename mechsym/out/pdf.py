@@ -13,10 +13,7 @@ _LONGEST = 120  # that printing may take [s]
 
 
 def chromium() -> str:
-    """Path of a Chromium.
-
-    Raises BadInput: None is installed.
-    """
+    """Path of a Chromium. Raises BadInput: None is installed."""
     found = next((path for path in map(shutil.which, NAMES) if path), None)
     if found is None:
         raise BadInput(
@@ -27,10 +24,7 @@ def chromium() -> str:
 
 
 def to_pdf(text: str, path: Path) -> Path:
-    """Print a page of HTML.
-
-    Raises BadInput: there is no Chromium, or it does not print.
-    """
+    """Print a page of HTML. Raises BadInput: there is no Chromium, or it does not print."""
     program = chromium()
     with tempfile.TemporaryDirectory() as folder:
         page, printed = Path(folder) / "report.html", Path(folder) / "report.pdf"

@@ -120,10 +120,7 @@ def _sampled(
 
 
 def even_angles(period: Radian, count: int = 4096) -> Radian[Array]:
-    """Even crank angles over a period, without its end.
-
-    Returns phi: angles, shape (count,).
-    """
+    """Even crank angles over a period, without its end. Returns phi: angles, shape (count,)."""
     return np.arange(count) * period / count
 
 
@@ -134,10 +131,8 @@ def fit(
 
     function: vectorised: angles of shape (n,) [rad] to values of shape (n,), or (parts, n) for several functions at
     once. breaks: angles where the function is not smooth, any real numbers. tol: largest error, as a share of the
-    largest value of all parts. Returns poly: breaks from 0 to `period`; values of shape (n,), or (n, parts).
-
-    Raises BadInput: the function is not finite, jumps at an angle that is not among the breaks, or is noisy beyond
-    1e-9.
+    largest value of all parts. Returns poly: breaks from 0 to `period`; values of shape (n,), or (n, parts). Raises
+    BadInput: the function is not finite, jumps at an angle that is not among the breaks, or is noisy beyond 1e-9.
 
     Degree 9 through Chebyshev nodes; none lies on a break, so a jump at a break does no harm. The error is measured at
     other points than the nodes. Where the function is rounded more coarsely than `tol`, halving stops at its noise.
@@ -170,9 +165,8 @@ def scalar(poly: "scipy.interpolate.PPoly") -> Callable[[float], tuple[float, fl
     """Fast evaluation for one float at a time: the value and its derivative.
 
     poly: periodic piecewise polynomial with values of shape (n,). Returns function: phi, any real number [rad] ->
-    (value, derivative).
-
-    Bisection and Horner's rule in plain Python, about 1 microsecond; scipy needs about 15 for a single number.
+    (value, derivative). Bisection and Horner's rule in plain Python, about 1 microsecond; scipy needs about 15 for a
+    single number.
     """
     start, period = float(poly.x[0]), float(poly.x[-1] - poly.x[0])
     lefts, inner = poly.x[:-1].tolist(), poly.x[1:-1].tolist()

@@ -48,9 +48,7 @@ def inputs(values: Mapping[str, float], refusing: bool = True) -> tuple[Doubt, .
     """Values of a case against hard and usual ranges.
 
     values: by dotted key, `section.field` [SI]. refusing: whether nonsense is refused; else it is doubted, as what
-    follows from values is.
-
-    Raises BadInput: a value that no engine has, with what is possible.
+    follows from values is. Raises BadInput: a value that no engine has, with what is possible.
 
     >>> [d.code for d in inputs({"cycle.compression_ratio": 60.0, "cycle.bore": 0.08})]
     ['compression_ratio']
@@ -75,9 +73,7 @@ def proportion(code: str, quantity: str, value: float, high: float | None = None
     """A number that several values make together, against the range of its kind.
 
     quantity: what it is, with the values that make it, for messages; value: in the unit of its kind [unit]; high: upper
-    end of the usual range, where it depends on the machine's size [unit].
-
-    Raises BadInput: a value that no engine has.
+    end of the usual range, where it depends on the machine's size [unit]. Raises BadInput: a value that no engine has.
 
     >>> [d.usual for d in proportion("spring_area", "spring area / piston area", 4.0)]
     ['at least 0.01 and at most 3']
@@ -187,9 +183,7 @@ def proportions(
     stroke: travel of the piston between its dead centres; None where it is not known. ratio: rod length over crank
     radius; None without a rod. omega: speed of operation. fired: whether fuel burns in it; compressors and Stirling
     engines are slower. Returns doubts: `piston_speed`, `process_speed`, `slow_piston`, `rod_ratio` outside 1.8 to 8.
-
     Raises BadInput: a mean piston speed above 100 m/s.
-
     Source: Heywood (1988), Internal combustion engine fundamentals, sections 2.2 and 2.6.
 
     >>> [f"{d.code} {d.value:.0f} m/s" for d in proportions(0.1, 3.5, 1100.0)]
@@ -211,12 +205,9 @@ def piston_speed(what: str, stroke: float, omega: float, fired: bool = True) -> 
 
     .. math:: c_m = S \omega / \pi \le 33\,\mathrm{m/s}\,\sqrt{0.1\,\mathrm{m}/S}, \text{ at least } 12.5
 
-    stroke, omega: travel of the piston and speed [m, rad/s].
-
-    Raises BadInput: more than 100 m/s.
-
-    Source: data sheets: Formula 1, stroke 40 mm, 26 m/s; drag racers, 114 mm, 30.5; aircraft, 165 mm, 18;
-    medium-speed diesels, 0.6 m, 10.3; slow ones, 3.5 m, 9.2 m/s.
+    stroke, omega: travel of the piston and speed [m, rad/s]. Raises BadInput: more than 100 m/s.
+    Source: data sheets: Formula 1, stroke 40 mm, 26 m/s; drag racers, 114 mm, 30.5; aircraft, 165 mm, 18; medium-speed
+    diesels, 0.6 m, 10.3; slow ones, 3.5 m, 9.2 m/s.
 
     >>> [d.usual for d in piston_speed("speed", 0.4, 135.0)]
     ['at most 16.5 m/s']
@@ -232,10 +223,7 @@ def moving_mass(what: str, mass: float, area: float, bore: Metre, stroke: Metre)
 
     .. math:: \rho = m / (A B), \text{ at most 6000, of a long stroke with its crosshead 50,000 kg/m}^3
 
-    mass, area: mass, and area of the pistons that drive it [kg, m^2].
-
-    Raises BadInput: a mass that no piston has.
-
+    mass, area: mass, and area of the pistons that drive it [kg, m^2]. Raises BadInput: a mass that no piston has.
     Source: masses of engines in Heywood (1988), chapter 2, and of slow marine engines with crosshead.
 
     >>> [f"{d.code} {d.value:.0f}" for d in moving_mass("parameters.m5", 2.5, 2.83e-3, 0.06, 0.052)]

@@ -73,9 +73,8 @@ def without_unit(name: str, unit: str) -> str:
 def choose(text: str | None) -> None:
     """Show numbers in these units from now on; None or an empty text goes back to the usual ones.
 
-    text: units divided by commas, each for its kind: `mm, MPa, kN, kN*m, deg, rpm, kW`.
-
-    Raises BadInput: unknown unit, or two of one kind.
+    text: units divided by commas, each for its kind: `mm, MPa, kN, kN*m, deg, rpm, kW`. Raises BadInput: unknown unit,
+    or two of one kind.
     """
     found: dict[tuple[int, ...], str] = {}
     for unit in filter(None, (part.strip() for part in (text or "").split(","))):
@@ -115,10 +114,7 @@ def unit_for(unit: str, size: float = 1.0, asked: bool = False) -> str:
 
 
 def shown_in(values: Scalar, unit: str, asked: bool = False) -> tuple[Scalar, str]:
-    """Values and their unit as they are shown.
-
-    values: in SI [unit]. Returns values, unit: in that unit [unit].
-    """
+    """Values and their unit as they are shown. values: in SI [unit]. Returns values, unit: in that unit [unit]."""
     size = _largest(values)
     wanted = unit_for(unit, size, asked)
     if wanted == unit:

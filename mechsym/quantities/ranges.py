@@ -37,9 +37,8 @@ class Range:
 def read_range(text: str, option: str, unit: str = "-", key: str = "") -> Range:
     """A list or a range as written.
 
-    option, unit, key: where it was written, its unit, and what stands before an equals sign, for messages.
-
-    Raises BadInput: neither of the forms, two units, or more values than allowed.
+    option, unit, key: where it was written, its unit, and what stands before an equals sign, for messages. Raises
+    BadInput: neither of the forms, two units, or more values than allowed.
 
     >>> read_range("3..8 MPa:3", "--over", "Pa", "p0")
     Range(kind='grid', values=(3.0, 5.5, 8.0), unit='MPa')

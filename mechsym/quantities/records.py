@@ -232,9 +232,8 @@ _SHARED = {
 def check(record: Record) -> None:
     """Refuse a record whose numbers are not finite or out of range, or whose names are not among the options.
 
-    record: dataclass instance, fields made by `quantity` and `choice` are checked; others are left alone.
-
-    Raises BadInput: names the record's class, field, value, unit and what is allowed.
+    record: dataclass instance, fields made by `quantity` and `choice` are checked; others are left alone. Raises
+    BadInput: names the record's class, field, value, unit and what is allowed.
     """
     for field in dataclasses.fields(record):
         check_value(field, getattr(record, field.name))

@@ -160,9 +160,8 @@ def parse(value: object, unit: str, key: str = "value") -> float:
     """A number in SI [unit] from a number or a text with a unit.
 
     value: a plain number is taken as SI, a text may end in a unit; unit: the SI unit wanted, `"-"` for a pure number;
-    key: name of the value, for the message.
-
-    Raises BadInput: not a number, not of magnitude 1e-20 to 1e20 (or 0), unknown unit, or a unit of another dimension.
+    key: name of the value, for the message. Raises BadInput: not a number, not of magnitude 1e-20 to 1e20 (or 0),
+    unknown unit, or a unit of another dimension.
 
     >>> round(parse("142 rpm", "rad/s"), 6)
     14.870205

@@ -55,18 +55,12 @@ class Choice:
 
 
 def seat_diameter(choice: Choice) -> Metre:
-    """Diameter of the shaft under a bearing.
-
-    Returns d: bore, or the raceway when the inner ring is left out.
-    """
+    """Diameter of the shaft under a bearing. Returns d: bore, or the raceway when the inner ring is left out."""
     return float(choice.bearing.raceway if choice.ring_off and choice.bearing.raceway else choice.bearing.bore)
 
 
 def mass(choice: Choice) -> Kilogram:
-    """Mass of the bearings of one place.
-
-    Returns m: mass, without the inner rings that are left out.
-    """
+    """Mass of the bearings of one place. Returns m: mass, without the inner rings that are left out."""
     one = choice.bearing.mass
     if choice.ring_off and choice.bearing.raceway:
         one -= _STEEL * np.pi / 4 * (choice.bearing.raceway**2 - choice.bearing.bore**2) * choice.bearing.width

@@ -25,9 +25,8 @@ def require(
 
     name: name of the quantity, for the message. value: value in SI; every element is checked [unit]. unit: its SI unit,
     `"-"` for a pure number. above, low, below, high: bounds; `above` and `below` must not be reached [unit]. hint: why
-    the bound is there and what to do instead.
-
-    Raises BadInput: names the quantity, its worst value, its unit, what is allowed and the hint.
+    the bound is there and what to do instead. Raises BadInput: names the quantity, its worst value, its unit, what is
+    allowed and the hint.
 
     >>> require("face width b", 0.039, "m", above=0, high=1.02)
     """

@@ -60,10 +60,7 @@ def size_output(loads: CrankLoads, wants: Wants, material: Material, least: Metr
 
 
 def check_crank(part: CrankPart, loads: CrankLoads, wants: Wants, material: Material) -> list[Check]:
-    """The checks of crankpin, web and shaft.
-
-    Returns checks: one for each section and rule.
-    """
+    """The checks of crankpin, web and shaft. Returns checks: one for each section and rule."""
     strength = material.yield_strength or material.ultimate
     places = {
         "crankpin, middle": (part.pin, 0.0, False),
@@ -84,10 +81,7 @@ def check_crank(part: CrankPart, loads: CrankLoads, wants: Wants, material: Mate
 
 
 def check_output(d: Metre, loads: CrankLoads, wants: Wants, material: Material) -> list[Check]:
-    """The checks of the output shaft.
-
-    d: diameter.
-    """
+    """The checks of the output shaft. d: diameter."""
     tau = crankshaft.torsion_stress(np.abs(loads.output_torque).max(axis=1), d)
     k = int(np.argmax(tau))
     K_fs = fillet_factor_torsion(_SHOULDER_FILLET, 1.0, _SHOULDER)

@@ -50,7 +50,6 @@ def over_period(theta: Radian[Array], phi: Radian[Array], p: Pascal[Array], rest
     theta: angles over a period, 0 at firing top dead centre; phi: angles of the closed period at each speed, rising,
     inside -pi .. pi, shape (k, m); p: pressure there, shape (k, m); rest: pressure during the gas exchange. Returns p:
     absolute pressure, shape (k, n).
-
     Source: Nunes (2017), ch. 3.4.1, which knows only the closed cycle; the exchange is ideal.
 
     >>> phi, p = np.array([[-np.pi, 0.0, np.pi]]), np.array([[1.0, 9.0, 3.0]])
@@ -67,7 +66,6 @@ def tooth_load_printed(F: Newton[Array], theta: Radian[Array]) -> Newton[Array]:
     .. math:: W = F\sin\theta
 
     F: force on the piston, shape (k, n); theta: crank angle from top dead centre. Returns W: load, shape (k, n).
-
     Source: Nunes (2017), eq. 2.75; exact for a balanced moment on the planet at constant speed.
 
     >>> round(float(tooth_load_printed(np.array([27140.0]), np.radians([20.0]))[0]))
@@ -82,7 +80,6 @@ def journal_load_massless(F: Newton[Array], theta: Radian[Array]) -> Newton[Arra
     .. math:: J = |F|\sqrt{1 + 3\sin^2\theta}
 
     F: force on the piston, shape (k, n); theta: crank angle from top dead centre. Returns J: load, shape (k, n).
-
     Source: balance of the planet (erratum E21). Print: Nunes (2017), ch. 4.8, assumes no more than F.
 
     >>> round(float(journal_load_massless(np.array([9000.0]), np.array([np.pi / 2]))[0]))
@@ -104,7 +101,6 @@ def side_vectors(
     spin: centrifugal force m_2 e omega^2 of both sides' shafts and pinions, shape (k,); theta: crank angle from top
     dead centre. Returns force, teeth, centrifugal: on the crankpin, at the gear from the teeth, at the gear from the
     masses, shape (2, k, n).
-
     Source: balance of the planet; x towards the head as in derivations/hypocycloid.py.
 
     >>> one = np.ones((1, 1))
@@ -133,7 +129,6 @@ def side_loads(
     vectors: from `side_vectors`, shape (2, k, n); shares: shares s_F, s_T of the outer journal, from
     `turning_shaft.outer_shares`; places: those that are wanted of `SIDE`. Returns loads: `inner_journal`,
     `outer_journal`, `main`, `outboard`, shape (k, n).
-
     Source: statics. The carrier's counterweight takes the centrifugal force in its own plane. Valid: torque taken off
     at both ends alike (`tooth_share_one_end` says what a single end does), rigid journals without play.
 
@@ -166,7 +161,6 @@ def tooth_share_one_end(spans: Spans, stiffness_ratio: Pure) -> Pure:
 
     stiffness_ratio: stiffness of a journal over that of a gear mesh. Returns share: share of one gear; 0.5 would be an
     equal share, above 1 the other gear works against it.
-
     Source: balance of a rigid planet on springs, inner and outer journals alike and the pinion midway: the carrier that
     gives no torque can take no tangential force but only a couple, so the gears are left to balance the driving
     journals. Print: Nunes (2017), ch. 4.4.3, halves the load. Valid: z_gear midway between the journals.
@@ -188,10 +182,9 @@ def reversed_tooth_load(W: Newton[Array], returns: int) -> Newton[Array]:
     W: tooth load over the period; n divisible by `returns`, shape (k, n). returns: how often the same tooth comes into
     mesh in a period: 4 for the planet, 2 for the ring. Returns W_eq: equivalent one-sided load; A is the larger load on
     one tooth in one sense, B the largest in the other, shape (k,).
-
     Source: Y_M = 1/(1 - 3/7 F_min/F_max), 0.7 for fully reversed load: AGMA 2001-D04, clause 16.2; the line between:
-    ISO 6336-3, annex B with M = 0.4; solved for the load. The teeth numbers are in a whole ratio, so each
-    tooth always meets the same crank angles.
+    ISO 6336-3, annex B with M = 0.4; solved for the load. The teeth numbers are in a whole ratio, so each tooth always
+    meets the same crank angles.
 
     >>> float(reversed_tooth_load(np.array([[9.0, 1.0, -7.0, 0.0]]), 2)[0])
     12.0

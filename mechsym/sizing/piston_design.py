@@ -82,10 +82,7 @@ def size_cylinder(loads: CylinderLoads, wants: Wants, material: Material, height
 def check_cylinder(
     part: CylinderPart, loads: CylinderLoads, wants: Wants, material: Material, height: Metre
 ) -> list[Check]:
-    """The checks of a cylinder and its bolts.
-
-    height: height of a piston head.
-    """
+    """The checks of a cylinder and its bolts. height: height of a piston head."""
     k = int(np.argmax(loads.dp_max))
     p, note = loads.dp_max[k], at_speed(loads.omega, k)
     hoop = cylinder.hoop_stress(p, loads.bore, part.wall - wants.reboring)

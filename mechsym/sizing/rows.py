@@ -31,10 +31,7 @@ COLUMNS = tuple(field.name for field in dataclasses.fields(SizeRow))
 def fact(
     component: str, quantity: str, value: float, unit: str, rule: str, source: str = "", note: str = ""
 ) -> SizeRow:
-    """A row for a figure that no limit belongs to.
-
-    value: the figure [unit].
-    """
+    """A row for a figure that no limit belongs to. value: the figure [unit]."""
     return SizeRow(
         component=component, quantity=quantity, value=float(value), unit=unit, rule=rule, source=source, note=note
     )

@@ -159,10 +159,7 @@ def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
 
 
 def check_all(parts: SliderParts, forces: SliderForces, wants: Wants, stock: Stock) -> list[Check]:
-    """Every check of a slider crank.
-
-    Returns checks: from the piston to the bearings.
-    """
+    """Every check of a slider crank. Returns checks: from the piston to the bearings."""
     used = {place: stock.material(getattr(wants, place)) for place in ("piston", "cylinder", "crankshaft", "shaft")}
     cylinder, crank = _cylinder_loads(forces), _loads(parts, forces)
     rod_seat, main_seat = _seats(forces)

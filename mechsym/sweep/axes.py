@@ -33,10 +33,7 @@ class Axis:
 
 
 def split(text: str) -> tuple[str, str]:
-    """Key and range of KEY=RANGE.
-
-    Returns key, span: left and right of the first equals sign.
-    """
+    """Key and range of KEY=RANGE. Returns key, span: left and right of the first equals sign."""
     key, sign, span = (part.strip() for part in text.partition("="))
     if not sign or not key or not span:
         raise BadInput(f"--over {shown(text)} is not KEY=RANGE; write for example --over 'spring.p0=3..8 MPa:11'")
@@ -44,10 +41,7 @@ def split(text: str) -> tuple[str, str]:
 
 
 def parse_axis(text: str, place: Place) -> Axis:
-    """An axis from KEY=RANGE.
-
-    place: where the key belongs, see `mechsym.cases.locate`.
-    """
+    """An axis from KEY=RANGE. place: where the key belongs, see `mechsym.cases.locate`."""
     key, span = split(text)
     if place.unit is None:
         words = tuple(part.strip() for part in span.split(","))

@@ -28,10 +28,7 @@ MAIN = {
 
 
 def failures(result: Sweep) -> dict[int, str]:
-    """Points without a result.
-
-    Returns failures: index of the point and the reason.
-    """
+    """Points without a result. Returns failures: index of the point and the reason."""
     return {i: outcome.reason for i, outcome in enumerate(result.outcomes) if isinstance(outcome, Gap)}
 
 
@@ -117,8 +114,5 @@ def write_table(result: Sweep, folder: Path) -> Path:
 
 
 def write_netcdf(result: Sweep, folder: Path) -> Path:
-    """Write the sweep as netCDF.
-
-    Raises MissingExtra: xarray or h5netcdf is not installed.
-    """
+    """Write the sweep as netCDF. Raises MissingExtra: xarray or h5netcdf is not installed."""
     return files.write_netcdf(folder / "sweep.nc", dataset(result))

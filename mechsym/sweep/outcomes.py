@@ -30,10 +30,7 @@ Outcome = Any  # a result, numbers by dotted names, or a Gap
 
 
 def known(error: Exception) -> Gap:
-    """The gap that an error leaves.
-
-    error: bad input, or an error of arithmetic that only this point met.
-    """
+    """The gap that an error leaves. error: bad input, or an error of arithmetic that only this point met."""
     words = " ".join(str(error).split())
     if isinstance(error, BadInput):
         return Gap(reason=words, of_input=True)

@@ -166,13 +166,10 @@ def forecast(plan: Plan, count: int) -> Second:
 def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | None = None) -> Sweep:
     """Run a case at every point.
 
-    An interrupt from the keyboard or a request to end (SIGTERM) ends the sweep after the points that are being
-    computed and keeps what is finished, see `Sweep.interrupted`; a second one ends it at once.
-
-    progress: called with the number of points that were done. means: processes and store; in this process without a
-    store where it is left away.
-
-    Raises BadInput: the case or an axis is bad, or every point fails for one and the same reason.
+    An interrupt from the keyboard or a request to end (SIGTERM) ends the sweep after the points that are being computed
+    and keeps what is finished, see `Sweep.interrupted`; a second one ends it at once. progress: called with the number
+    of points that were done. means: processes and store; in this process without a store where it is left away. Raises
+    BadInput: the case or an axis is bad, or every point fails for one and the same reason.
     """
     means = means or Means()
     with inputs.reads() as read:

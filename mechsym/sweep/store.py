@@ -49,7 +49,6 @@ def opened(folder: Path, key: str, fresh: bool = False) -> Iterator[Store]:
     """The store of a sweep in its folder; nobody else writes it meanwhile.
 
     key: what is swept, see `identity`; a store of anything else is set aside. fresh: forget what is kept of this sweep.
-
     Raises BadInput: it is no store, or another process is writing it.
     """
     path = folder / NAME

@@ -49,9 +49,7 @@ class Ties:
         """Values of a point with those that are tied.
 
         here: values of the axes, as `--set` takes them. Returns values: `here` and every tied value by `section.field`
-        [SI].
-
-        Raises BadInput: a formula has no value here.
+        [SI]. Raises BadInput: a formula has no value here.
         """
         values: dict[str, Value] = {
             _name(self.places[key]): _si(self.places[key], value) for key, value in here.items()
@@ -87,9 +85,8 @@ class Ties:
 def ties(case: str, overrides: Mapping[str, object], texts: tuple[str, ...], axes: Mapping[str, Place]) -> Ties:
     """Ties that are written KEY=FORMULA.
 
-    axes: keys that the sweep runs over.
-
-    Raises BadInput: no formula, a name that neither the case nor a tie before it has, or a letter that nothing uses.
+    axes: keys that the sweep runs over. Raises BadInput: no formula, a name that neither the case nor a tie before it
+    has, or a letter that nothing uses.
     """
     places, letters, found = dict(axes), {"pi"}, []
     for text in texts:

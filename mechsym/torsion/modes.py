@@ -147,9 +147,7 @@ def critical_speeds(modes: Modes, excitation: Orders, damping: Annotated[Array, 
               \quad M_\mathrm{hold} = \frac{f^2}{2 d \omega}
 
     damping: damping matrix, shape (n, n). Returns criticals: from the highest speed down; orders without force are left
-    out.
-
-    At resonance the modal speed is f / d, so the mean power into the vibration is f^2 / (2 d); it comes from the
+    out. At resonance the modal speed is f / d, so the mean power into the vibration is f^2 / (2 d); it comes from the
     shaft, as a mean torque at speed omega. A drive that is weaker cannot pass (Sommerfeld effect).
     """
     rows = []
@@ -206,9 +204,7 @@ def stiffness_factor(parameters: CrankTrainParameters, omega: RadPerSecond, peri
     sum of order k, 1 where all push together (Ker Wilson 1956; Den Hartog 1956, section 5.5). An order is major in a
     mode where w is at least a half. Half orders of many cylinders in several modes lie within a few per cent of each
     other: those that are not major are kept away as far as they can be, those of the first mode, which carry most,
-    before the others.
-
-    omega: speed of operation. period: of the gas: a turn, or two of a four-stroke engine.
+    before the others. omega: speed of operation. period: of the gas: a turn, or two of a four-stroke engine.
     """
     orders = np.arange(1, round(_HIGHEST * period / (2 * np.pi)) + 1) * 2 * np.pi / period
     natural, sums = phase_sums(parameters, orders)

@@ -22,7 +22,6 @@ def critical_ratio(gamma: Pure) -> Pure:
     .. math:: \left(\frac{2}{\gamma + 1}\right)^{\gamma/(\gamma - 1)}
 
     gamma: ratio of the heat capacities. Returns ratio: pressure behind the throat by the pressure before it.
-
     Source: ideal gas, isentropic to the throat; Heywood (1988), eq. (C.7). Valid: constant heat capacities.
 
     >>> round(critical_ratio(1.4), 4)
@@ -44,9 +43,8 @@ def orifice_flow(
               \left(r^{2/\gamma} - r^{(\gamma + 1)/\gamma}\right)}, \qquad r = \max(p_1/p_0, r_{crit})
 
     area: effective area, discharge coefficient included; up, down: pressure and temperature of the first and the second
-    volume [Pa, K]; gamma: ratio of the heat capacities; R: gas constant.
-    Returns flow: from the first to the second volume; the volume of the higher pressure gives p_0 and T_0.
-
+    volume [Pa, K]; gamma: ratio of the heat capacities; R: gas constant. Returns flow: from the first to the second
+    volume; the volume of the higher pressure gives p_0 and T_0.
     Source: Heywood (1988), eqs. (C.8), (C.9). Valid: quasi-steady; within 1e-3 of equal pressures a straight line
     stands for the root.
 
@@ -78,7 +76,6 @@ def valve_lift(
 
     opens, closes: crank angles between which it is open, closes above opens; lift: largest lift; period: of the cycle.
     Returns h: lift, 0 while closed; velocity and acceleration have no jump.
-
     Source: polynomial cam of the 6th degree with two free derivatives at its ends. Valid: closes - opens below period.
 
     >>> [round(float(valve_lift(a, 0.0, 4.0, 0.01)), 5) for a in (0.0, 1.0, 2.0)]
@@ -95,7 +92,6 @@ def curtain_area(lift: Metre[Scalar], diameter: Metre, discharge: Pure) -> Area[
     .. math:: A = C_d \min(\pi d h,\ \pi d^2/4)
 
     diameter: inner diameter of the seat d; discharge: discharge coefficient.
-
     Source: Heywood (1988), section 6.3.2, without the seat's angle. Valid: stem thin against the seat.
 
     >>> round(float(curtain_area(0.005, 0.02, 1.0)) * 1e6, 2)
@@ -111,7 +107,6 @@ def port_area(x: Metre[Scalar], uncovered_from: Metre, height: Metre, width: Met
 
     x: travel of the piston from top dead centre; uncovered_from, height, width: travel x_p at the upper edge, height h
     and total width w of the ports; discharge: discharge coefficient.
-
     Source: geometry of rectangular ports. Valid: piston crown flat, ports of equal height.
 
     >>> round(float(port_area(0.09, 0.08, 0.02, 0.1, 0.7)) * 1e4, 6)

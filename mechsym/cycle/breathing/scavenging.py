@@ -54,7 +54,6 @@ def flow_area(s: Scavenging, opened: tuple[Radian, Radian, Radian], room: Chambe
 
     opened: exhaust opens and closes, ports open; from top dead centre, exhaust closing negative. Returns area:
     discharge coefficient included.
-
     Source: two throats in series without recovery between them, small pressure differences. Valid: quasi-steady, box
     and receiver at one pressure each; the ports close at the mirror angle of their opening.
 
@@ -87,7 +86,6 @@ def remaining(delivery: Pure, displaced: Pure = 0.0) -> Pure:
 
     delivery: delivery ratio: volume of fresh air at cylinder pressure by the cylinder's. displaced: delivery ratio y up
     to which nothing mixes, 0 to 1. Returns x: share of residual gas.
-
     Source: R. S. Benson, P. C. Brandham, Int. J. Mech. Sci. 11 (1969) 299, without short circuit; y = 0 is the perfect
     mixing of B. Hopkinson, NEC Inst. Trans. 30 (1914), as in Heywood (1988), section 6.6. Valid: one pressure.
 
@@ -105,7 +103,6 @@ def trapped_temperature(fresh: Kelvin, share: Pure, rise: Pure) -> Kelvin:
 
     fresh: temperature of the fresh air T_f, warmed; share: volume share x of the gas that stays; rise: temperature of
     burnt gas at scavenge pressure by that of the charge it was made from, tau. Returns T: temperature of the mixture.
-
     Source: volumes of ideal gases with one heat capacity add up at constant pressure. Valid: a periodic cycle.
 
     >>> round(trapped_temperature(320.0, 0.1, 2.5), 2)
@@ -122,7 +119,6 @@ def dew_point(p: Pascal, ambient: tuple[float, float], humidity: Pure) -> Kelvin
 
     p: absolute pressure after compression; ambient: pressure [Pa] and temperature [K] of the ambient air; humidity:
     relative humidity, above 0. Returns T: dew point.
-
     Source: Magnus formula over water, WMO-No. 8 (2008), annex 4.B; theta in degrees Celsius. Valid: -45 to 60 degrees,
     used above as well.
 

@@ -25,7 +25,6 @@ def corrected_flow(flow: MassFlow[Array], p: float, T: float) -> MassFlow[Array]
     .. math:: \dot m_{corr} = \dot m\,\frac{\sqrt{T/288.15\,\mathrm{K}}}{p/101325\,\mathrm{Pa}}
 
     p, T: state before the compressor [Pa, K]. Returns flow: corrected flow, shape of `flow`.
-
     Source: similarity of Mach numbers; SAE J1826. Valid: the gas of the map, Reynolds number without effect.
 
     >>> round(float(corrected_flow(np.array(0.1), 101325.0, 288.15)), 3)
@@ -38,9 +37,7 @@ def map_efficiency(points: Sequence[Sequence[float]], flow: MassFlow[Array], rat
     """Isentropic efficiency at a pressure ratio.
 
     points: corrected flows [kg/s], pressure ratios and efficiencies [-] of the map's points; flow: corrected flow.
-
     Raises BadInput: a point outside the map: surge on its left, choke on its right.
-
     Source: planes through each three neighbouring points of the map (Delaunay), flow and ratio by their largest. Valid
     between the points that the maker measured.
 
@@ -112,7 +109,6 @@ def atmosphere(altitude: Metre) -> tuple[Pascal, Kelvin]:
     .. math:: T = 288.15 - 0.0065\,h, \qquad p = 101325\,(T/288.15)^{5.25588}
 
     altitude: height h above the sea. Returns p: absolute pressure.
-
     Source: ISO 2533:1975. Valid: troposphere, -500 m to 11 km.
 
     >>> p, T = atmosphere(5000.0)
@@ -132,7 +128,6 @@ def compressor_temperature(
 
     T: temperature before it; ratio: pressure ratio, at least 1; efficiency: isentropic efficiency; gamma: ratio of the
     heat capacities.
-
     Source: Heywood (1988), eq. (6.42). Valid: constant heat capacities, no heat to the surroundings.
 
     >>> round(compressor_temperature(288.15, 2.0, 0.72), 1)
@@ -152,7 +147,6 @@ def turbine_ratio(
     T_1: temperature before the compressor; T_3: temperature before the turbine; ratio: pressure ratio of the
     compressor; efficiency: isentropic efficiency of the compressor, else that of the record. Returns ratio: pressure
     before the turbine by that behind it.
-
     Source: balance of the shaft's powers, Heywood (1988), eq. (6.50). Valid: whole flow through the turbine, steady
     flow, cp 1005 and 1130 J/(kg K), gamma 1.4 and 1.34.
 

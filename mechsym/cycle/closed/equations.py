@@ -93,10 +93,7 @@ def contents(closed: Closed, phase: str, phi: Radian[Scalar]) -> Contents:
 
 
 def pressure(closed: Closed, phase: str, phi: Radian[Scalar], t: Kelvin[Scalar]) -> Pascal[Scalar]:
-    """Pressure of the gas.
-
-    phi: crank angle from firing top dead centre. Returns p: absolute pressure.
-    """
+    """Pressure of the gas. phi: crank angle from firing top dead centre. Returns p: absolute pressure."""
     now = contents(closed, phase, phi)
     return now.mass * properties(closed.gas, t, now.burnt).gas_constant * t / volume(closed.chamber, phi)
 

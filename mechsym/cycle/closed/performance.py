@@ -65,9 +65,8 @@ def performance(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Performan
 
     .. math:: \bar T = W/(4\pi), \quad p_{mi} = W/V_d, \quad \eta = W/(m_f Q_{HV})
 
-    design: mapping of str to ndarray, shape (n,), operating points; must hold `omega` [rad/s].
-
-    Raises BadInput: a value is out of range, or combustion does not fit into the closed period.
+    design: mapping of str to ndarray, shape (n,), operating points; must hold `omega` [rad/s]. Raises BadInput: a value
+    is out of range, or combustion does not fit into the closed period.
     """
     check_design(engine, design)
     result = run(functools.partial(closed_period, engine), design)

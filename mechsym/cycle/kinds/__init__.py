@@ -149,9 +149,8 @@ def gas_in_cylinder(
     """Gas of a cycle that needs nothing but a cylinder.
 
     kinematics: one input, the crank angle [rad]; named outputs `x` [m] and `dx_dphi` [m/rad]. omega: crank speed, of
-    cycles that depend on it. walls: heat to the walls, of kinds that ask for it.
-
-    Raises BadInput: the cycle cannot be made, or needs more than a cylinder.
+    cycles that depend on it. walls: heat to the walls, of kinds that ask for it. Raises BadInput: the cycle cannot be
+    made, or needs more than a cylinder.
     """
     kind = kind_of(cycle)
     if not kind.cylinder:
@@ -170,9 +169,8 @@ def gas_in_cylinder(
 def with_diagram(cycle: Any, file: str | None, motored: str | None = None) -> "Diagram":
     """The cycle with a measured diagram in its place.
 
-    cycle: of a `diagram` all methods are kept, of another kind what it knows of the engine.
-
-    Raises BadInput: a cycle of another kind, whose cylinder is not known.
+    cycle: of a `diagram` all methods are kept, of another kind what it knows of the engine. Raises BadInput: a cycle of
+    another kind, whose cylinder is not known.
     """
     kind = kind_of(cycle)
     if kind.measured:

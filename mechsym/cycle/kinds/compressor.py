@@ -55,9 +55,8 @@ def absolute_pressure(cycle: CompressorCycle, room: Chamber, phi: Radian[Scalar]
     .. math:: p = \min(p_s (V_1/V)^{n_c}, p_d) \text{ on the way in}, \quad p = \max(p_d (V_3/V)^{n_e}, p_s)
               \text{ on the way out}
 
-    phi: crank angles after top dead centre, in [0, 2 pi). Returns p: absolute.
-
-    Valid: valves without inertia and losses, heat by the indices only.
+    phi: crank angles after top dead centre, in [0, 2 pi). Returns p: absolute. Valid: valves without inertia and
+    losses, heat by the indices only.
     """
     V = np.asarray(volume(room, phi))
     full = room.clearance + room.displacement

@@ -17,7 +17,6 @@ def otto_efficiency(compression_ratio: Pure[Scalar], gamma: Pure[Scalar]) -> Pur
     .. math:: \eta = 1 - CR^{1-\gamma}
 
     compression_ratio: largest over smallest volume; gamma: ratio of heat capacities.
-
     Source: Nunes (2017), eq. (2.3).
     """
     return 1 - compression_ratio ** (1 - gamma)

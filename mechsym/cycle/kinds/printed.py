@@ -102,7 +102,6 @@ def crank_torque(chamber: Chamber, result: March) -> NewtonMetre[Array]:
     .. math:: T = (p A + m a)\,dx/d\theta, \quad a = -x''\omega^2
 
     Returns torque: from absolute pressure and inertia, shape (361, n).
-
     Source: Nunes (2017), eqs. (2.62) to (2.65) and (2.73).
     """
     phi = np.radians(result.theta_deg - _FIRING)[:, None]
@@ -115,7 +114,6 @@ def mean_torque(chamber: Chamber, result: March) -> NewtonMetre[Array]:
     .. math:: \bar T = n \sum_i T_i/721
 
     Returns torque: all pistons together, over the 721 points of four strokes of which the gas exchange adds nothing.
-
     Source: Nunes (2017), eq. (2.66); 720 steps would be right (erratum E6).
     """
     return chamber.pistons * crank_torque(chamber, result).sum(axis=0) / _POINTS
@@ -154,7 +152,6 @@ def performance_printed(engine: ClosedEngine, omega: RadPerSecond[Array]) -> Per
 
     engine: the engine; its gas must be `ConstantGamma`, its closed period two whole strokes. Returns performance: same
     entries as the converged figures; `unburnt` is the thesis's remainder (erratum E3).
-
     Source: Nunes (2017), eqs. (2.51) to (2.53), (2.62) to (2.66), sections 5.1 and 5.2.
     """
     room = chamber(engine.chamber, engine.motion)

@@ -91,7 +91,6 @@ def combustion_efficiency(cycle: SparkIgnition) -> Pure[Scalar]:
     .. math:: \eta_c = \eta_{c,max}(-1.6082 + 4.6509\lambda - 2.0764\lambda^2)
 
     cycle: its values may be CasADi expressions. Returns eta_c: combustion efficiency.
-
     Source: Blair (1999) as printed in Nunes (2017), eq. (2.56), for a relative air-fuel ratio of 0.75 to 1.2.
     """
     lam = cycle.air_fuel_ratio / cycle.stoichiometric_ratio
@@ -104,10 +103,9 @@ def charge(chamber: Chamber, cycle: SparkIgnition, gas_constant: Annotated[Scala
     .. math:: m = \frac{p_0 V(\varphi_{ivc})}{R T_0}, \quad
         m_f = \frac{p_0 (V(\varphi_{ivc}) - V_c)}{R T_0\, AFR}, \quad Q = \eta_c m_f Q_{HV}
 
-    cycle: its values may be CasADi expressions. gas_constant: of the charge. Returns charge:
-    gas [kg], fuel [kg], heat [J].
-
-    The clearance holds air at intake state too, but only the swept part is fuelled: Nunes (2017), eqs. (2.4), (2.5).
+    cycle: its values may be CasADi expressions. gas_constant: of the charge. Returns charge: gas [kg], fuel [kg], heat
+    [J]. The clearance holds air at intake state too, but only the swept part is fuelled: Nunes (2017), eqs. (2.4),
+    (2.5).
     """
     density = cycle.intake_pressure / (gas_constant * cycle.intake_temperature)
     v_closed = volume(chamber, cycle.inlet_closes)
@@ -126,10 +124,9 @@ def latent_heat(cycle: SparkIgnition) -> Annotated[Scalar, "J/kg"]:
 def vapour_energy(cycle: SparkIgnition, gas: ConstantGamma | NasaMixture) -> Annotated[Scalar, "J/kg"]:
     """Internal energy that a kilogram of fuel brings along when it turns into vapour.
 
-    cycle: its values may be CasADi expressions. gas: gas model, whose zero of energy counts.
-    Returns energy: specific internal energy, latent heat taken off.
-
-    The thesis charges the latent heat but lets the vapour arrive with zero energy at 0 K: erratum E4.
+    cycle: its values may be CasADi expressions. gas: gas model, whose zero of energy counts. Returns energy: specific
+    internal energy, latent heat taken off. The thesis charges the latent heat but lets the vapour arrive with zero
+    energy at 0 K: erratum E4.
     """
     if cycle.vaporisation == "liquid_energy":
         return properties(gas, cycle.intake_temperature, 0.0).energy - cycle.latent_heat

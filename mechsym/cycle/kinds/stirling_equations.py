@@ -66,7 +66,6 @@ def regenerator_temperature(T_h: Kelvin[Scalar], T_k: Kelvin[Scalar]) -> Kelvin[
     .. math:: T_r = \frac{T_h - T_k}{\ln(T_h/T_k)}
 
     T_h, T_k: temperatures at its ends, not equal. Returns T_r: harmonic mean over the length.
-
     Source: Urieli and Berchowitz (1984), section 3.2. Valid: T linear along the regenerator, T_h > T_k.
 
     >>> round(float(regenerator_temperature(900.0, 330.0)), 2)
@@ -82,7 +81,6 @@ def exchanger_capacity(spaces: FiveSpaces) -> Annotated[Scalar, "m^3/K"]:
 
     spaces: volumes [m^3] of heater, regenerator and cooler, temperatures [K] of heater and cooler. Returns K: sum over
     the three.
-
     Source: ideal gas at one pressure. Valid: exchangers without film resistance, T_h > T_k.
 
     >>> case = FiveSpaces(volumes=None, V_h=1e-4, V_r=0.0, V_k=1e-4, T_h=1000.0, T_k=500.0, gamma=1.4, R=287.0,

@@ -24,7 +24,6 @@ def viscosity(mu_0: Viscosity, T_0: Kelvin, sutherland: Kelvin, T: Kelvin[Scalar
     .. math:: \mu = \mu_0 \frac{T_0 + S}{T + S} \left(\frac{T}{T_0}\right)^{3/2}
 
     T_0, sutherland: temperature of reference, and constant S.
-
     Source: W. Sutherland, Phil. Mag. 36 (1893); constants as in Urieli and Berchowitz (1984), appendix A. Valid: dilute
     gas, 200 K to 1200 K.
 
@@ -40,9 +39,8 @@ def valensi(omega: RadPerSecond, d: Metre, rho: Density, mu: Viscosity) -> Pure:
     .. math:: Va = \frac{\omega\, d^2 \rho}{4\mu}
 
     d: hydraulic diameter; rho, mu: density and viscosity of the gas.
-
-    Source: T. W. Simon, J. R. Seume, A Survey of Oscillating Flow in Stirling Engine Heat Exchangers, NASA
-    CR-182108 (1988). Valid: any flow that swings once a turn.
+    Source: T. W. Simon, J. R. Seume, A Survey of Oscillating Flow in Stirling Engine Heat Exchangers, NASA CR-182108
+    (1988). Valid: any flow that swings once a turn.
 
     >>> round(valensi(262.0, 0.00302, 2.2, 4.3e-5), 1)
     30.6
@@ -57,7 +55,6 @@ def laminar_swing(Va: Pure) -> Pure:
               \zeta = i^{3/2}\sqrt{Va}
 
     Va: number of Valensi, from 0 on. Returns ratio: 1 for a slow flow, towards sqrt(Va/2)/4 for a fast one.
-
     Source: S. Uchida, ZAMP 7 (1956) 403; Simon and Seume, NASA CR-182108 (1988). Valid: sinusoidal, developed, laminar.
 
     >>> [round(laminar_swing(Va), 3) for Va in (0.0, 10.0, 1000.0)]
@@ -79,9 +76,8 @@ def turbulent_share(Re_max: Pure, Va: Pure = 0.0) -> Pure:
 
     Re_max: largest Reynolds number of the turn; Va: number of Valensi, 0 for a steady flow. Returns share: 1 from 1.74
     Re_crit on, which is 4000 in a steady flow.
-
-    Source: M. Ohmi, M. Iguchi, Bull. JSME 25 (1982) 165, as in Simon and Seume, NASA CR-182108 (1988), not held
-    against the print: a public program has 2300 sqrt(Va/10), 727 in place of 882. Valid: smooth tubes; the width of the
+    Source: M. Ohmi, M. Iguchi, Bull. JSME 25 (1982) 165, as in Simon and Seume, NASA CR-182108 (1988), not held against
+    the print: a public program has 2300 sqrt(Va/10), 727 in place of 882. Valid: smooth tubes; the width of the
     transition is that of steady flow.
 
     >>> [round(turbulent_share(Re, 30.0), 3) for Re in (4000.0, 6000.0, 9000.0)]
@@ -99,7 +95,6 @@ def tube_friction(Re: Pure[Scalar], Va: Pure = 0.0) -> Pure[Scalar]:
 
     Re: Reynolds numbers of a turn, of diameter and mean speed, above 0; Va: number of Valensi, 0 for a steady flow.
     Returns f: friction factor, shape of Re; see `laminar_swing`, `turbulent_share`.
-
     Source: Hagen and Poiseuille; P. R. H. Blasius, VDI-Forschungsheft 131 (1913); swinging flow after Simon and Seume,
     NASA CR-182108 (1988). Valid: Re < 1e5.
 
@@ -119,7 +114,6 @@ def tube_nusselt(Re: Pure[Scalar], Pr: Pure, Va: Pure = 0.0) -> Pure[Scalar]:
 
     Re: Reynolds numbers of a turn, above 0; Pr: Prandtl number; Va: number of Valensi, 0 for a steady flow. Returns Nu:
     Nusselt number, shape of Re: laminar, turbulent (no less than laminar), see `turbulent_share`.
-
     Source: V. Gnielinski, Int. Chem. Eng. 16 (1976) 359; swinging laminar flow: D. Gedeon, J. Heat Transfer 108 (1986)
     513, as in Simon and Seume, NASA CR-182108 (1988). Valid: developed flow, 0.5 < Pr < 2000, Re < 5e6.
 
@@ -142,7 +136,6 @@ def bend_heads(angle: Radian, radius: Pure) -> Pure:
 
     angle: by which the flow turns, up to pi; radius: of the bend's middle line, by the diameter, from 1 on. Returns
     heads: straight between 70 and 90 degrees, of which the law speaks as 1.05.
-
     Source: I. E. Idelchik, Handbook of Hydraulic Resistance, diagram 6-1. Valid: round tubes, Re > 2e5; below it the
     handbook has more, up to twice.
 
@@ -164,7 +157,6 @@ def end_heads(share: Pure) -> Pure:
     .. math:: \zeta = \tfrac12 (1 - \sigma) + (1 - \sigma)^2
 
     share: free area by area in front, 0 to 1. Returns heads: of the speed inside; 1.5 into and out of a wide header.
-
     Source: contraction and expansion of sharp edges (Borda and Carnot), as in W. M. Kays, A. L. London, Compact Heat
     Exchangers, 2nd ed. 1964, chapter 5. Valid: turbulent flow.
 
@@ -180,7 +172,6 @@ def screen_friction(Re: Pure[Scalar]) -> Pure[Scalar]:
     .. math:: f = 129/Re + 2.91\,Re^{-0.103}
 
     Re: Reynolds number of hydraulic diameter and speed in the free area V/L, above 0.
-
     Source: D. Gedeon, J. G. Wood, Oscillating-Flow Regenerator Test Rig: Hardware and Theory with Derived Correlations
     for Screens and Felts, NASA CR-198442 (1996). Valid: porosity 0.62 to 0.78, 0.45 < Re < 6100.
 
@@ -197,7 +188,6 @@ def screen_nusselt(Re: Pure[Scalar], Pr: Pure, porosity: Pure) -> Pure[Scalar]:
     .. math:: Nu = (1 + 0.99\,Pe^{0.66})\,\beta^{1.79}, \qquad Pe = Re\,Pr
 
     Re: Reynolds number as for `screen_friction`; Pr: Prandtl number; porosity: share beta of gas.
-
     Source: Gedeon and Wood, NASA CR-198442 (1996), not held against the print: a public program has their friction as
     here and (1 + 0.64 Pe^0.72) in this place. Valid: porosity 0.62 to 0.78, 0.45 < Re < 6100.
 
@@ -213,7 +203,6 @@ def screen_mixing(Re: Pure[Scalar], Pr: Pure, porosity: Pure) -> Pure[Scalar]:
     .. math:: N_k = 0.73 + 0.50\,Pe^{0.62}\,\beta^{-2.91}
 
     Re, Pr, porosity: as for `screen_nusselt`. Returns N_k: of the free area.
-
     Source: Gedeon and Wood, NASA CR-198442 (1996), the third of the laws taken from the same runs. Valid: as there.
 
     >>> round(float(screen_mixing(100.0, 0.7, 0.7)), 1)
@@ -228,7 +217,6 @@ def screen_conductivity(gas: Conductivity, wire: Conductivity, porosity: Pure) -
     .. math:: k = k_g \left(\frac{k_w}{k_g}\right)^{(1 - \beta)^{0.59}}
 
     gas, wire: conductivities of both; porosity: share beta of gas.
-
     Source: B. F. Alexander, thesis, Catholic University of America (1972). Valid: screens pressed on each other.
 
     >>> round(screen_conductivity(0.25, 20.0, 0.7), 3)
@@ -244,7 +232,6 @@ def regenerator_effectiveness(ntu: Pure) -> Pure:
 
     ntu: transfer units of matrix to matrix, half of those of one blow. Returns effectiveness: share of the heat that
     comes back.
-
     Source: Kays and London (1964), balanced counter flow; Urieli and Berchowitz (1984), section 5.2. Valid: heat
     capacity of the matrix large against that of the gas of a blow.
 
@@ -260,7 +247,6 @@ def along_matrix(k: Conductivity, area: Annotated[float, "m^2"], length: Metre, 
     .. math:: \dot Q = k A\,\Delta T / L
 
     k, area: conductivity and the area that it counts for; dT: difference of temperature of the ends.
-
     Source: Fourier's law. Valid: straight profile of temperature.
 
     >>> round(along_matrix(2.2, 0.0032, 0.0226, 543.0), 1)

@@ -20,7 +20,6 @@ def shuttle_loss(
 
     stroke, gap, length, bore: stroke s, radial gap, length of the part with the fall of temperature, diameter D; k:
     conductivity of the gas in the gap; dT: difference of temperature of the ends.
-
     Source: W. R. Martini, Stirling Engine Design Manual, 2nd ed., NASA CR-168088 (1983), section 5.4, after Zimmerman
     and Longsworth (factor 0.4 there; pi/8 for a sinusoidal stroke). Valid: walls that keep their temperature, gap small
     against the bore.
@@ -41,7 +40,6 @@ def gap_enthalpy_loss(
 
     work: mean over a turn of pressure times speed of the dome; gap, bore: radial gap delta, diameter D; gamma: ratio of
     the heat capacities; T_hot, T_cold: at the ends of the gap. Returns heat: negative where the hot space takes work.
-
     Source: P. A. Rios, J. Eng. Power 93 (1971) 177, in the form of I. Urieli, D. M. Berchowitz, Stirling Cycle Engine
     Analysis (1984), chapter 7 (there with pressure and stroke as sines, phi apart). Valid: gas at the temperature of
     the walls beside it, walls that keep theirs (the term of their conduction is below 2 % for steel).
@@ -70,9 +68,8 @@ def pumping_loss(
 
     swing: largest less smallest pressure; frequency: turns by second; gap, length, bore: radial gap, its length,
     diameter; k: conductivity of the gas in the gap; gamma: ratio of the heat capacities; T_hot, T_cold: at its ends.
-
-    Source: B. Leo (1970), as in W. R. Martini, Stirling Engine Design Manual, 2nd ed., NASA CR-168088 (1983).
-    Valid: gas that nearly follows the walls, gap closed at its cold end.
+    Source: B. Leo (1970), as in W. R. Martini, Stirling Engine Design Manual, 2nd ed., NASA CR-168088 (1983). Valid:
+    gas that nearly follows the walls, gap closed at its cold end.
 
     >>> round(pumping_loss(2.8e6, 41.7, 0.00028, 0.0436, 0.07, 0.25, 5 / 3, 900.0, 340.0), 1)
     20.8
@@ -90,9 +87,8 @@ def leakage_loss(dp_squared: Annotated[float, "Pa^2"], gap: Metre, length: Metre
 
     dp_squared: mean of the squared difference of pressure over a turn; gap, length, bore: radial gap, length of the
     seal, diameter; mu: viscosity. Returns loss: flow times difference of pressure.
-
-    Source: laminar flow between plates (Poiseuille). Valid: gap * rho * speed/mu < 1000, gap small against the
-    bore; the same gas comes back in the other half of the turn.
+    Source: laminar flow between plates (Poiseuille). Valid: gap * rho * speed/mu < 1000, gap small against the bore;
+    the same gas comes back in the other half of the turn.
 
     >>> round(leakage_loss(1e12, 10e-6, 0.02, 0.07, 2e-5), 1)
     45.8
@@ -108,7 +104,6 @@ def seal_flow(
     .. math:: \dot m = \frac{\pi D \delta^3 \rho\,\Delta p}{12\,\mu\,L}
 
     dp: difference of pressure; gap, length, bore: radial gap, length of the seal, diameter; rho, mu: of the gas there.
-
     Source: laminar flow between plates (Poiseuille). Valid: as `leakage_loss`.
 
     >>> round(seal_flow(1e5, 20e-6, 0.02, 0.07, 6.6, 2e-5) * 1e3, 4)
@@ -123,7 +118,6 @@ def bypass_loss(flow: MassFlow, cp: Annotated[float, "J/(kg*K)"], dT: Kelvin) ->
     .. math:: \dot Q = \tfrac12\,\overline{|\dot m|}\, c_p\,\Delta T
 
     flow: mean of the flow's size over a turn, half of it each way; dT: difference of temperature of the spaces.
-
     Source: first law. Valid: nothing of the heat comes back from the walls of the gap: an upper bound.
 
     >>> round(bypass_loss(1e-4, 5193.0, 550.0), 1)
@@ -139,7 +133,6 @@ def seal_reynolds(dp: Pascal, gap: Metre, length: Metre, rho: Annotated[float, "
 
     dp: difference of pressure; gap, length: radial gap and length of the seal; rho: density of the gas; mu: viscosity.
     Returns Re: with the gap and the mean speed in it.
-
     Source: laminar flow between plates (Poiseuille), mean speed dp gap^2/(12 mu L). Valid: up to about 1000, beyond
     which less flows than the laminar law says.
 
@@ -157,7 +150,6 @@ def lagging_share(Pe: Pure) -> Pure:
 
     Pe: number of Peclet, omega d^2/(4 alpha), d = 4 V/A, above 0. Returns Gamma: the first law, of gas at rest; where
     the second, measured with gas that the motion stirs, is larger (above Pe of 130), that; never above 0.42.
-
     Source: K. P. Lee, IECEC 1983, paper 839116; A. A. Kornhauser, J. L. Smith, J. Heat Transfer 116 (1994) 536, with
     the complex Nusselt number n (1 + i). Valid: small swings of the pressure; the second law is of gas springs.
 
@@ -188,7 +180,6 @@ def hysteresis_loss(
 
     amplitude: half of what the pressure swings; volume, area: mean volume of the space, and its wall; gamma: ratio of
     the heat capacities; alpha: diffusivity of the gas in the space; Gamma is `lagging_share`.
-
     Source: Lee (1983); Kornhauser and Smith (1994). Valid: sinusoidal pressure, amplitude below about a third of the
     mean; the gas that flows in and out is taken to lie at rest in the mean volume.
 

@@ -89,17 +89,13 @@ def scavenging_pressure(p_s: Pascal) -> Pascal:
     .. math:: p_{evc} = 0.9749\,p_s - 0.1029\ \mathrm{bar}
 
     p_s: absolute scavenge pressure. Returns p_evc: absolute pressure in the cylinder.
-
     Source: Shen et al. (2020), fitted to measurements with p_s up to about 4 bar.
     """
     return 0.9749 * p_s - 0.1029e5
 
 
 def back_pressure(cycle: TwoStrokeMarine) -> Pascal:
-    """Absolute pressure under the piston.
-
-    Returns p_back: p_back, or p_s for `crank_side = "scavenge"`.
-    """
+    """Absolute pressure under the piston. Returns p_back: p_back, or p_s for `crank_side = "scavenge"`."""
     return cycle.p_s if cycle.crank_side == "scavenge" else cycle.p_back
 
 
@@ -121,10 +117,9 @@ def events(cycle: TwoStrokeMarine) -> dict[str, Radian]:
 def kinks(cycle: TwoStrokeMarine) -> tuple[Radian, ...]:
     """Crank angles where the pressure is not smooth.
 
-    Returns angles: start of combustion, EVO, SPO and EVC, ascending in [0, 2 pi).
-
-    At the start of combustion the slope is continuous but not the curvature (m_d < 1 even makes it infinite). The
-    nominal end of combustion and the closing of the ports leave no kink.
+    Returns angles: start of combustion, EVO, SPO and EVC, ascending in [0, 2 pi). At the start of combustion the slope
+    is continuous but not the curvature (m_d < 1 even makes it infinite). The nominal end of combustion and the closing
+    of the ports leave no kink.
     """
     return tuple(sorted(float(wrapped(a, 2 * math.pi)) for a in (cycle.evc, cycle.soc, cycle.evo, cycle.spo)))
 
@@ -134,10 +129,9 @@ def absolute_pressure(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: Pure) ->
 
     .. math:: p = (1-f)\,p_{comp} + f\,\rho\,p_{comp}(0)\,(V_c/V)^{n_e}
 
-    between EVC and EVO, then a straight line to p_evc at SPO, then p_evc.
-
-    ratio: T_ref / T_comp at top dead centre, 1 without fuel. Returns absolute: callable, ndarray of crank angles, any
-    real [rad], to absolute pressure of the same shape [Pa].
+    between EVC and EVO, then a straight line to p_evc at SPO, then p_evc. ratio: T_ref / T_comp at top dead centre, 1
+    without fuel. Returns absolute: callable, ndarray of crank angles, any real [rad], to absolute pressure of the same
+    shape [Pa].
     """
     v_c, p_evc = cylinder.clearance, scavenging_pressure(cycle.p_s)
     p_comp = p_evc * (float(volume(cylinder, cycle.evc)) / v_c) ** cycle.n_c
@@ -212,9 +206,7 @@ def solve(cycle: TwoStrokeMarine, cylinder: Chamber) -> TwoStrokeState:
     .. math:: p_{mi}(\rho) = p_{mi}(1) + (\rho - 1)\,[p_{mi}(2) - p_{mi}(1)],\quad \rho = T_{ref}/T_{comp}
 
     cylinder: geometry, with the same bore and compression ratio. Returns state: pressures, temperatures and what they
-    mean for the fuel.
-
-    Raises BadInput: the wanted mean pressure is below that of the cycle without fuel.
+    mean for the fuel. Raises BadInput: the wanted mean pressure is below that of the cycle without fuel.
 
     The pressure is linear in p_ref at every angle, so two evaluations close the cycle; a third one corrects round-off.
     """

@@ -207,7 +207,6 @@ def gauge_pressure(z: Metre[Scalar], H: Metre[Scalar], p0: Pascal[Scalar], n: Pu
     .. math:: p = p_0 \left(\frac{H}{H - z}\right)^n
 
     z, H: closing and free height; p0: excess pressure at free height; n: polytropic index.
-
     Source: Zotov et al. (2024), eq. (9).
 
     >>> gauge_pressure(0.5, 1.0, 5e6, 1.0)

@@ -98,11 +98,10 @@ class AirThermal(Spring):
 
         .. math:: p = (p_0 + p_a) \frac{H}{H - z} \frac{T}{T_w} - p_a, \qquad L = -\oint p\,A\,d(H - z) > 0
 
-        z: closing over one period without its end; step: angle from each to the next.
-
-        Small strokes: n* = 1 + (gamma - 1)(x^2 + i x)/(1 + x^2), x = omega tau; loss pi Im(n*) p V (dV/V)^2. In a turn
-        the gas gives as heat what it keeps of the work: slow exchange is summed as heat, where the work would cancel,
-        fast exchange as work, where the difference of temperature would.
+        z: closing over one period without its end; step: angle from each to the next. Small strokes: n* = 1 + (gamma -
+        1)(x^2 + i x)/(1 + x^2), x = omega tau; loss pi Im(n*) p V (dV/V)^2. In a turn the gas gives as heat what it
+        keeps of the work: slow exchange is summed as heat, where the work would cancel, fast exchange as work, where
+        the difference of temperature would.
         """
         height = self.H - z
         x = omega * self.tau
@@ -166,7 +165,6 @@ def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParamete
     """Path on which the gas gives a torque, less the mean that it keeps.
 
     wanted: torque to give at its own speed.
-
     Source: first law of a closed gas with heat flow in proportion to T - T_w, see `gas_heat`. Valid: one temperature in
     the gas, steady running at the speed of the design.
     """

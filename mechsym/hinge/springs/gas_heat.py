@@ -30,7 +30,6 @@ def thermal_pressure(
 
     z, H: closing and free height; p0, pa: excess pressure of the full column at the wall's temperature, and the
     pressure outside.
-
     Source: ideal gas of constant mass.
 
     >>> thermal_pressure(0.5, 1.0, 5e6, 1e5, 1.0)
@@ -46,11 +45,9 @@ def gas_temperature(
 
     .. math:: s_{i+1} = e^{-h/x} s_i + T_w \int V^{\gamma - 1} e^{-(h - t)/x} \frac{dt}{x}, \qquad T = s V^{1 - \gamma}
 
-    with V^(gamma - 1) a straight line over each step: exact in the limits of slow and fast exchange.
-
-    volume: V over one period without its end, in any unit. step: angle from each to the next; the last one closes the
-    period. x: omega tau. gamma: ratio of specific heats.
-
+    with V^(gamma - 1) a straight line over each step: exact in the limits of slow and fast exchange. volume: V over one
+    period without its end, in any unit. step: angle from each to the next; the last one closes the period. x: omega
+    tau. gamma: ratio of specific heats.
     Source: first law of a closed gas with heat flow in proportion to T - T_w. Valid: one temperature in the gas, wall
     of constant temperature, ideal gas.
 

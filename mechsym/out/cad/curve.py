@@ -82,7 +82,6 @@ def track(guide: Guide, rollers: RollerParameters, tolerance: Metre, kinks: Sequ
     """Centre path and walls of a guide within a tolerance.
 
     tolerance: largest distance from the true curve; kinks: angles of the guide's shaft where the curvature jumps.
-
     Raises BadInput: no path, a wall that crosses itself, or a tolerance that rounding does not allow.
     """
     rho = path(guide)

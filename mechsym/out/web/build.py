@@ -24,7 +24,11 @@ from mechsym.quantities.display import chosen
 from mechsym.quantities.results import part, quantity, result
 from mechsym.style import DARK, GRID, QUIET, SERIES, axis_unit
 
-_OPTIONS = ("-target", "wasm32-wasi", "-mexec-model=reactor", "-std=c99", "-O2", "-s", "-ffp-contract=off")
+# without the C library of WASI, which takes half a minute to build for a handful of functions: see math.h
+_OPTIONS = (
+    "-target", "wasm32-freestanding", "-nostdlib", "-fno-builtin", "-mbulk-memory", "-I.", "-std=c99", "-O2", "-s",
+    "-ffp-contract=off", "-Wl,--no-entry",
+)  # fmt: skip
 _FULL = (errno.EAGAIN, errno.ENOMEM)  # no more processes, or no memory for one: of the system, not of the compiler
 # parameters that get a slider, with the range as shares of the start; others have a field
 _SLIDERS = {
@@ -66,7 +70,7 @@ def page(block: Block, scenes: Sequence[Json] = ()) -> str:
 
 
 def webassembly(block: Block) -> bytes:
-    """The module of a block: exports reset, set, get, advance; imports nothing."""
+    """The module of a block: exports reset, set, get, advance; imports what it needs of Math."""
     if importlib.util.find_spec("ziglang") is None:
         raise MissingExtra("a page that simulates needs the extra web: pip install 'mechsym[web]'")
     room = resources.files("mechsym.out")
@@ -74,13 +78,14 @@ def webassembly(block: Block) -> bytes:
         "model.h": model(block),
         "method.h": dop853_numbers() + "\n",
         "core.h": (room / "c" / "core.h").read_text(encoding="utf-8"),
+        "math.h": (room / "web" / "math.h").read_text(encoding="utf-8"),
         "page.c": (room / "web" / "page.c").read_text(encoding="utf-8"),
     }
     forecast(sum(map(len, sources.values())))
     with tempfile.TemporaryDirectory() as folder:
         for name, content in sources.items():
             (Path(folder) / name).write_text(content, encoding="utf-8")
-        command = [sys.executable, "-m", "ziglang", "cc", *_OPTIONS, "page.c", "-o", "page.wasm", "-lm"]
+        command = [sys.executable, "-m", "ziglang", "cc", *_OPTIONS, "page.c", "-o", "page.wasm"]
         made = Path(folder) / "page.wasm"
         try:
             call(command, "the page", made, Path(folder))

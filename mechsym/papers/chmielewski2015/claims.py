@@ -17,10 +17,7 @@ _STEADY = {"phi0dd": 0.0, "c1": 0.0, "F": 0.0, "k1": 0.0}
 
 
 def steady() -> Turn:
-    """A turn at constant speed without twist.
-
-    Returns turn: phi2 and phi0dd of the crank angle.
-    """
+    """A turn at constant speed without twist. Returns turn: phi2 and phi0dd of the crank angle."""
     return {"phi2": np.copy, "phi0dd": np.zeros_like}
 
 

@@ -42,20 +42,14 @@ class WindowSpeeds:
 
 
 def problem(model: str) -> Problem:
-    """The start-up of the case with one of its two models.
-
-    Returns problem: 0 to 100 s, torque step at 1 s.
-    """
+    """The start-up of the case with one of its two models. Returns problem: 0 to 100 s, torque step at 1 s."""
     case = cases.load(CASE)
     return dataclasses.replace(problem_of(case), mechanism=mechanisms.build(model, case.need("parameters")))
 
 
 @cache
 def run(model: str, tolerance: float = 1e-11, backend: str = "auto") -> Result:
-    """One start-up without a second run for comparison.
-
-    tolerance: of a step [-].
-    """
+    """One start-up without a second run for comparison. tolerance: of a step [-]."""
     return simulate(problem(model), Settings(tolerance=tolerance, backend=backend, check="none"))
 
 
@@ -93,10 +87,7 @@ def mean_speed(t: np.ndarray, angle: np.ndarray, since: float, until: float = np
 
 
 def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) -> WindowSpeeds:
-    """How fast a run turns at its end.
-
-    t: times [s]; speed: crank speed [rad/s]; residual: energy residual [-].
-    """
+    """How fast a run turns at its end. t: times [s]; speed: crank speed [rad/s]; residual: energy residual [-]."""
     end = speed[t >= t[-1] - 2]
     return WindowSpeeds(
         name=name, mean=float(end.mean()), lowest=float(end.min()), highest=float(end.max()), energy_residual=residual
@@ -183,10 +174,7 @@ def mixed_model_energy() -> np.ndarray:
 
 @cache
 def convergence() -> dict[str, tuple[Reached, ...]]:
-    """Both models along `SWEEP`.
-
-    Returns study: model to one entry per run.
-    """
+    """Both models along `SWEEP`. Returns study: model to one entry per run."""
     return {model: tuple(_adaptive(model, tol, backend) for backend, tol in SWEEP) for model in (EXACT, PRINTED)}
 
 

@@ -101,10 +101,7 @@ def chapter4() -> Chapter4:
 
 
 def area_printed(chapter: Chapter4) -> float:
-    """Area of a piston as table 3.2 prints it, ten times too large.
-
-    Returns area: 0.02827 for 0.002827 [m^2].
-    """
+    """Area of a piston as table 3.2 prints it, ten times too large. Returns area: 0.02827 for 0.002827 [m^2]."""
     return float(np.round(10 * chapter.area, 5))
 
 
@@ -118,10 +115,7 @@ def _allowed(field: str) -> float:
 
 
 def load_distribution_printed(member: int) -> float:
-    """K_m of table 4.10.
-
-    Returns K_m: 1.2537 and 1.1349 [-].
-    """
+    """K_m of table 4.10. Returns K_m: 1.2537 and 1.1349 [-]."""
     d, C_pm = (D_PINION, 1.1) if member == 1 else (D_RING, 1.0)
     return gear_factors.load_distribution_factor(WIDEST, d, C_pm, "extra-precision", 0.8)
 

@@ -143,10 +143,7 @@ def crossover() -> Decided:
 
 
 def net_pressure() -> Decided:
-    """Absolute pressure as net pressure.
-
-    Returns decided: with the atmosphere on the piston's back.
-    """
+    """Absolute pressure as net pressure. Returns decided: with the atmosphere on the piston's back."""
     costs = errata.back_pressure()
     surplus, force = costs["surplus_force"], peaks().F
     note = (
@@ -239,10 +236,7 @@ def cylinder_length() -> Decided:
 
 
 def bolts() -> Decided:
-    """The stress in the core of five M10 bolts.
-
-    Returns decided: above the range of the rule.
-    """
+    """The stress in the core of five M10 bolts. Returns decided: above the range of the rule."""
     pressure = peaks().p
     root = bolt.root_diameter(10)
     stress = bolt.bolt_stress(pressure, _B, 5, root) / 1e6

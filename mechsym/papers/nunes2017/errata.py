@@ -27,10 +27,7 @@ _RECIPROCATING = 0.2947 + (0.4159 - 2 * 0.0908) + 0.050
 
 
 def errata() -> dict[str, dict[str, float]]:
-    """All figures by erratum.
-
-    Returns errata: `E2`, `E3`, .. to name and value; units stand in the names.
-    """
+    """All figures by erratum. Returns errata: `E2`, `E3`, .. to name and value; units stand in the names."""
     functions: dict[str, Callable[[], dict[str, float]]] = {
         "E2": one_piston, "E3": unburnt_share, "E4": vapour_energy, "E5": lost_burn, "E6": averages,
         "E7": engine_torque, "E8": rod_length, "E20": reciprocating_mass, "E23": back_pressure,

@@ -21,10 +21,7 @@ def gas_force() -> Turn:
 
 
 def loads() -> Turn:
-    """Piston force and load torque over a turn, at 89 rpm.
-
-    Returns turn: F and M_r of the crank angle, M_h = 0.
-    """
+    """Piston force and load torque over a turn, at 89 rpm. Returns turn: F and M_r of the crank angle, M_h = 0."""
     engines = computed.engines()
     load = engines.hinges[0].load_torque
     return {"F": gas_of(engines.machines[0]).force, "M_r": lambda phi: np.full_like(phi, load), "M_h": np.zeros_like}

@@ -118,10 +118,7 @@ def peak(wanted: Hinge) -> float:
 
 
 def retuned(pressure: float) -> Retuning:
-    """The guide of 89 rpm with another pressure at 142 rpm.
-
-    pressure: excess pressure p0 [Pa].
-    """
+    """The guide of 89 rpm with another pressure at 142 rpm. pressure: excess pressure p0 [Pa]."""
     both = engines()
     return at_setting(both.cut, both.hinges[1], pressure)
 
@@ -177,8 +174,5 @@ def departure(cut: Guide) -> float:
 
 
 def distances(cut: Guide) -> np.ndarray:
-    """Distances of the roller centres from the axis around a turn [m].
-
-    cut: a guide that could be cut.
-    """
+    """Distances of the roller centres from the axis around a turn [m]. cut: a guide that could be cut."""
     return guide.path(cut)(np.linspace(0, 2 * np.pi, 1441))

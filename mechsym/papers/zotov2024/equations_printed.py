@@ -36,7 +36,6 @@ def dinertia_dphi_printed(p: CrossheadLetters, phi: Array) -> Array:
     """Derivative of the reduced inertia as printed below equation (7).
 
     phi: crank angle [rad]. Returns slope: derivative by phi [kg*m^2/rad].
-
     Source: Zotov et al. (2024), below eq. (7); consistent with the printed sign in (2).
     """
     r, l, lam = _lengths(p)
@@ -55,7 +54,6 @@ def dx_dphi_printed(p: CrossheadLetters, phi: Array) -> Array:
     .. math:: dx/d\varphi \approx r\sin\varphi + \tfrac12 l\lambda^2\sin 2\varphi
 
     phi: crank angle [rad]. Returns slope: derivative of the travel [m/rad].
-
     Source: Zotov et al. (2024), below eq. (3).
     """
     r, l, lam = _lengths(p)
@@ -68,7 +66,6 @@ def cos_psi_printed(p: CrossheadLetters, phi: Array) -> Array:
     .. math:: \cos\psi \approx 1 - \lambda^2/4 + (\lambda^2/4)\cos 2\varphi
 
     phi: crank angle [rad]. Returns cos_psi: cosine [-].
-
     Source: Zotov et al. (2024), below eq. (3).
     """
     lam = _lengths(p)[2]
@@ -81,7 +78,6 @@ def gravity_torque_printed(p: CrossheadLetters, phi: Array) -> Array:
     .. math:: -P_1 r_1\cos\varphi - P_2 l_2\cos\psi\,\frac{\lambda\cos\varphi}{\sqrt{1-\lambda^2\sin^2\varphi}}
 
     phi: crank angle [rad]. Returns torque: generalised force of the weights [N*m].
-
     Source: Zotov et al. (2024), eq. (6).
     """
     lam = _lengths(p)[2]
@@ -96,7 +92,6 @@ def load_torque_printed(p: CrossheadLetters, force: np.ndarray, phi: np.ndarray)
 
     force: net force on the piston at even crank angles over a turn, without its end [N]; phi: these angles [rad].
     Returns M_r: load torque [N*m].
-
     Source: Zotov et al. (2024), eqs. (4) and (5).
     """
     return float(np.mean(force * dx_dphi_printed(p, phi)))
@@ -112,7 +107,6 @@ def hinge_torque_printed(
 
     p: engine, lying down as in the paper; omega: crank speed [rad/s]; force: net force on the piston [N]; load_torque:
     m_r [N*m]; phi: crank angle [rad]. Returns M_h: torque of the hinge on the crank [N*m].
-
     Source: Zotov et al. (2024), eq. (8); its derivative of the inertia is printed below eq. (7).
     """
     slope = dinertia_dphi_printed(p, phi)

@@ -36,10 +36,7 @@ _PLAY = 1e-6  # what a pitch radius may be off [m]
 
 
 def check_all(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> list[Check]:
-    """Every check of the engine.
-
-    Returns checks: from the piston to the bearings.
-    """
+    """Every check of the engine. Returns checks: from the piston to the bearings."""
     used = {
         place: stock.material(getattr(wants, place)) for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")
     }

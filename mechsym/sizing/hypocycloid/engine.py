@@ -126,10 +126,7 @@ def shaft_length(parts: Parts, stock: Stock) -> Metre:
 
 
 def shaft(parts: Parts, stock: Stock) -> Shaft:
-    """Half the crankshaft as a beam.
-
-    Returns shaft: the seat of the inner journal lies symmetrically about it.
-    """
+    """Half the crankshaft as a beam. Returns shaft: the seat of the inner journal lies symmetrically about it."""
     z, crank = spans(parts, stock), parts.crank
     seat_end = 2 * z.inner - crank.pin_length / 2 - crank.web
     thin = parts.gears.pinion_bore or crank.shaft

@@ -68,10 +68,7 @@ def moving_printed(printed: PrintedMasses, stock: Stock) -> Moving:
 
 
 def moving(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> Moving:
-    """Moving masses of sized parts.
-
-    Returns moving: masses that the dynamics must use.
-    """
+    """Moving masses of sized parts. Returns moving: masses that the dynamics must use."""
     part = part_masses(parts, printed, wants, stock)
     pin, web, shaft, outward = _crankshaft(parts, printed.e, wants, stock)
     places = chosen(parts.bearings, stock)
@@ -87,10 +84,7 @@ def moving(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> 
 
 
 def part_masses(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock) -> dict[str, tuple[float, int]]:
-    """Mass and number of every part of the engine.
-
-    Returns masses: part to mass [kg] and number [-].
-    """
+    """Mass and number of every part of the engine. Returns masses: part to mass [kg] and number [-]."""
     ref, base, rho = printed.masses, printed.parts, _densities(wants, stock)
     pin, web, shaft, outward = _crankshaft(parts, printed.e, wants, stock)
     places = chosen(parts.bearings, stock)
@@ -120,10 +114,7 @@ def total_mass(parts: Parts, printed: PrintedMasses, wants: Wants, stock: Stock)
 
 
 def total_mass_printed(printed: PrintedMasses, stock: Stock) -> Kilogram:
-    """Mass of the engine from the printed masses.
-
-    Returns m: 13.4066 kg with the source's numbers.
-    """
+    """Mass of the engine from the printed masses. Returns m: 13.4066 kg with the source's numbers."""
     m, places = printed.masses, chosen(printed.parts.bearings, stock)
     counts = {"piston": 2, "cylinder": 1, "pinion": 4, "ring": 4, "crankshaft": 2, "output_set": 2, "support_set": 2,
               "crankcases": 2}  # fmt: skip

@@ -53,10 +53,8 @@ class Bearing:
 def catalogue(extra: str | Path | None = None) -> dict[str, Bearing]:
     """The built-in bearings, and those of a CSV file with the same columns.
 
-    extra: file with more bearings; a designation that exists already is replaced.
-
-    Raises BadInput: file not readable, a column missing or not known, a value out of range.
-
+    extra: file with more bearings; a designation that exists already is replaced. Raises BadInput: file not readable, a
+    column missing or not known, a value out of range.
     Source: Nunes (2017), table 4.16, and what `bearings.csv` names.
 
     >>> catalogue()["6013 M"].C
@@ -97,7 +95,6 @@ def life_exponent(kind: str) -> Pure:
     """Exponent of the life equation.
 
     Returns p: 3 for balls, 10/3 for rollers.
-
     Source: ISO 281.
 
     >>> life_exponent("ball")
@@ -113,7 +110,6 @@ def equivalent_load(F: Newton[Array], kind: str, turns: Radian[Array] | None = N
 
     F: radial load at equal steps over a period, shape (..., n); turns: turning of the bearing in each step, equal when
     not given. Returns P: equivalent dynamic load, shape (...).
-
     Source: ISO 281 with the linear damage rule. Valid: pure radial load.
 
     Half of the turns at 8 kN, half unloaded, in a ball bearing: 8 / 2^(1/3).
@@ -133,7 +129,6 @@ def set_rating(C: Newton, count: int, kind: str) -> Newton:
     .. math:: C_i = i^{7/9}\,C \quad\text{(rollers)}, \qquad i^{0.7}\,C \quad\text{(balls)}
 
     C: rating of one bearing. Returns C_i: rating of the set.
-
     Source: ISO 281, clauses 5.1.2 and 7.1.2. Print: Nunes (2017), ch. 4.8, adds the dynamic ratings (30.2 kN for two).
 
     >>> f"{set_rating(15100.0, 2, 'drawn-cup'):.0f}"
@@ -150,7 +145,6 @@ def life_revolutions(C: Newton, P: Newton[Scalar], kind: str, reliability: Pure 
 
     C: dynamic rating; P: equivalent load, at most C / 2 for the life to be meant literally; reliability: 0.90, 0.95,
     0.96, 0.97, 0.98 or 0.99. Returns L: revolutions that this share of bearings survives.
-
     Source: ISO 281:2007, table 12 for a_1.
 
     Shigley, problem 11-3 (8th ed.): 10.279 kN for 1440e6 revolutions needs C = 91.1 kN in a roller bearing.
@@ -170,7 +164,6 @@ def required_rating(P: Newton, revolutions: Pure, kind: str) -> Newton:
     .. math:: C = P\,(L/10^6)^{1/p}
 
     P: equivalent load.
-
     Source: ISO 281.
 
     >>> f"{required_rating(10.279e3, 1440e6, 'roller') / 1e3:.1f}"  # Shigley, problem 11-3 (8th ed.)
@@ -187,7 +180,6 @@ def life_hours(revolutions: Pure[Scalar], omega: RadPerSecond[Scalar]) -> Annota
     .. math:: L_h = \frac{2\pi L}{3600\,|\omega|}
 
     omega: speed of one ring relative to the other.
-
     Source: ISO 281.
 
     >>> f"{life_hours(540e6, 300 * 2 * np.pi / 60):.0f}"  # Shigley, problem 11-1 (8th ed.): 30000 h

@@ -38,7 +38,6 @@ def slider_crank_chain(F: Newton[Array], theta: Radian[Array], r: Metre, l: Metr
 
     F: force on the piston pin, positive away from the head, shape (k, n); theta: crank angle from top dead centre; r,
     l: crank radius and rod length. Returns chain: `rod`, `side`, `tangential`, `radial`, shape (k, n).
-
     Source: Nunes (2017), eqs. 2.65 to 2.67. Valid: r < l.
 
     >>> chain = slider_crank_chain(np.array([[1000.0]]), np.array([np.pi / 2]), 0.026, 0.09)
@@ -62,9 +61,8 @@ def bearing_reaction(F: Newton, d_force: Metre, d_bearing: Metre) -> Newton:
     .. math:: R = F\,d_{force}/d_{bearing}
 
     d_force: from the other bearing to the load; d_bearing: between the two bearings.
-
-    Source: Nunes (2017), eq. 4.31. Print: F = 27410 N has two digits exchanged; it is 27140 N, R = 13570 N.
-    Valid: two bearings, each free to tilt, all loads in one plane.
+    Source: Nunes (2017), eq. 4.31. Print: F = 27410 N has two digits exchanged; it is 27140 N, R = 13570 N. Valid: two
+    bearings, each free to tilt, all loads in one plane.
 
     >>> bearing_reaction(27140.0, 0.043, 0.086)
     13570.0
@@ -80,7 +78,6 @@ def crankpin_diameter(R: Newton, arm: Metre, sigma_b: Pascal) -> Metre:
     .. math:: d = \sqrt[3]{\frac{32 R\,a}{\pi\sigma_b}}
 
     R: reaction at the bearing; arm: from the bearing to the middle of the pin; sigma_b: allowable bending stress.
-
     Source: Nunes (2017), eq. 4.32. Valid: crank at dead centre, no torsion in the pin.
 
     >>> [f"{crankpin_diameter(F / 2, 0.043, 454.7125e6) * 1e3:.2f}" for F in (27410.0, 27140.0)]
@@ -98,7 +95,6 @@ def web_width(d_pin: Metre) -> Metre:
     .. math:: w = 1.125\,d + 12.7\,\mathrm{mm}
 
     d_pin: diameter of the crankpin.
-
     Source: Nunes (2017), eq. 4.33. Valid: a start for small forged crankshafts; the stress decides (`web_stress`).
 
     >>> f"{web_width(0.025) * 1e3:.2f}"
@@ -115,10 +111,9 @@ def web_stress(R: Newton, arm: Metre, l_pin: Metre, t: Metre, w: Metre) -> Pasca
 
     R: reaction at the bearing; arm: from the bearing to the middle of the pin; l_pin: length of the crankpin; t, w:
     thickness and width of the web.
-
     Source: Nunes (2017), eq. 4.34. Print: 118.074 MPa holds for F = 27410 N and w = 65 mm; the printed mass of the
-    crankshaft leaves webs of 614 mm2: the outline of pin and shaft (`masses.web_outline`), not a disc of 65 mm.
-    Valid: crank at dead centre, rectangular web, fillets without effect.
+    crankshaft leaves webs of 614 mm2: the outline of pin and shaft (`masses.web_outline`), not a disc of 65 mm. Valid:
+    crank at dead centre, rectangular web, fillets without effect.
 
     >>> f"{web_stress(27410.0 / 2, 0.043, 0.034, 0.015, 0.065) / 1e6:.3f}"
     '118.074'
@@ -135,9 +130,8 @@ def shaft_diameter(T: NewtonMetre, tau: Pascal) -> Metre:
     .. math:: d = \sqrt[3]{\frac{16 T}{\pi\tau}}
 
     T: largest torque; tau: allowable shear stress.
-
-    Source: Nunes (2017), eq. 4.35. Print: 7.82 mm is not what 243.6 N.m and 1250/1.5 MPa give; 78.2 N.m would.
-    Valid: round solid shaft, torsion alone, elastic.
+    Source: Nunes (2017), eq. 4.35. Print: 7.82 mm is not what 243.6 N.m and 1250/1.5 MPa give; 78.2 N.m would. Valid:
+    round solid shaft, torsion alone, elastic.
 
     >>> [f"{shaft_diameter(T, 1250e6 / 1.5) * 1e3:.2f}" for T in (243.6, 78.2)]
     ['11.42', '7.82']
@@ -153,7 +147,6 @@ def bending_stress(M: NewtonMetre[Scalar], d: Metre) -> Pascal[Scalar]:
     .. math:: \sigma = \frac{32 M}{\pi d^3}
 
     M: bending moment; d: diameter. Returns sigma: stress at the surface.
-
     Source: beam theory; eq. 4.32 of Nunes (2017) solved for the stress. Valid: round solid section, elastic.
 
     >>> f"{bending_stress(13570 * 0.043, 0.025) / 1e6:.1f}"
@@ -169,7 +162,6 @@ def torsion_stress(T: NewtonMetre[Scalar], d: Metre) -> Pascal[Scalar]:
     .. math:: \tau = \frac{16 T}{\pi d^3}
 
     d: diameter. Returns tau: stress at the surface.
-
     Source: eq. 4.35 of Nunes (2017) solved for the stress: his 8 mm shaft has 2423 MPa against 1250 MPa ultimate.
     Valid: round solid section, elastic.
 
@@ -186,7 +178,6 @@ def specific_pressure(F: Newton, length: Metre, width: Metre) -> Pascal:
     .. math:: p = \frac{F}{l\,b}
 
     F: largest load; length, width: length, and diameter of a pin or width of a shoe. Returns p: specific pressure.
-
     Source: definition; usual limits after K. Maass, H. Klier, Kraefte, Momente und deren Ausgleich in der
     Verbrennungskraftmaschine (1981), and Woodyard, Pounder's Marine Diesel Engines (2009), ch. 9. Valid: load spread
     over the whole length.
@@ -209,10 +200,9 @@ def squeeze_time(
 
     arc: angle of the bearing shell that carries; mu: viscosity of the oil; h_1, h_2: film at the start and at the end,
     h_1 above h_2.
-
     Source: O. Reynolds (1886), parallel plates l by b; k for the oil that leaves at the ends: Poisson's equation on a
-    rectangle, D. F. Hays, J. Basic Eng. 83 (1961) 579; 1 for a long pin, 0.42 for l = b. Valid: film even over the
-    arc (clearance small against h_2: a pin in a wider shell is squeezed sooner), rigid surfaces.
+    rectangle, D. F. Hays, J. Basic Eng. 83 (1961) 579; 1 for a long pin, 0.42 for l = b. Valid: film even over the arc
+    (clearance small against h_2: a pin in a wider shell is squeezed sooner), rigid surfaces.
 
     >>> round(squeeze_time(500e3, 0.3, 0.2, 2.0, 0.03, 60e-6, 10e-6), 3)
     0.411
@@ -232,7 +222,6 @@ def rectangle_stress(moment: NewtonMetre, F: Newton, width: Metre, thickness: Me
 
     moment: bending moment about the web's weak axis. F: force along the web. width, thickness: section: w across, t
     along the shaft. Returns sigma: nominal stress.
-
     Source: beam theory; R. S. Khurmi, J. K. Gupta, A Textbook of Machine Design (2005), ch. 32. Valid: fillets are left
     out, so the wanted factor must hold their notch effect.
 
@@ -251,7 +240,6 @@ def wear_index(p: Pascal[Array], sliding: MetrePerSecond[Array], phi: Radian[Arr
 
     p: specific pressure over the turn; phi: crank angles of a whole turn, first and last point the same. Returns index:
     mean product; wear of a given pair grows with it and the hours.
-
     Source: J. F. Archard, J. Appl. Phys. 24 (1953) 981: worn depth is k p s. Valid for comparing designs of the same
     pair and lubrication.
 

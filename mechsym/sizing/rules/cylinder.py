@@ -24,7 +24,6 @@ def wall_thickness(p: Pascal, B: Metre, sigma_c: Pascal, reboring: Metre) -> Met
 
     p: largest pressure. B: bore. sigma_c: allowable hoop stress, 35 to 100 MPa. reboring: allowance C: thickness of a
     dry liner, 0.03 to 0.035 of the bore.
-
     Source: Nunes (2017), eqs. 4.13 and 4.14.
 
     >>> f"{wall_thickness(9.604e6, 0.060, 52.5e6, 0.002) * 1e3:.2f}"
@@ -43,7 +42,6 @@ def hoop_stress(p: Pascal, B: Metre, t: Metre) -> Pascal:
     .. math:: \sigma = \frac{p B}{2 t}
 
     B: bore; t: thickness that bears, without the reboring allowance.
-
     Source: Nunes (2017), eq. 4.13 solved for the stress. Valid: t < B / 4; the thin-wall stress is the mean over it.
 
     >>> f"{hoop_stress(9.604e6, 0.060, 0.0055) / 1e6:.1f}"
@@ -59,7 +57,6 @@ def flange_range(t_cw: Metre) -> tuple[Metre, Metre]:
     .. math:: 1.2\,t_{cw} \le t_f \le 1.4\,t_{cw}
 
     t_cw: thickness of the wall. Returns low, high: range.
-
     Source: Nunes (2017), ch. 4.3 (Khurmi and Gupta).
 
     >>> [f"{t * 1e3:.1f}" for t in flange_range(0.0075)]
@@ -75,7 +72,6 @@ def tdc_gap(V_c: Volume, A: Area) -> Metre:
     .. math:: d_{TDC} = V_c / A
 
     V_c: clearance volume of the cylinder; A: area of the bore.
-
     Source: Nunes (2017), eq. 4.15. Print: 1.2 mm comes from an area ten times too large (table 3.2); it is 11.56 mm.
 
     >>> [f"{tdc_gap(3.2673e-5, A) * 1e3:.2f}" for A in (0.02827, 0.0028274)]
@@ -93,7 +89,6 @@ def cylinder_length(d_TDC: Metre, L_piston: Metre, stroke: Metre) -> Metre:
 
     d_TDC: distance between the heads at top dead centre; L_piston: height of a piston head; stroke: stroke s of one
     piston, half the source's S.
-
     Source: Nunes (2017), eqs. 4.16 and 4.17. Print: 169.4 mm follows from the wrong gap; it is 179.8 mm.
 
     >>> [f"{cylinder_length(gap, 0.0243, 0.052) * 1e3:.1f}" for gap in (0.0011558, 0.0115556)]
@@ -117,7 +112,6 @@ def core_diameter(p: Pascal, B: Metre, n_bolts: int, sigma: Pascal) -> Metre:
 
     p: largest pressure. B: bore. n_bolts: number of bolts; 0.01 B/mm + 4 to 0.02 B/mm + 4 is usual. sigma: allowable
     tensile stress, 35 to 70 MPa.
-
     Source: Nunes (2017), eq. 4.18. Print: the source takes it for the nominal diameter and chooses M10.
 
     >>> [f"{core_diameter(9.604e6, 0.060, 5, s) * 1e3:.2f}" for s in (70e6, 35e6)]
@@ -135,7 +129,6 @@ def bolt_stress(p: Pascal, B: Metre, n_bolts: int, d_c: Metre) -> Pascal:
     .. math:: \sigma = \frac{B^2 p}{n\,d_c^2}
 
     B: bore; d_c: core diameter. Returns sigma: stress, without preload.
-
     Source: Nunes (2017), eq. 4.18 solved for the stress.
 
     >>> f"{bolt_stress(9.604e6, 0.060, 5, root_diameter(10)) / 1e6:.0f}"
@@ -150,10 +143,7 @@ def root_diameter(nominal_mm: int) -> Metre:
 
     .. math:: d_3 = d - 1.226869\,P
 
-    nominal_mm: nominal diameter d of the thread [mm].
-
-    Raises BadInput: no coarse thread of that size.
-
+    nominal_mm: nominal diameter d of the thread [mm]. Raises BadInput: no coarse thread of that size.
     Source: ISO 724.
 
     >>> f"{root_diameter(10) * 1e3:.3f}"
@@ -167,10 +157,8 @@ def root_diameter(nominal_mm: int) -> Metre:
 def thread_for(d_c: Metre) -> int:
     """Smallest standard thread whose root is not thinner than asked.
 
-    d_c: core diameter needed. Returns nominal_mm: nominal diameter of the thread [mm].
-
-    Raises BadInput: thicker than the largest thread in the list.
-
+    d_c: core diameter needed. Returns nominal_mm: nominal diameter of the thread [mm]. Raises BadInput: thicker than
+    the largest thread in the list.
     Source: ISO 261 and 724.
 
     >>> thread_for(9.94e-3), thread_for(14.06e-3)

@@ -24,14 +24,12 @@ def endurance_limit(S_ut: Pascal, d: Metre, surface: str) -> Pascal:
 
     .. math:: S_e = k_a k_b \min(0.5\,S_{ut}, 700\,\mathrm{MPa}), \quad k_a = a (S_{ut}/\mathrm{MPa})^b
 
-    with k_b = (d/7.62 mm)^-0.107 up to 51 mm, 1.51 (d/mm)^-0.157 above, and at most 1.
-
-    S_ut: ultimate strength, up to 2400 MPa; d: diameter, up to 254 mm.
-
+    with k_b = (d/7.62 mm)^-0.107 up to 51 mm, 1.51 (d/mm)^-0.157 above, and at most 1. S_ut: ultimate strength, up to
+    2400 MPa; d: diameter, up to 254 mm.
     Source: Shigley, eqs. 6-8, 6-18 to 6-20. Valid: steels, 50 % reliability, room temperature.
 
-    Shigley, example 7-1: k_a = 0.787, k_b = 0.870 and S_ut = 105 kpsi give 35.95 kpsi
-    before the reliability; the factors unrounded give 35.99.
+    Shigley, example 7-1: k_a = 0.787, k_b = 0.870 and S_ut = 105 kpsi give 35.95 kpsi before the reliability; the
+    factors unrounded give 35.99.
 
     >>> f"{endurance_limit(105 * 6.894757e6, 1.1 * 0.0254, 'machined') / 6.894757e6:.1f}"
     '36.0'
@@ -52,7 +50,6 @@ def fillet_factor_bending(r: Metre, d: Metre, D: Metre) -> Pure:
 
     r: radius of the fillet, 0.01 to 0.3 of d; d, D: smaller and larger diameter. Returns K_t: factor; used for K_f,
     which is on the safe side.
-
     Source: Norton's fit of Peterson's chart; D/d is taken at the next larger line of the chart, above 3 as 3.
 
     >>> f"{fillet_factor_bending(0.11, 1.1, 1.65):.2f}"  # Shigley, example 7-1, reads 1.68
@@ -67,7 +64,6 @@ def fillet_factor_torsion(r: Metre, d: Metre, D: Metre) -> Pure:
     .. math:: K_{ts} = A (r/d)^b
 
     r: radius of the fillet, 0.01 to 0.3 of d; d, D: smaller and larger diameter. Returns K_ts: factor; used for K_fs.
-
     Source: Norton's fit of Peterson's chart; D/d is taken at the next larger line of the chart, above 2 as 2.
 
     >>> f"{fillet_factor_torsion(0.11, 1.1, 1.33 * 1.1):.2f}"  # Shigley, example 7-1, reads 1.42
@@ -83,7 +79,6 @@ def stress_cycle(stress: Pascal[Array]) -> tuple[Pascal[Array], Pascal[Array]]:
 
     stress: signed stress over a period, shape (..., n). Returns amplitude, mean: of the largest cycle in the history,
     shape (...).
-
     Source: Shigley, eq. 6-36. The largest cycle of a period decides infinite life; smaller ones lie inside it.
 
     >>> [float(x) for x in stress_cycle(np.array([0.0, 3.0, -1.0]))]
@@ -101,7 +96,6 @@ def goodman_factor(sigma_a: Pascal[Scalar], sigma_m: Pascal[Scalar], S_e: Pascal
 
     sigma_a, sigma_m: amplitude and mean of the equivalent stress, notches included; a mean of compression counts as 0.
     S_e: endurance limit. S_ut: ultimate strength. Returns n: safety factor against load, both parts growing alike.
-
     Source: Shigley, eqs. 6-46 and 7-7 (DE-Goodman).
 
     Shigley, problem 7-1 (8th ed.), d = 1.073 in for n = 2: both parts as 16/(pi d^3) times 2920 and 2391 lbf.in.
@@ -131,7 +125,6 @@ def shaft_diameter_goodman(
 
     moments: M_a, M_m, T_a, T_m: amplitude and mean of bending moment and torque. S_e, S_ut: endurance limit and
     ultimate strength. n: wanted safety factor. K_f, K_fs: notch factors in bending and torsion.
-
     Source: Shigley, eq. 7-8 (DE-Goodman).
 
     Shigley, problem 7-1 (8th ed.): d = 1.073 in (in pounds and inches).

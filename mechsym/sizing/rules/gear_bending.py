@@ -42,10 +42,8 @@ def bending_geometry_factor(pair: Pair, member: int) -> Pure:
               Y = \left[\frac{\cos\varphi_L}{\cos\varphi}\left(\frac{6 h_F}{s_F^2}
                   - \frac{\tan\varphi_L}{s_F}\right)\right]^{-1}
 
-    pair: the pair; a ring gear counts as an external gear of the same teeth, which is on the safe side.
-
-    Raises BadInput: Contact ratio outside 1 to 2, or no critical section in the fillet (undercut or pointed tooth).
-
+    pair: the pair; a ring gear counts as an external gear of the same teeth, which is on the safe side. Raises
+    BadInput: Contact ratio outside 1 to 2, or no critical section in the fillet (undercut or pointed tooth).
     Source: AGMA 908-B89, section 5 (spur gears, m_N = 1, C_psi = K_psi = 1).
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
@@ -70,7 +68,6 @@ def load_height(pair: Pair, member: int) -> tuple[Radian, Pure]:
 
     Returns phi_L: angle between the load and the tooth's normal; r_L: distance of the load point from the gear's
     centre, in modules.
-
     Source: AGMA 908-B89, section 5 (highest point of single tooth contact).
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
@@ -91,10 +88,8 @@ def critical_section(pair: Pair, member: int) -> tuple[Pure, Pure]:
 
     .. math:: \frac{\mathrm{d}\eta}{\mathrm{d}\xi}\,\xi + 2 (r_L - \eta) = 0
 
-    Returns h_F, s_F: height of the load point above the section, thickness of the section, in modules.
-
-    Raises BadInput: the fillet has no such point.
-
+    Returns h_F, s_F: height of the load point above the section, thickness of the section, in modules. Raises BadInput:
+    the fillet has no such point.
     Source: AGMA 908-B89, section 5. (xi, eta) are half thickness and height of a point of the fillet.
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
@@ -128,7 +123,6 @@ def fillet(pair: Pair, member: int, t: Radian) -> tuple[Pure, Pure]:
 
     t: angle of the contact normal against the tooth's height, 0 at the root to pi/2 - phi at the flank. Returns xi,
     eta: half thickness there and height above the gear's centre, in modules.
-
     Source: rack generation (AGMA 908-B89, section 5): the contact normal passes through the pitch point.
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
@@ -152,7 +146,6 @@ def stress_correction_factor(pair: Pair, member: int) -> Pure:
               \rho_F = \rho_a + \frac{(h - \rho_a)^2}{R + h - \rho_a}
 
     with H = 0.331 - 0.436 phi, L = 0.324 - 0.492 phi, M = 0.261 + 0.545 phi.
-
     Source: AGMA 908-B89, section 5; h is the depth of the tool below the pitch circle.
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
@@ -185,7 +178,6 @@ def table() -> tuple[Json, ...]:
 
     Returns lines: tuple of dict, keys `shift_pinion, teeth_pinion, teeth_gear, I, J_pinion, J_gear` (numbers, None
     where the table marks the pair undercut or pointed) and `reading`.
-
     Source: Nunes (2017), annex A.2 to A.4.
 
     >>> len(table()), sum(line["reading"] == "clear" for line in table())
@@ -203,10 +195,7 @@ def interpolated(quantity: str, shift: Pure, teeth_1: Pure, teeth_2: Pure) -> Pu
     """A geometry factor by linear interpolation in both tooth numbers, as the source did.
 
     shift: addendum modification of the pinion: 0, 0.25 or 0.5. teeth_1, teeth_2: teeth of pinion and gear, inside the
-    table.
-
-    Raises BadInput: Outside the tables, or next to a pair that they mark undercut or pointed.
-
+    table. Raises BadInput: Outside the tables, or next to a pair that they mark undercut or pointed.
     Source: Nunes (2017), table 4.8: this gives its 18 values.
 
     >>> f"{interpolated('J_pinion', 0.0, 26, 52):.4f}"  # table 4.8

@@ -35,7 +35,6 @@ def accuracy_exponent(A_v: Pure) -> Pure:
     .. math:: B = 0.25\,(A_v - 5)^{0.667}
 
     A_v: transmission accuracy grade, 6 to 12.
-
     Source: Nunes (2017), eq. 4.27 (AGMA 2001-D04). Valid: 6 <= A_v <= 12.
 
     >>> accuracy_exponent(6.0)
@@ -54,10 +53,7 @@ def dynamic_factor(
 
     v: pitch line velocity; of a planet, its speed relative to the carrier. A_v: transmission accuracy grade, 6 to 12.
     feet: feet per minute in one m/s; AGMA 2101-C95 and the text of the source round it to 200. Returns K_v: dynamic
-    factor, at least 1.
-
-    Raises BadInput: faster than the grade allows, v > (C + 14 - A_v)^2 / 200 (eq. 4.29).
-
+    factor, at least 1. Raises BadInput: faster than the grade allows, v > (C + 14 - A_v)^2 / 200 (eq. 4.29).
     Source: Nunes (2017), eqs. 4.25 to 4.29. Print: the text and tables 4.11 and 4.12 use 200, table 4.10 uses 196.85.
 
     >>> f"{dynamic_factor(10.891, 6.0):.4f}"  # table 4.10, pinion at 8000 rpm
@@ -75,10 +71,8 @@ def pinion_proportion_factor(b: Metre, d: Metre) -> Pure:
 
     .. math:: C_{pf} = \max\left(\frac{b}{10 d}, 0.05\right) - 0.025 \quad (b \le 25\,\mathrm{mm})
 
-    and -0.0375 + 0.000492 b (b in mm) in place of -0.025 up to 432 mm.
-
-    b: face width, up to 0.432 m and twice d; d: pitch diameter of the pinion.
-
+    and -0.0375 + 0.000492 b (b in mm) in place of -0.025 up to 432 mm. b: face width, up to 0.432 m and twice d; d:
+    pitch diameter of the pinion.
     Source: Nunes (2017), eqs. 4.22 and 4.23 (AGMA 2101-C95). Valid: b <= 2 d, b <= 0.432 m.
 
     >>> round(pinion_proportion_factor(0.052, 0.026), 6)
@@ -96,7 +90,6 @@ def mesh_alignment_factor(b: Metre, enclosure: str) -> Pure:
     .. math:: C_{ma} = a + b_1\,FW + c\,FW^2
 
     b: face width FW.
-
     Source: Nunes (2017), eq. 4.24 for extra-precision; the other coefficients from AGMA 2101. Valid: b <= 1.02 m.
 
     >>> round(mesh_alignment_factor(0.052, "extra-precision"), 6)
@@ -117,7 +110,6 @@ def load_distribution_factor(b: Metre, d: Metre, C_pm: Pure, enclosure: str, C_e
     b: face width; d: pitch diameter of the pinion; C_pm: 1 when the pinion stands within 0.175 of the bearing span of
     its middle, else 1.1; C_e: 0.8 when adjusted at assembly or lapped, else 1. Returns K_m: factor, the same for both
     members of the mesh.
-
     Source: Nunes (2017), eqs. 4.19 to 4.24 (AGMA 2101-C95). Print: the source gives the ring a K_m of its own, made
     with the ring's diameter; the factor belongs to the mesh. Valid: b <= 2 d, members between bearings.
 
@@ -135,7 +127,6 @@ def elastic_coefficient(E_1: Pascal, nu_1: Pure, E_2: Pascal, nu_2: Pure) -> Ann
     .. math:: Z_E = \left[\pi\left(\frac{1 - \nu_1^2}{E_1} + \frac{1 - \nu_2^2}{E_2}\right)\right]^{-1/2}
 
     E_1, E_2: moduli of elasticity; nu_1, nu_2: Poisson's ratios.
-
     Source: Nunes (2017), eq. 4.30. Print: table 4.10 gives the number in (N/mm2)^0.5; it is in Pa^0.5.
 
     >>> f"{elastic_coefficient(200e9, 0.3, 200e9, 0.3):.5g}"
@@ -152,7 +143,6 @@ def rim_factor(t_R: Metre, h_t: Metre) -> Pure:
     .. math:: K_B = 1.6\ln(2.242\,h_t/t_R) \quad (t_R < 1.2\,h_t), \qquad 1 \text{ else}
 
     t_R: thickness of the rim below the tooth root; h_t: whole depth of the tooth. Returns K_B: factor, at least 1.
-
     Source: AGMA 2001-D04, fig. B.1; Nunes (2017), ch. 4.4.2 uses its upper branch. Valid: t_R >= 0.5 h_t.
 
     >>> rim_factor(3.15e-3, 2.35e-3)
@@ -179,7 +169,6 @@ def life_factor_bending(N: Pure, surface: str = "nitrided") -> Pure:
 
     N: number of load cycles of one tooth, 1e3 to 1e10. surface: curve below 3e6 cycles: `160 HB`, `250 HB`, `400 HB`,
     `nitrided` or `carburized`. Returns Y_N: factor, about 1 at 1e7 cycles.
-
     Source: AGMA 2001-D04, fig. 17 (upper curve above 3e6 cycles), as printed in Shigley, fig. 14-14.
 
     >>> round(life_factor_bending(1e8, "250 HB"), 3)  # Shigley, example 14-4
@@ -201,7 +190,6 @@ def life_factor_contact(N: Pure, surface: str = "nitrided") -> Pure:
 
     N: number of load cycles of one tooth, 1e4 to 1e10. surface: curve below 1e7 cycles: `nitrided` (1.249 N^-0.0138) or
     `steel` (2.466 N^-0.056). Returns Z_N: factor, 1 at 1e7 cycles.
-
     Source: AGMA 2001-D04, fig. 18 (upper curve above 1e7 cycles), as printed in Shigley, fig. 14-15.
 
     >>> round(life_factor_contact(1e8, "steel"), 3)  # Shigley, example 14-4
@@ -221,7 +209,6 @@ def reliability_factor(R: Pure) -> Pure:
     .. math:: K_R = 0.658 - 0.0759\ln(1 - R) \ (R < 0.99), \qquad 0.5 - 0.109\ln(1 - R) \ (R \ge 0.99)
 
     R: reliability, 0.5 to 0.9999.
-
     Source: fit of AGMA 2001-D04, table 11, as printed in Shigley, eq. 14-38.
 
     >>> round(reliability_factor(0.99), 2), round(reliability_factor(0.9999), 2)

@@ -54,7 +54,6 @@ def action_line(pair: Pair) -> tuple[Pure, Pure, Pure]:
 
     pair: the pair; the upper sign is for an external, the lower for an internal one. Returns start, end, pitch: where
     the gear's tip and the pinion's tip end contact, and the base pitch, in modules.
-
     Source: AGMA 908-B89, section 4 (C_1, C_5, p_b).
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824)
@@ -75,7 +74,6 @@ def contact_ratio(pair: Pair) -> Pure:
     .. math:: m_p = (\rho_{end} - \rho_{start}) / p_b
 
     Returns m_p: mean number of tooth pairs in contact.
-
     Source: AGMA 908-B89, section 4. A pair wants at least 1.2.
 
     >>> pair = Pair(kind="internal", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824)
@@ -92,10 +90,8 @@ def pitting_geometry_factor(pair: Pair) -> Pure:
     .. math:: I = \frac{\cos\varphi}{\left(\frac{1}{\rho_1} \pm \frac{1}{\rho_2}\right) d_1}, \qquad
               \rho_1 = \rho_{end} - p_b, \quad \rho_2 = C\sin\varphi \mp \rho_1
 
-    pair: the pair; upper signs for an external, lower for an internal one.
-
-    Raises BadInput: Contact ratio below 1 or not below 2.
-
+    pair: the pair; upper signs for an external, lower for an internal one. Raises BadInput: Contact ratio below 1 or
+    not below 2.
     Source: AGMA 908-B89, section 4, spur gears. It gives every legible I of the source's annex (tables A.2 to A.4) to
     the printed digit. Print: Nunes (2017) takes I of an external pair for the internal one. Valid: 1 <= m_p < 2.
 
@@ -141,7 +137,6 @@ def top_land(pair: Pair) -> Pure:
     .. math:: s_a = 2 R_a\left(\frac{s}{2R} + \mathrm{inv}\,\varphi - \mathrm{inv}\,\varphi_a\right)
 
     Returns s_a: top land of the pinion.
-
     Source: involute geometry. AGMA 908-B89 calls a tooth below 0.3 pointed.
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=17, teeth_2=35, pressure_angle=0.4363323129985824, shift=0.5)
@@ -161,7 +156,6 @@ def undercut_shift(pair: Pair) -> Pure:
 
     pair: the pair; h_a is the tool's addendum (whole depth - 1). Returns x_min: smallest shift of the pinion without
     undercut.
-
     Source: rack generation (AGMA 908-B89, section 7). Valid: teeth cut by a rack or hob.
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=12, teeth_2=26, pressure_angle=0.4363323129985824)

@@ -34,9 +34,8 @@ def mesh_speed(d: Metre, omega: RadPerSecond[Scalar]) -> MetrePerSecond[Scalar]:
     .. math:: v = \tfrac12 d\,(2\omega) = d\,\omega
 
     d: pitch diameter of the planet. omega: crank speed; the planet turns by -omega, the carrier by omega. Returns v:
-    velocity, the same for planet and ring.
-
-    Print: Nunes (2017), eq. 4.26 with the planet's diameter and the crank speed gives half of this.
+    velocity, the same for planet and ring. Print: Nunes (2017), eq. 4.26 with the planet's diameter and the crank speed
+    gives half of this.
 
     >>> f"{mesh_speed(0.026, 837.758):.2f}"
     '21.78'
@@ -52,7 +51,6 @@ def bending_limit(sigma_FP: Pascal, Y_N: Pure = 1.0, S_F: Pure = 1.0, K_T: Pure 
 
     sigma_FP: allowable bending stress number of the material; Y_N, K_T, K_R: stress cycle, temperature and reliability
     factor; S_F: safety factor.
-
     Source: Nunes (2017), eq. 2.77.
 
     >>> bending_limit(454.7125e6)
@@ -72,7 +70,6 @@ def contact_limit(
 
     sigma_HP: allowable contact stress number of the material. Z_N, C_H, K_T, K_R: stress cycle, hardness ratio,
     temperature and reliability factor. S_H: safety factor against the stress; against the load it is S_H^2.
-
     Source: Nunes (2017), eq. 2.79.
 
     >>> contact_limit(1300e6)
@@ -89,7 +86,6 @@ def face_width_bending(F_t: Newton, m: Metre, J: Pure, limit: Pascal, factors: L
     .. math:: b = F_t K_o K_v K_s \frac{K_m K_B}{m\,J\,\sigma_F}
 
     F_t: tangential load; m: module; J: geometry factor of the member.
-
     Source: Nunes (2017), eqs. 2.76 and 2.77.
 
     >>> round(face_width_bending(9368.4, 0.001, 0.4385, 454.7125e6, LoadFactors()) * 1e3, 2)
@@ -110,7 +106,6 @@ def face_width_contact(
     .. math:: b = F_t K_o K_v K_s \frac{K_m C_f}{d\,I}\left(\frac{Z_E}{\sigma_H}\right)^2
 
     F_t: tangential load; d: pitch diameter of the pinion; I: geometry factor of the pair; Z_E: elastic coefficient.
-
     Source: Nunes (2017), eqs. 2.78 and 2.79.
 
     >>> round(face_width_contact(9368.4, 0.026, 0.1168, 187030.0, 1300e6, LoadFactors()) * 1e3, 2)

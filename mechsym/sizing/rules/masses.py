@@ -22,7 +22,6 @@ def cylinder_mass(density: Annotated[float, "kg/m^3"], d: Metre, length: Metre, 
     .. math:: m = \rho\,\tfrac{\pi}{4}(d^2 - d_i^2)\,l
 
     d, length: outer diameter and length; bore: inner diameter.
-
     Source: geometry; the shaft of table 4.15 (15 mm, 77 mm, 6675 kg/m3) has 90.8 g.
 
     >>> f"{cylinder_mass(6675.0, 0.015, 0.077) * 1e3:.1f}"
@@ -40,7 +39,6 @@ def web_outline(d_1: Metre, d_2: Metre, e: Metre, points: int = 256) -> tuple[Me
 
     d_1, d_2: diameters of the circles around crankpin and shaft; e: distance of their centres. Returns x, y: points,
     the crankpin at the origin, the shaft at (e, 0), shape (points,).
-
     Source: geometry.
 
     >>> x, y = web_outline(0.025, 0.015, 0.013)
@@ -62,7 +60,6 @@ def area_and_centre(x: Metre[Array], y: Metre[Array]) -> tuple[Area, Metre]:
     .. math:: A = \tfrac12\sum (x_i y_{i+1} - x_{i+1} y_i)
 
     x, y: corners in order.
-
     Source: geometry. Print: the masses of table 4.14 of Nunes (2017) leave 614 mm2 for each web; the outline of bare
     pin and shaft has 613 mm2, the printed disc of 65 mm has 3318.
 
@@ -82,7 +79,6 @@ def roll_up(parts: Mapping[str, tuple[float, int]]) -> Kilogram:
     .. math:: m = \sum n_i m_i
 
     parts: part to its mass [kg] and how many there are [-].
-
     Source: Nunes (2017), ch. 5.1.2.
 
     >>> f"{roll_up({'piston': (0.2947, 2), 'cylinder': (1.9024, 1)}):.4f}"
@@ -98,7 +94,6 @@ def power_to_weight(power: Watt[Scalar], mass: Kilogram) -> Annotated[Scalar, "W
     .. math:: P/m
 
     Returns ratio: power to weight.
-
     Source: Nunes (2017), fig. 5.13.
 
     >>> f"{power_to_weight(31.009e3, 13.4066) / 1e3:.3f}"
@@ -114,7 +109,6 @@ def unbalance(parts: Sequence[tuple[float, float]]) -> Annotated[float, "kg*m"]:
     .. math:: U = \sum m_i b_i
 
     parts: mass [kg] and signed distance of its centre from the axis [m].
-
     Source: Nunes (2017), eq. 4.37. Print: "g.mm/s2" is g.mm; the force is U omega^2, and the acceleration that the
     parts share is the centripetal one, not an angular acceleration.
 

@@ -41,9 +41,8 @@ class Material:
 def load(extra: str | Path | None = None) -> dict[str, Material]:
     """The built-in materials, and those of a TOML file of the same form.
 
-    extra: file with more materials; a key that exists already is replaced.
-
-    Raises BadInput: file not readable, key not known, or a value out of range.
+    extra: file with more materials; a key that exists already is replaced. Raises BadInput: file not readable, key not
+    known, or a value out of range.
 
     >>> load()["ferrium-s53"].ultimate_shear
     1250000000.0
@@ -67,9 +66,7 @@ def get(materials: Mapping[str, Material], key: str) -> Material:
 def need(material: Material, field: str) -> float:
     """A property that a rule cannot do without.
 
-    Returns value: its value [SI].
-
-    Raises BadInput: the material has no such value.
+    Returns value: its value [SI]. Raises BadInput: the material has no such value.
 
     >>> need(load()["al-242-t571"], "fatigue")
     75000000.0

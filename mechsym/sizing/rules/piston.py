@@ -26,7 +26,6 @@ def head_thickness_strength(p: Pascal, B: Metre, sigma_t: Pascal) -> Metre:
     .. math:: t_H = \sqrt{\frac{3 p B^2}{16 \sigma_t}}
 
     p: largest pressure on the head; B: bore; sigma_t: allowable bending stress at the head's temperature.
-
     Source: Nunes (2017), eq. 4.2.
 
     >>> f"{head_thickness_strength(9.604e6, 0.060, 60e6) * 1e3:.2f}"
@@ -44,7 +43,6 @@ def head_stress(p: Pascal, B: Metre, t_H: Metre) -> Pascal:
     .. math:: \sigma = \frac{3 p B^2}{16\,t_H^2}
 
     B: bore.
-
     Source: Nunes (2017), eq. 4.2. Valid: t_H < B / 2.
 
     >>> f"{head_stress(9.604e6, 0.060, 0.01375) / 1e6:.1f}"
@@ -62,7 +60,6 @@ def head_heat(fuel_flow: MassFlow, heating_value: Annotated[float, "J/kg"], shar
 
     fuel_flow: fuel burnt for this piston: half the cylinder's in an opposed-piston engine. heating_value: heating value
     of the fuel. share: share C of the heat that goes through the head. Returns H: heat flow.
-
     Source: Nunes (2017), eq. 4.4. Print: the symbol is not explained; the printed 13.74 mm needs HALF the fuel flow.
 
     >>> f"{head_heat(2.3923e-5 * 8000 / 120 / 2, 43.5e6):.0f}"
@@ -81,7 +78,6 @@ def head_thickness_heat(H: Watt, k: Annotated[float, "W/(m*K)"], dT: Kelvin) -> 
 
     H: heat flow through the head; k: thermal conductivity; dT: temperature of the middle above the edge, 75 K for
     aluminium.
-
     Source: Nunes (2017), eq. 4.3, which prints 12.56 for 4 pi.
 
     >>> f"{head_thickness_heat(1734.4, 134.0, 75.0) * 1e3:.2f}"
@@ -100,7 +96,6 @@ def ring_radial_thickness(B: Metre, p_w: Pascal, sigma_t: Pascal) -> Metre:
 
     B: bore; p_w: pressure of the ring on the wall, 0.025 to 0.042 MPa; sigma_t: allowable bending stress, 85 to 110 MPa
     for cast iron.
-
     Source: Nunes (2017), eq. 4.6. Valid: the ranges above.
 
     >>> [f"{ring_radial_thickness(0.060, *x) * 1e3:.2f}" for x in ((0.025e6, 110e6), (0.042e6, 85e6))]
@@ -117,7 +112,6 @@ def ring_axial_thickness(B: Metre, n_rings: int) -> Metre:
     .. math:: t_2 = B/(10 n)
 
     B: bore.
-
     Source: Nunes (2017), eq. 4.7.
 
     >>> ring_axial_thickness(0.060, 3)
@@ -133,7 +127,6 @@ def barrel_thickness(B: Metre, t_1: Metre) -> Metre:
     .. math:: t_3 = 0.03 B + t_1 + 4.9\,\mathrm{mm}
 
     B: bore; t_1: radial thickness of the rings.
-
     Source: Nunes (2017), eq. 4.9: groove depth t_1 + 0.4 mm (eq. 4.8) plus 4.5 mm.
 
     >>> f"{barrel_thickness(0.060, 0.002) * 1e3:.1f}"
@@ -150,7 +143,6 @@ def head_height(b_1: Metre, b_2: Metre, t_2: Metre, n_rings: int) -> Metre:
     .. math:: L_{piston} = b_1 + n (t_2 + b_2)
 
     b_1, b_2: top land (t_H to 1.2 t_H) and the other lands (0.75 t_2 to t_2); t_2: axial thickness of a ring.
-
     Source: Nunes (2017), eq. 4.10.
 
     >>> f"{head_height(0.01375, 0.0015, 0.002, 3) * 1e3:.2f}"
@@ -166,7 +158,6 @@ def rod_diameter(F: Newton, sigma: Pascal) -> Metre:
     .. math:: d_r = \sqrt{\frac{4 F}{\pi\sigma}}
 
     F: largest axial load; sigma: allowable stress.
-
     Source: Nunes (2017), eq. 4.5. Print: the text allows 60 MPa (24.00 mm); the printed 26.29 mm needs 75/1.5 = 50 MPa.
     Valid: short rod, loaded along its axis; a long one buckles first (`rod_buckling_load`).
 
@@ -185,7 +176,6 @@ def rod_buckling_load(d: Metre, length: Metre, E: Pascal, yield_strength: Pascal
               A R_e\left(1 - \frac{R_e (l/i)^2}{4\pi^2 E}\right) & \text{shorter}\end{cases}
 
     d: diameter; E: modulus of elasticity; yield_strength: yield strength R_e. Returns F: buckling load.
-
     Source: Shigley, eqs. 4-42 and 4-43 (Euler and J. B. Johnson columns). Valid: straight round rod, ends free to turn,
     load along its axis.
 
@@ -206,10 +196,8 @@ def rod_length(reach: Metre, e: Metre, d_TDC: Metre, t_H: Metre, ID_cap: Metre) 
 
     reach: crank axis to the engine's plane of symmetry, 145 mm in the source. e: throw of the hypocycloid's crank, a
     quarter of the piston's stroke: S/4 = 2 e of the source's S. d_TDC: distance between the two piston heads at top
-    dead centre. t_H: thickness of the head. ID_cap: inner diameter of the rod's cap.
-
-    Raises BadInput: the rod has no length left.
-
+    dead centre. t_H: thickness of the head. ID_cap: inner diameter of the rod's cap. Raises BadInput: the rod has no
+    length left.
     Source: Nunes (2017), eq. 4.12. Print: 88.6 mm comes from d_TDC = 1.2 mm, which is 11.56 mm (`cylinder.tdc_gap`).
     Valid: the opposed pistons of the thesis, each at its top dead centre.
 

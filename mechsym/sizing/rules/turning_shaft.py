@@ -50,12 +50,9 @@ def fatigue_factor(
     .. math:: \sigma(\alpha) = \frac{32}{\pi d^3}\left(M_x\cos(\beta + \alpha) + M_y\sin(\beta + \alpha)\right),
               \qquad \frac1n = \max_\alpha\left(\frac{\sigma_a^*}{S_e} + \frac{\sigma_m^*}{S_{ut}}\right)
 
-    with equivalent stresses sigma* of bending and torsion, notches included.
-
-    M_x, M_y: bending moment by the direction of the force that makes it, in a frame that does not turn, shape (k, n);
-    turn: angle of the section in that frame; T: torque in the section, shape (k, n). Returns n: safety factor at each
-    speed, shape (k,).
-
+    with equivalent stresses sigma* of bending and torsion, notches included. M_x, M_y: bending moment by the direction
+    of the force that makes it, in a frame that does not turn, shape (k, n); turn: angle of the section in that frame;
+    T: torque in the section, shape (k, n). Returns n: safety factor at each speed, shape (k,).
     Source: Shigley, eq. 7-7 (DE-Goodman), fibre by fibre. A constant moment on a turning shaft is fully reversed, a
     constant moment on a standing one is a mean stress.
 
@@ -90,7 +87,6 @@ def static_factor(
 
     M_x, M_y, T: bending moment and torque, shape (k, n); strength: yield or ultimate strength R. Returns n: safety
     factor at each speed, shape (k,).
-
     Source: Shigley, eq. 7-15, without notches.
 
     >>> section, none = Section(d=0.008, S_e=7e8, S_ut=1.985e9), np.zeros((1, 1))
@@ -139,7 +135,6 @@ def outer_shares(shaft: Shaft) -> tuple[Pure, Pure]:
         \delta_F = \int_0^{z_i}\frac{(z_i - z) L}{EI}\,\mathrm{d}z
 
     Returns force, tooth: s_F of the pin's half force (in its own sense) and s_T of the load at the gear (against it).
-
     Source: unit load method.
 
     A uniform shaft with thin webs and journals at 1 and 3, gear at 2: s_F = 1/(4 + 8/3), s_T = (2 + 5/6)/(4 + 8/3).
@@ -166,11 +161,9 @@ def moment(
 
     .. math:: M(z) = -F\,[(z_i - z) - s_F L] + P\,[(z_g - z_i) - s_T L] \quad (z \le z_i)
 
-    and the outer journal's reaction times its lever beyond the gear.
-
-    z: place, up to the inner journal, or the gear itself; force, pull: half of the crankpin's force, and the load at
-    the gear of one side, shape (2, k, n). Returns M: moment, shape (2, k, n).
-
+    and the outer journal's reaction times its lever beyond the gear. z: place, up to the inner journal, or the gear
+    itself; force, pull: half of the crankpin's force, and the load at the gear of one side, shape (2, k, n). Returns M:
+    moment, shape (2, k, n).
     Source: statics with the redundant reaction of `outer_shares`.
 
     >>> spans = Spans(inner=1.0, gear=2.0, outer=3.0, outboard=4.0)
@@ -199,7 +192,6 @@ def inner_slope(shaft: Shaft, E: Pascal, moment_at: Callable[[float], np.ndarray
 
     E: modulus of elasticity; moment_at: distance from the middle [m] -> moment (2, k, n) [N*m]. Returns beta: slope,
     shape (k, n).
-
     Source: beam theory. Shigley, table 7-2, allows 0.0008 to 0.0012 rad for rollers under a steady load.
 
     >>> spans = Spans(inner=1.0, gear=2.0, outer=3.0, outboard=4.0)
