@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 
 _MOST_CURVES = 6
+_BAND = 360  # points of the edge of a band: more cannot be told apart
 _SEEN = 1e-3  # of the largest bar: a lower one cannot be seen
 _NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of what is balanced
 
@@ -245,7 +246,8 @@ def friction(forces: Forces) -> "Figure":
     labels = [f"{_label(n)}: mean {forces.losses.places[n] * factor:.3g} {unit}" for n in names]
     phi = np.radians(forces.columns["phi_deg"])
     angle = over_angle(axis, float(phi[-1] + phi[1]))
-    axis.stackplot(phi * angle, [v * factor for v in values], labels=labels, colors=SERIES, lw=0)
+    some = slice(None, None, max(1, len(phi) // _BAND))
+    axis.stackplot(phi[some] * angle, [v[some] * factor for v in values], labels=labels, colors=SERIES, lw=0)
     axis.set_ylabel(f"friction power [{unit}]")
     legend(axis)
     return figure
