@@ -7,6 +7,7 @@ import numpy as np
 
 from mechsym.quantities.display import without_unit
 from mechsym.quantities.results import part, quantity, result, units_of
+from mechsym.quantities.words import key_words
 
 Curve = np.ndarray
 
@@ -96,7 +97,7 @@ class CycleColumns:
 
 #: What people call a figure: the word of its field, else its name
 WORDS: Mapping[str, str] = {
-    field.name: field.metadata.get("card") or without_unit(field.name, field.metadata["unit"]).replace("_", " ")
+    field.name: field.metadata.get("card") or key_words(without_unit(field.name, field.metadata["unit"]))
     for field in dataclasses.fields(CycleColumns)
     if "unit" in field.metadata
 }

@@ -8,7 +8,7 @@ from mechsym.torsion import plots
 from mechsym.torsion.findings import drift, of_run
 from mechsym.torsion.finished import FinishedRun
 from mechsym.torsion.startup import StartUp
-from mechsym.torsion.twist import ShaftSection
+from mechsym.torsion.twist import ShaftSection, section_words
 
 _ENDS = {"turns": "all turns", "t_end": "to its end", "stall": "the shaft stops"}
 
@@ -62,7 +62,8 @@ def run_view(run: FinishedRun) -> View:
         Card(name="speed ripple", value=ripple, about=f"of a transient, {where}" if unsettled else where,
              mark="open" if unsettled else ""),
     ]  # fmt: skip
-    cards += [card(ShaftSection, "twist_peak", s.twist_peak, "peak", s.section.replace("-", " to ")) for s in run.twist]
+    cards += [card(ShaftSection, "twist_peak", s.twist_peak, "peak", section_words(k, len(run.twist)))
+              for k, s in enumerate(run.twist)]  # fmt: skip
     curves = {"t": run.result.t, **run.result.columns}
     return View(title="Run in time", cards=tuple(cards), pictures=_run_pictures(run),
                 columns=lambda: Columns(curves, {"t": "s", **run.result.units}),
