@@ -31,7 +31,7 @@ class CycleColumns:
     ca10_deg: Curve = quantity("deg", card="CA10")  #: Where a tenth of the heat is released, from firing dead centre
     ca50_deg: Curve = quantity("deg", card="CA50")  #: Where half of it is
     ca90_deg: Curve = quantity("deg", card="CA90")  #: Where nine tenths of it are
-    t_max_k: Curve = quantity("K")  #: Largest mean temperature of the gas
+    t_max_k: Curve = quantity("K", card="largest temperature")  #: Largest mean temperature of the gas
     knock: Curve = quantity("-")  #: Integral of the ignition delay of the unburnt gas; from 1 on it knocks
     force_max: Curve = quantity("N")  #: Largest force of gas and inertia on a piston
     friction_mep_kpa: Curve = quantity("kPa", card="FMEP")  #: Friction and auxiliaries as a mean effective pressure
