@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: setup setup-all record compare records derive check-derive pictures audit certificates reproduce demo docs test test-slow test-heavy test-step bench fuzz nearby slips hostile mutate faults interrupts audit-deps house dist lint format clean
+.PHONY: setup setup-all record compare records derive check-derive pictures audit certificates reproduce proof demo docs test test-slow test-heavy test-step bench fuzz nearby slips hostile mutate faults interrupts audit-deps house dist lint format clean
 
 setup: $(READY)
 
@@ -11,14 +11,14 @@ $(READY): pyproject.toml setup.py
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "mechsym needs Python 3.11 or newer; name one: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { echo "Python's venv is missing; on Debian: apt-get install python3-venv"; exit 1; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,proof]'
 	@touch $@
 
 # what exports need and what checks them; heavy, so only the slow tests and the packages ask for it
 setup-all: .venv/ready-all
 
 .venv/ready-all: $(READY)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,fmu,cad,web,app,cluster,docs,check]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,proof,fmu,cad,web,app,cluster,docs,check]'
 	@touch $@
 
 derive: | $(READY)
@@ -46,6 +46,12 @@ docs: | .venv/ready-all
 # the pictures of the README, from real runs, in the Chromium of the machine
 pictures: | .venv/ready-all
 	$(BIN)/python docs/pictures.py
+
+# bounds of rounding of every built-in mechanism, and the start-up enclosed (an hour at most; it goes on from what it kept)
+proof: | $(READY)
+	for name in crosshead crank_throw hypocycloid rodless rodless_constraints crankshaft_flywheel crankshaft_flywheel_printed hinge; do $(BIN)/mechsym prove $$name || exit 1; done
+	$(BIN)/mechsym prove chmielewski --window 55..93 --out build/proof
+	$(BIN)/python -m pytest -n 0 -q -m heavy tests/proof
 
 demo: | $(READY)
 	$(BIN)/mechsym hinge zotov-89 --out demo

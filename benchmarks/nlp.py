@@ -12,7 +12,7 @@ from typing import Any
 import casadi
 
 from mechsym.native.compiler import NoCompiler
-from mechsym.native.external import externals
+from mechsym.native.evaluate import externals
 
 _LOG = logging.getLogger("mechsym.native")
 _FUNCTIONS = {"grad_f": "nlp_grad_f", "jac_g": "nlp_jac_g", "hess_lag": "nlp_hess_l"}

@@ -12,7 +12,7 @@ import numpy as np
 
 from benchmarks import models, nlp, translate
 from benchmarks.measure import Route, Row, take_turns
-from mechsym.native.external import external
+from mechsym.native.evaluate import external
 
 NODES, SPEED, RIPPLE = 200, 9.32, 0.02
 _FORCE, _LOAD = 4e4, 5e3  # a gas force that looks like one, and the load

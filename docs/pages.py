@@ -19,9 +19,8 @@ from mechsym.app.told import KNOWN
 from mechsym.cases.keys import keys
 from mechsym.cli import COMMANDS, mechsym
 from mechsym.cli.results import RESULTS, rows
-from mechsym.jobs.drawing import drawing
-from mechsym.quantities.display import without_unit
-from mechsym.quantities.words import key_words
+from mechsym.jobs.export import drawing
+from mechsym.quantities.display import key_words, without_unit
 
 # one example a command whose output is shown; each runs in some seconds
 EXAMPLES = {
@@ -47,6 +46,7 @@ EXAMPLES = {
     "optimise": "optimise nunes-hypocycloid",
     "page": "page zotov-89 --out engine.html",
     "export": "export zotov-89 --to c --out engine",
+    "prove": "prove crosshead --samples 1000",
     "reproduce": "reproduce moroianu2017",
     "report": "report nunes-slider-crank --parts cycle,forces",
     "sections": "sections spring",
@@ -67,7 +67,7 @@ SHOWN = {
 EXAMPLE_FILES = Path(__file__).parents[1] / "examples" / "mechanisms"
 ROOMS = (
     "quantities periodic style page plausible convert native mechanisms cycle sizing machine simulate hinge "
-    "torsion forces optimise codesign cases jobs sweep audit papers out"
+    "torsion forces optimise proof codesign cases jobs sweep audit papers out"
 ).split()
 _COMMANDS = re.compile(r"```sh\n(?P<lines>(?:mechsym [^\n]+\n)+)```")
 _SHOWN = 16  # lines of what a command prints

@@ -17,7 +17,7 @@ __all__ = [
     # mechanisms: declared and derived, expressions to other systems, as functions of numbers, as compiled C
     "derive", "convert", "mechanisms", "native",
     # physics, each room from records and numbers
-    "cycle", "sizing", "machine", "simulate", "hinge", "torsion", "forces", "optimise", "codesign",
+    "cycle", "sizing", "machine", "simulate", "hinge", "torsion", "forces", "optimise", "proof", "codesign",
     # data files, one page a command, all of a case on one page, and at many points
     "cases", "jobs", "report", "sweep",
     # published formulas and numbers, and what other programs read

@@ -22,10 +22,7 @@ _BYTES = {"MB": 1e6, "GB": 1e9}
 
 
 def choose(text: str) -> None:
-    """Set the budget of this command: a time, a memory or both with a comma, `2 h, 8 GB`; the usual one where empty.
-
-    Raises BadInput: neither a time nor a memory.
-    """
+    """Set the budget of this command: time, memory or both, `2 h, 8 GB`. Raises BadInput: neither of them."""
     seconds, size = Budget().seconds, Budget().size
     for part in filter(None, (p.strip() for p in text.split(","))):
         if memory := _SIZE.fullmatch(part):

@@ -124,10 +124,7 @@ def free_letters(expressions: Iterable[sp.Basic]) -> list[sp.Basic]:
 
 
 def name_of(letter: sp.Basic) -> str:
-    """Name of a letter: `q1` for q1(t), `q1d` for its rate, `q1dd` for the rate of that.
-
-    Raises BadInput: no letter, or a name of which nothing remains.
-    """
+    """Name of a letter: `q1`, its rate `q1d`, of that `q1dd`. Raises BadInput: no letter, or no name remains."""
     if isinstance(letter, sp.Derivative):
         order = sum(count for _, count in letter.variable_count)
         return name_of(letter.expr) + "d" * int(order)

@@ -32,10 +32,7 @@ Json = dict[str, Any]  # what JSON has by name: numbers, texts, lists and more o
 
 
 def user_cache() -> Path:
-    """What the program keeps for a user; it need not exist.
-
-    Returns path: XDG_CACHE_HOME/mechsym, or what the platform has instead.
-    """
+    """What the program keeps for a user, under XDG_CACHE_HOME or what the platform has; it need not exist."""
     home = Path.home()
     match sys.platform:
         case "win32":
@@ -123,10 +120,7 @@ def write_bytes(path: Path, data: bytes) -> Path:
 
 
 def write_with(path: Path, write: Callable[[Path], Any]) -> Path:
-    """Let `write` fill a temporary name beside `path`, and move it into place when it is on the disk.
-
-    write: callable, writes the file whose path it is given.
-    """
+    """Let `write` fill a temporary name beside `path`, and move it into place when it is on the disk."""
     path = Path(path)
     # refuse to write over a file that was read: a result would take the place of what it comes from
     names = (name for read in read_lists.get() for name in read if Path(name).name == path.name)
@@ -212,10 +206,7 @@ def _unwritable(path: Path, error: OSError) -> BadInput:
 
 
 def write_csv(path: Path, columns: Mapping[str, Sequence[object] | np.ndarray]) -> Path:
-    """Write equally long columns, SI units unless the column's name says otherwise.
-
-    columns: column name to values; all of one length.
-    """
+    """Write equally long columns by name, in SI units unless the name says otherwise."""
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(columns)
@@ -265,10 +256,7 @@ def _cell(value: object) -> Any:
 
 
 def to_json(value: object) -> str:
-    """JSON text of nested records, arrays and numbers; a number that is not finite becomes null.
-
-    value: mappings, sequences, arrays, numbers, text, booleans, None.
-    """
+    """JSON text of nested records, arrays and plain values; a number that is not finite becomes null."""
     return json.dumps(plain(value), indent=2, allow_nan=False)
 
 

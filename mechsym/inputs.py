@@ -5,6 +5,7 @@ import contextlib
 import errno
 import functools
 import io
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -83,6 +84,9 @@ def read_text(path: Path | str, option: str = "", way_out: str = "", encoding: s
         raise OSError(error.errno, error.strerror, str(path)) from None
 
 
+_TABLE = re.compile(rb"""["']([\w./ -]+\.csv)["']""")  # as a file names it
+
+
 def imports_from(path: Path) -> Path:
     """The folder from which a Python file imports its neighbours: its own, or that of the package it is in."""
     folder = path.parent
@@ -92,7 +96,8 @@ def imports_from(path: Path) -> Path:
 
 
 def sources(path: Path) -> dict[Path, bytes]:
-    """A Python file and those beside it that it imports, directly or not, with what is in them; of a package all."""
+    """A Python file, those beside it that it imports, directly or not, and tables that any of them names, with what is
+    in them; of a package all."""
     texts: dict[Path, bytes] = {}
     folder, waiting = imports_from(path), [path]
     if folder != path.parent:
@@ -101,6 +106,9 @@ def sources(path: Path) -> dict[Path, bytes]:
         file = waiting.pop()
         if file not in texts:
             texts[file] = read_bytes(file)
+            if file.suffix == ".py":
+                tables = (file.parent / name.decode() for name in _TABLE.findall(texts[file]))
+                waiting += [table for table in tables if table.is_file()]
             waiting += [neighbour for name in _imported(texts[file]) for neighbour in _beside(folder, name)]
     return dict(sorted(texts.items()))
 

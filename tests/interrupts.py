@@ -47,6 +47,7 @@ COMMANDS = {
     "optimise": "optimise nunes-hypocycloid --out OUT",
     "page": "page zotov-89 --out OUT.html",
     "report": "report zotov-89 --out OUT.html",
+    "prove": "prove crosshead --samples 100000",
     "reproduce": "reproduce zotov2024 --out OUT",
     "sections": "sections --schema",
     "simulate": "simulate chmielewski --dampings 1,5 --out OUT",

@@ -6,8 +6,8 @@ import numpy as np
 
 from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.cylinder import CylinderGas
+from mechsym.cycle.gas import Pressure, pressure_over
 from mechsym.cycle.kinds import Kind
-from mechsym.cycle.pressure import Pressure, pressure_over
 from mechsym.quantities import quantity, record
 
 

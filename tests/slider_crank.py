@@ -3,8 +3,7 @@
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.chamber import Chamber
-from mechsym.cycle.dead_centres import chamber_over
+from mechsym.cycle.chamber import Chamber, chamber_over
 from mechsym.forces.textbook import slider_crank as of_turn
 
 

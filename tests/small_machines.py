@@ -5,9 +5,8 @@ import math
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.dead_centres import chamber_over
-from mechsym.cycle.gas import Gas
-from mechsym.cycle.pressure import pressure_over
+from mechsym.cycle.chamber import chamber_over
+from mechsym.cycle.gas import Gas, pressure_over
 from mechsym.forces.turn import CrankDrive, Turn, at, crank_drive
 
 

@@ -97,6 +97,7 @@ def test_the_package_names_its_rooms():
         "app",
         "budget",
         "plausible",
+        "tables",
         "inputs",
         "transaction",
         "interrupts",

@@ -9,14 +9,13 @@ import numpy as np
 from mechsym import cases
 from mechsym.app.told import measure, span
 from mechsym.errors import BadInput
+from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.drawing import elastic_hinge
-from mechsym.hinge.findings import of_design
 from mechsym.hinge.limits import ALL_KEPT
-from mechsym.hinge.moving import engine
 from mechsym.hinge.result import Design
-from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
+from mechsym.hinge.shown import engine, of_design
 from mechsym.hinge.summary import guide_turn
-from mechsym.jobs.drawing import turning
+from mechsym.jobs.export import turning
 from mechsym.jobs.hinge import hinge
 from mechsym.machine.loads import PropellerLoad
 from mechsym.mechanisms import plots
@@ -72,10 +71,7 @@ class Answer:
 
 
 def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
-    """The hinge of a case with other values; what is impossible is an answer too, in words.
-
-    values: by key, as `--set` takes them [SI unit of the key].
-    """
+    """The hinge of a case with other values by key [SI]; what is impossible is an answer too, in words."""
     try:
         case = cases.load(name, values)
         design = hinge(case)

@@ -20,8 +20,7 @@ from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import listing
 from mechsym.page import Finding
 from mechsym.quantities import record
-from mechsym.quantities.display import heading, stem_and_unit
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import heading, key_words, stem_and_unit
 
 _TABS = ("hinge", "simulate", "forces", "cycle", "size", "codesign")
 _MOST_ROWS = 400  # more than any command says of a case of ours

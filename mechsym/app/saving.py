@@ -21,10 +21,7 @@ FILES = {
 
 
 def case_text(name: str, values: Mapping[str, float]) -> str:
-    """The text of a case with other values in their lines, the rest and its comments as they are.
-
-    values: by section.name [SI unit of the key].
-    """
+    """The text of a case with other values by section.name [SI] in their lines, its comments as they are."""
     wanted, text = cases.load(name, values), cases.text(name)
     for key, value in values.items():
         section, _, field = key.partition(".")

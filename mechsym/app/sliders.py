@@ -10,8 +10,8 @@ from mechsym.app import uploads
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
+from mechsym.quantities.display import key_words
 from mechsym.quantities.records import Field, Record
-from mechsym.quantities.words import key_words
 
 _REACH = 2.0  # times a value, and its inverse, are as far as its slider goes
 _STEPS = 200

@@ -8,8 +8,7 @@ from typing import Any
 
 from mechsym.cycle.columns import UNITS, WORDS
 from mechsym.files import Json
-from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in, without_unit
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text, shown_in, without_unit
 
 Rows = list[tuple[str, str]]
 
@@ -111,10 +110,7 @@ def pretty_words(text: str) -> str:
 
 
 def measure(value: float, unit: str) -> str:
-    """A number with its unit for people; frequencies in Hz, what rounds to nothing is said to be.
-
-    value: in SI, a frequency in rad/s [unit].
-    """
+    """A number in SI with its unit for people; frequencies in Hz; what rounds to nothing is said to be [unit]."""
     if unit in ("", "-", "1"):
         return ratio_text(value, 5) if unit == "-" else figure(value)
     value = 0.0 if unit in _BARE and abs(value) < _BARE[unit] else value

@@ -28,10 +28,7 @@ _folder = tempfile.TemporaryDirectory(prefix="mechsym-uploads-")
 
 
 def keep(data: bytes) -> str:
-    """Take a case in: the name under which this browser alone can ask for it.
-
-    Raises BadInput: too large, no case, or it names what would be read.
-    """
+    """Take a case in: its name for this browser alone. Raises BadInput: too large, no case, or names files."""
     name = f"upload-{secrets.token_hex(8)}"
     path = Path(_folder.name) / f"{name}.toml"
     path.write_text(harmless(data), encoding="utf-8")

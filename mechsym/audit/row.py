@@ -94,6 +94,8 @@ def _answer(asked: Asked, said: Statement, claim: str) -> Row:
     read = {*dependencies(question.theory, [question.quantity]), *used_names(question.formula)}
     held, idle = ([f"{k} = {v:g}" for k, v in question.hold.items() if (k in read) == there] for there in (True, False))
     notes = [f"compared at {', '.join(held)}" if held else "", left_note(question, asked, said.left)]
+    # an even motion is said of a whole paper, not of the formulas that hold its speed
+    idle = [said for said in idle if not question.theory.letters[said.split()[0]].unit.endswith(("/s", "/s^2"))]
     notes += [f"not read: {', '.join(idle)}; neither the formula nor {question.quantity} holds it"] if idle else []
     if chosen and verdict.verdict not in ("exact", "convention"):
         question = conventions.converted(question, chosen)

@@ -10,9 +10,11 @@ import numpy as np
 from mechsym.audit.judge.conventions import conditions, under
 from mechsym.audit.judge.dimensions import is_consistent
 from mechsym.audit.judge.orders import EXACT, lowest
-from mechsym.audit.judge.prover import POINTS, ROUNDING, Agreement, agreement, proves_equal
+from mechsym.audit.judge.prover import POINTS, ROUNDING, Agreement, agreement, proves_equal, reach
 from mechsym.audit.judge.question import Question, names, used_names, value
+from mechsym.audit.judge.window import DECADES, is_wide
 from mechsym.audit.read.reader import joined
+from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.repair.examination import Examination, Repair, exact_repair, examine, standing
 from mechsym.audit.repair.search import Found, search, truncated
@@ -23,6 +25,7 @@ PASSED = ("exact", "truncation", "convention")  # exit status 0
 FINDINGS = ("misprint", "nearer", "wrong")  # exit status 1
 OPEN = ("mixed", "untestable")  # exit status 3
 WORST = ("wrong", "nearer", "misprint", *OPEN, "convention", "truncation", "exact")  # the worst first
+_NEAR_ONLY = "it agrees near the data and not over the whole domain; say with assume where it is meant to hold"
 _EITHER = "a term is too many, or one has lost a factor that the condition makes zero"
 _STATIC = "it has no speed at all, so that what it has lost may hold at any speed"
 
@@ -66,11 +69,16 @@ def _plain(exam: Examination) -> Decision | None:
     # what needs no search: exact, without values, or a truncation
     tree = exam.question.formula.tree
     met = agreement(exam.judged, tree)
-    if met.exact:
-        proof = "polynomial" if proves_equal(exam.question, tree) else "50 digits"
+    reached = reach(exam.judged, tree) if met.exact else None
+    if reached is not None and not reached.everywhere and reached.where is None:
+        return _decision(exam, "untestable", replace(standing(exam, tree), orders={}), note=_NEAR_ONLY)
+    if reached is not None:
+        proof = "polynomial" if reached.everywhere and proves_equal(exam.question, tree) else "50 digits"
         turns = "up to whole turns" if met.turned else ""
-        where = domain(exam.question)
-        return _decision(exam, "exact", standing(exam, tree), certificate=proof, domain=where, note=turns)
+        limit = f"{to_python(reached.where)} > 0" if reached.where is not None else ""
+        where = joined(domain(exam.question), limit)
+        told = joined(turns, f"where {limit}" if limit else "")
+        return _decision(exam, "exact", standing(exam, tree), certificate=proof, domain=where, note=told)
     if met.expected <= POINTS // 2 or met.agrees or met.vanishes:
         start = replace(standing(exam, tree), orders={})
         return _decision(exam, "untestable", start, note=_without_value(met))
@@ -142,6 +150,8 @@ def domain(question: Question) -> str:
     parts = [f"positive {', '.join(positive)}"] if positive else []
     parts += [f"all {', '.join(signed)}"] if signed else []
     parts += ["rods longer than their cranks"] if theory.rods else []
+    reach = f"from 1/{10**DECADES} to {10**DECADES} of the data" if is_wide(question) else "from 0.7 to 1.4 of the data"
+    parts += [reach] if positive or signed else []
     return "; ".join([*parts, *ranges, *(f"{k} = {v:g}" for k, v in question.hold.items())])
 
 

@@ -93,10 +93,7 @@ def _built_in() -> tuple[str, ...]:
 
 
 def text(name: str) -> str:
-    """The TOML text of a built-in case, or of a file.
-
-    name: name of a built-in case or a path. Raises BadInput: neither a built-in name nor a readable file.
-    """
+    """The TOML text of a built-in case, or of a file. Raises BadInput: neither a built-in name nor readable."""
     return _read(name)[1]
 
 
@@ -144,10 +141,7 @@ def _beside(record: Record, name: str) -> Record:
 
 
 def underlaid(case: Case, settings: Mapping[str, object]) -> Case:
-    """A case read again with settings below what the user has replaced.
-
-    settings: values to replace, by dotted key, where the user has not.
-    """
+    """A case read again with values by dotted key below what the user has replaced."""
     return dataclasses.replace(load(case.path, {**settings, **case.overrides}), read=case.read)
 
 

@@ -160,10 +160,7 @@ def _whole(doubts: object, records: Records, mechanism: str) -> list[CaseProblem
 
 
 def unused(case: CaseFacts, written: Json) -> tuple[Doubt, ...]:
-    """Doubts about what a case says and nothing that runs on it reads.
-
-    written: mapping of str to dict, sections with the keys that the case gives.
-    """
+    """Doubts about what a case says and nothing reads. written: sections with the keys that the case gives."""
     lacks, read = lacking(case), set().union(*read_by(case).values())
     others = {name: COMMANDS[name].reads(case) for name, missing in lacks.items() if missing}
     doubts = []

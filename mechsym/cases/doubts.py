@@ -1,7 +1,14 @@
-"""What of a case is nonsense or unusual, and which doubts its author accepts.
+r"""What of a case is nonsense or unusual, and which doubts its author accepts.
 
 [doubts]
 twist = { up_to = "2 rad", why = "the source's model; a real shaft breaks" }
+
+Values of a case by the size of its own machine: bore, crank, and the mass that moves.
+
+.. math:: \frac{I}{m r^2}, \qquad \frac{I_C}{m_\mathrm{part}\,l^2}, \qquad \sqrt{k/I}, \qquad \frac{c}{2\sqrt{k I}}
+
+A value in the wrong unit, or with a slip of three decimals, is out of proportion to the machine that it belongs to; an
+absolute range wide enough for a model and a ship would let it pass. Zero leaves a part away and is never doubted.
 """
 
 import dataclasses
@@ -9,8 +16,7 @@ import functools
 import math
 from typing import TYPE_CHECKING
 
-from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_throws, by_twist
-from mechsym.cases.scales import MOVING, by_shaft, by_size, by_unit
+from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_throws, by_twist, value
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
 from mechsym.mechanisms.plan import plan_of
@@ -22,6 +28,15 @@ from mechsym.quantities.records import Field
 
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
+import csv
+import itertools
+from collections.abc import Iterable, Iterator, Mapping
+from importlib import resources
+
+from mechsym.cases.laws import load_torques
+from mechsym.mechanisms.shaft import ElasticShaft
+from mechsym.plausible import letters
+from mechsym.quantities.units import Metre
 
 # doubts about measured diagrams, in the units that they name
 _MEASURED = (
@@ -89,7 +104,9 @@ def _of_links(sections: Records, listing: "Listing") -> tuple[Doubt, ...]:
     letters, steady = (
         dataclasses.asdict(sections[name]) if name in sections else {} for name in ("parameters", "inputs")
     )
-    return by_links(listing, letters, steady, getattr(sections.get("operation"), "speed", None))
+    steady |= {next(iter(listing["coordinates"])): value(sections, "drive", "torque")}
+    speed = getattr(sections.get("operation"), "speed", None)
+    return by_links(listing, letters, steady, dict.fromkeys(listing["coordinates"], speed) if speed else {})
 
 
 def _sizes(sections: Records, sizes: Proportions, bore: float | None) -> tuple[Doubt, ...]:
@@ -131,3 +148,153 @@ def _known(section: str, letter: Field) -> bool:
 def _piston_area(sections: Records) -> float | None:
     bores = [getattr(sections.get(name), "bore", None) for name in ("chamber", "cycle")]
     return next((math.pi / 4 * bore**2 for bore in bores if bore), None)
+
+
+# absolute pressure of the charge, what each kind of cycle calls it
+_CHARGE = ("intake_pressure", "p_s", "mean_pressure", "p_suction", "inlet_pressure", "exhaust_pressure")
+MOVING = "moving mass"
+_ATMOSPHERE = 101325.0  # [Pa]
+_Told = tuple[str, str, float]  # kind, what it is, value
+
+
+def by_size(sections: Records, sizes: Proportions, bore: Metre | None) -> tuple[Doubt, ...]:
+    """What is out of proportion to the machine. bore: of the piston; None where it is not known."""
+    told = [*_inertias(sections, sizes), *_by_part(sections, sizes), *_fitted(sections)]
+    measures = {"stroke": sizes.stroke}
+    if "cycle" in sections:  # what a press moves is as heavy as its flywheel carries
+        volume = (bore or sizes.stroke) ** 2 * sizes.stroke  # without a bore the stroke stands for it
+        told.append(("mass_density", f"{MOVING} / (bore^2 * stroke)", sizes.mass / volume))
+    if bore:
+        area = math.pi / 4 * bore**2
+        measures |= {"bore": bore, "bore^3": bore**3, "piston area": area, "swept volume": area * sizes.stroke}
+        measures["that of solid copper"] = 400 * area / sizes.stroke  # a block of the piston's width [W/K]
+        told.append(("stroke_ratio", "stroke / bore", sizes.stroke / bore))
+        told += [*_valves(sections, bore), *_areas(sections, sizes, bore)]
+    return _doubts([*told, *_by_measure(sections, measures)])
+
+
+@functools.cache
+def _measured() -> tuple[dict[str, str], ...]:
+    """Rows of `scales.csv`: code of the doubt, section, names of its keys (all where none is named), measure."""
+    text = resources.files("mechsym.cases").joinpath("scales.csv").read_text("utf-8")
+    return tuple(csv.DictReader(text.splitlines()))
+
+
+def _by_measure(sections: Records, measures: Mapping[str, float]) -> Iterator[_Told]:
+    for row in _measured():
+        section, by = row["section"], row["by"]
+        if section not in sections or by not in measures:
+            continue
+        every = [f.name for f in _fields(sections[section]) if "unit" in f.metadata]
+        for name in row["names"].split() or every:
+            size = value(sections, section, name)
+            for one in set(size) if isinstance(size, tuple) else (size,):
+                yield row["code"], f"{section}.{name} / {by}", one / measures[by]
+
+
+def by_shaft(shaft: ElasticShaft) -> tuple[Doubt, ...]:
+    r"""Stiffness and damping of each section of an elastic shaft, by what swings against each other on its two sides.
+
+    .. math:: \omega = \sqrt{k/I}, \quad \zeta = c / (2\sqrt{k I}), \quad 1/I = 1/I_1 + 1/I_2
+    """
+    told: list[_Told] = []
+    sides = list(itertools.accumulate(shaft.discs))
+    for one, k, c in zip(sides, shaft.k, shaft.c, strict=False):
+        inertia = one * (1 - one / sides[-1])
+        if k == 0 or inertia <= 0:  # nothing swings
+            continue
+        told.append(("shaft_frequency", "sqrt(stiffness / inertia of both sides), rad/s", math.sqrt(k / inertia)))
+        told.append(("shaft_damping", "damping / (2 sqrt(stiffness * inertia))", c / (2 * math.sqrt(k * inertia))))
+    return _doubts(told)
+
+
+def by_unit(sections: Records, names: tuple[str, ...]) -> tuple[Doubt, ...]:
+    """What is beyond the largest machines, in sections of letters that may mean anything."""
+    found = {}
+    for section in names:
+        for field in _fields(sections.get(section)):
+            value = getattr(sections[section], field.name)
+            values = [v for v in (value if isinstance(value, tuple) else (value,)) if isinstance(v, float)]
+            found[f"{section}.{field.name}"] = (max(values, key=abs, default=0.0), field.metadata.get("unit", ""))
+    return letters(found)
+
+
+def _doubts(told: Iterable[_Told]) -> tuple[Doubt, ...]:
+    return tuple(d for code, name, value in told if value for d in proportion(code, name, value))
+
+
+def _fields(record: object) -> tuple[Field, ...]:
+    return dataclasses.fields(record) if dataclasses.is_dataclass(record) else ()
+
+
+def _inertias(sections: Records, sizes: Proportions) -> Iterator[_Told]:
+    for letter, (inertia, like) in sizes.parts.items():
+        if like > 0:
+            yield "part_inertia", f"parameters.{letter} / (mass * length^2)", inertia / like
+    scale = sizes.mass * (sizes.stroke / 2) ** 2
+    if scale <= 0:
+        return
+    about = "(moving mass * half stroke^2)"
+    for letter, inertia in sizes.shafts.items():
+        yield "inertia", f"parameters.{letter} / {about}", inertia / scale
+    for letter, moment in sizes.unbalances.items():
+        yield "unbalance", f"parameters.{letter} / (moving mass * half stroke)", abs(moment) * sizes.stroke / 2 / scale
+    kept = value(sections, "flywheel", "inertia") / scale
+    if kept > 1:  # a small one is as good as none
+        yield "inertia", f"flywheel.inertia / {about}", kept
+    if (turning := sum(sizes.shafts.values())) > 0:
+        yield "flywheel_share", "flywheel.inertia / inertia of the shaft", kept * scale / turning
+    if "cycle" not in sections:
+        yield "carried", f"inertia of the shaft / {about}", sum(sizes.shafts.values()) / scale + kept
+
+
+def _by_part(sections: Records, sizes: Proportions) -> Iterator[_Told]:
+    """What belongs to the gears, rollers and cranks of the mechanism."""
+    radius = value(sections, "part_gears", "module") * value(sections, "part_gears", "teeth_pinion") / 2
+    yield "gear_pitch", "part_gears.module * teeth_pinion / 2 / (stroke / 4)", 4 * radius / sizes.stroke
+    if roller := value(sections, "rollers", "radius"):
+        share = value(sections, "losses", "bearing_radius") / roller
+        yield "bearing_share", "losses.bearing_radius / rollers.radius", share
+    for letter, ratio in sizes.unequal.items():
+        yield "unequal", f"largest parameters.{letter} / least", ratio
+    if sizes.span is not None:
+        yield "opposed_span", "distance of the shafts / (r + l1 + l2 of both)", sizes.span
+
+
+def _fitted(sections: Records) -> Iterator[_Told]:
+    """Constants of fitted laws by the law's own."""
+    for section, names in (("heat_transfer", ("c1", "c2")), ("friction_pressure", ())):
+        for field in _fields(sections.get(section)):
+            own = field.default
+            if isinstance(own, float) and own and (field.name in names or not names):
+                about = f"{section}.{field.name} / the law's own {own:g}"
+                yield "fitted_constant", about, value(sections, section, field.name) / own
+
+
+def _areas(sections: Records, sizes: Proportions, bore: float) -> Iterator[_Told]:
+    """Pressures, forces and stiffnesses by the area of a piston."""
+    area = math.pi / 4 * bore**2
+    charge = next((p for p in (value(sections, "cycle", name) for name in _CHARGE) if p), _ATMOSPHERE)
+    for section, name in (("cycle", "p_back"), ("chamber", "back_pressure")):
+        share = value(sections, section, name) / max(charge, _ATMOSPHERE)  # a throttled charge has less
+        yield "back_pressure_share", f"{section}.{name} / charge", share
+    faces = getattr(sections.get("faces"), "areas", ())
+    swept = (sum(faces) or area * sizes.pistons) * sizes.stroke * (value(sections, "chamber", "pistons") or 1)
+    for name, torque in load_torques(sections):
+        yield "load_pressure", f"{name} * 2 pi / swept volume", 2 * math.pi * torque / swept
+    for name in ("k_a", "k_b", "k_c"):
+        about = f"closing.{name} * bore / (1 MPa * piston area)"
+        yield "joint_stiffness", about, value(sections, "closing", name) * bore / (1e6 * area)
+    if sizes.pitch is not None:
+        yield "cylinder_pitch", "least distance of two cylinders / bore", sizes.pitch / bore or 1e-9
+
+
+def _valves(sections: Records, bore: float) -> Iterator[_Told]:
+    """Valves by each other, and together by the bore."""
+    for section, valve in (("breathing", "inlet"), ("breathing", "exhaust"), ("scavenging", "valve")):
+        if width := value(sections, section, f"{valve}_diameter"):
+            about = f"{section}.{valve}_lift / {valve}_diameter"
+            yield "lift_share", about, value(sections, section, f"{valve}_lift") / width
+    squares = sum(value(sections, "breathing", f"{valve}_diameter") ** 2 for valve in ("inlet", "exhaust"))
+    about = "breathing.valves * (inlet_diameter^2 + exhaust_diameter^2) / bore^2"
+    yield "valve_area", about, value(sections, "breathing", "valves") * squares / bore**2

@@ -9,8 +9,8 @@ from mechsym.cases.needs import commands_of
 from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
 from mechsym.quantities import allowed, load
-from mechsym.quantities.comments import comments
 from mechsym.quantities.records import Field, Record
+from mechsym.quantities.results import comments
 
 # bounds of a value, as JSON Schema calls them
 _BOUNDS = {"above": "exclusiveMinimum", "below": "exclusiveMaximum", "low": "minimum", "high": "maximum"}

@@ -5,7 +5,8 @@ r"""Values of a case by the laws of its machine: speeds, timing at speed, fire, 
 Of the links of a user's own mechanism, what a bar of their length can weigh and hold: l is the largest distance of two
 joints of the link, c its centre of mass, R the reach from its pivot, b from the middle of its joints to the farthest of
 what it may be made of. A zero leaves the part away and is never doubted; a link that turns with a coordinate may carry
-a flywheel. A piston, with one joint, is held against the longest link.
+a flywheel: where it is a rotor, or balanced. A link with one joint reaches as far behind its centre. A piston, with one
+joint, is held against the longest link.
 
 .. math:: \frac{I}{m l^2} \le \frac{b^2 - |c - \bar p|^2}{l^2}, \qquad
     \frac{|c - \bar p|}{l}, \qquad \frac{m}{l^3}, \qquad \omega R
@@ -14,7 +15,7 @@ a flywheel. A piston, with one joint, is held against the longest link.
 import dataclasses
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
@@ -39,6 +40,8 @@ _STEEL = 7850.0  # its density [kg/m^3]
 _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _RPM = 30 / math.pi  # rpm of one rad/s
 _DIGITS = 1e-3  # within which two numbers have the same digits, of the larger
+_CARRIES = 10.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+_LEADS = math.pi / 4  # how far pistons of one chamber lead and lag at the most [rad]
 _LATE = 0.9  # of a run, from when on a drive has no time to show what it does
 
 
@@ -116,11 +119,13 @@ def by_throws(parameters: Any) -> Iterator[Doubt]:
     from mechsym.mechanisms.crank_train.parameters import each
 
     angles = each(parameters, "firing") if parameters.firing else ()
-    # two pistons of one chamber fire together, one of them before its dead centre and the other behind
-    late = zip(angles, lateness(parameters), strict=True) if angles else ()
+    # two pistons of one chamber fire together, one of them a little before its dead centre and the other behind
+    late = tuple(zip(angles, lateness(parameters), strict=True)) if angles else ()
     alone = [beside for angle, beside in late if angles.count(angle) == 1]
+    together = [abs(beside) for angle, beside in late if angles.count(angle) > 1]
     what = "parameters.firing from the dead centre of the piston, rad"
     yield from proportion("firing_off", what, max(alone, key=abs, default=0.0))
+    yield from proportion("firing_off", f"{what}, of pistons that fire together", max(together, default=0.0), _LEADS)
     places, banks = each(parameters, "z"), each(parameters, "bank")
     for bank in sorted(set(banks)):
         throws = sorted({t for t, b in zip(parameters.throw, banks, strict=True) if b == bank})
@@ -168,6 +173,10 @@ def _burning(sections: Records) -> Iterator[Doubt]:
     elif hasattr(cycle, "a_p"):
         left = (1 - cycle.b) * math.exp(-cycle.a_p) + cycle.b * math.exp(-cycle.a_d)
         yield from proportion("burnt_fraction", burnt, 1 - left)
+    duration, omega = getattr(cycle, "duration", 0.0), abs(value(sections, "operation", "speed"))
+    if hasattr(cycle, "octane") and omega and duration > 0 and (bore := value(sections, "chamber", "bore")):
+        lasts = (duration + getattr(cycle, "duration_slope", 0.0) * omega) / omega
+        yield from proportion("flame_speed", "chamber.bore / 2 / (cycle.duration at operation.speed)", bore / 2 / lasts)
     if hasattr(cycle, "octane") and (ratio := value(sections, "chamber", "compression_ratio")):
         yield from proportion("spark_compression", "chamber.compression_ratio of an engine with a spark", ratio)
     if shares := getattr(sections.get("rings"), "gas_shares", ()):
@@ -233,22 +242,26 @@ _WORDS = {name: getattr(math, name) for name in ("pi", "sqrt", "sin", "cos", "ta
 
 
 def by_links(
-    listing: "Listing", letters: Mapping[str, float], inputs: Mapping[str, float], speed: float | None
+    listing: "Listing", letters: Mapping[str, float], inputs: Mapping[str, float], speeds: Mapping[str, float]
 ) -> tuple[Doubt, ...]:
     """What is out of proportion to a link, of each kind the worst.
 
-    listing: as stored of the declaration. letters, inputs: values of the parameters and of steady inputs [SI].
-    speed: of the first coordinate, where the case has one [rad/s].
+    listing: as stored of the declaration. letters, inputs: values of the parameters and of what acts, a torque along a
+    coordinate under its name [SI]. speeds: of coordinates, where they are known [rad/s].
     """
     links, units = listing.get("links", ()), listing["parameters"]
+    rotors = {str(role.get("angle")) for role in listing.get("roles", {}).get("rotor", ())}
 
     def far(doubt: Doubt) -> float:
         return abs(math.log(doubt.value)) if doubt.value > 0 else math.inf
 
     worst: dict[str, Doubt] = {}
-    of_links = (doubt for link in links for doubt in _of(link, letters, speed))
-    forces = [abs(given) for name, given in inputs.items() if listing["inputs"].get(name) == "N"]
-    together = (*_masses(links, letters, units), *_stress(links, letters, max(forces, default=0.0)))
+    acts = {q: "N*m" for q, unit in listing["coordinates"].items() if unit == "rad"} | dict(listing["inputs"])
+    longest = max((_length(link, letters) for link in links), default=0.0)
+    of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors, longest))
+    pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
+    forces = max(pushes, default=0.0), max(turns, default=0.0)
+    together = (*_masses(links, letters, units), *_stress(links, letters, *forces))
     for doubt in (*of_links, *together):
         if doubt.code not in worst or far(doubt) > far(worst[doubt.code]):
             worst[doubt.code] = doubt
@@ -260,11 +273,13 @@ def linked(listing: "Listing", letters: Mapping[str, float]) -> float:
 
     listing: as stored of the declaration. letters: values of the parameters [SI].
     """
-    return sum(_number(link["mass"], letters) for link in listing.get("links", ()))
+    return sum(_number(link["mass"], letters) for link in listing.get("links", ()) if len(link["points"]) > 1)
 
 
 def _length(link: Json, letters: Mapping[str, float]) -> float:
     points = [_point(pair, letters) for pair in link["points"]]
+    if len(points) == 1:
+        return 2 * math.dist(points[0], _point(link["centre"], letters))
     return max(math.dist(p, q) for p, q in combinations(points, 2))
 
 
@@ -278,13 +293,18 @@ def _masses(links: Sequence[Json], letters: Mapping[str, float], units: Mapping[
             yield from proportion("link_density", what, letters[name] / longest**3)
 
 
-def _stress(links: Sequence[Json], letters: Mapping[str, float], force: float) -> Iterator[Doubt]:
-    """A force by the section of the stoutest link, as a bar of steel of its mass and length has it."""
+def _stress(links: Sequence[Json], letters: Mapping[str, float], force: float, torque: float) -> Iterator[Doubt]:
+    r"""A force and a torque by the section A of the stoutest link, a square bar of steel of its mass and length.
+
+    .. math:: F/A, \qquad 6 M / A^{3/2}
+    """
     lengths = [(_number(link["mass"], letters), _length(link, letters)) for link in links]
     section = max((mass / (_STEEL * length) for mass, length in lengths if length > 0), default=0.0)
     if section > 0:
         what = "largest force of [inputs] / section of the stoutest link"
         yield from proportion("link_stress", what, force / section)
+        what = "largest torque that bends / section modulus of the stoutest link"
+        yield from proportion("link_stress", what, 6 * torque / section**1.5)
 
 
 def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]:
@@ -299,35 +319,45 @@ def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]
         yield from proportion("open_side", f"loops of pins whose side nobody chose ({', '.join(joints)})", len(joints))
 
 
-def _of(link: Json, letters: Mapping[str, float], speed: float | None) -> Iterator[Doubt]:
+def _of(
+    link: Json, letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str], longest: float
+) -> Iterator[Doubt]:
     name = link["name"]
     points = [_point(pair, letters) for pair in link["points"]]
     length, mass = _length(link, letters), _number(link["mass"], letters)
-    inertia = 0.0 if link["turns"] else _number(link["inertia"], letters)
+    inertia = _number(link["inertia"], letters)
     if length <= 0:
         return
+    if len(points) == 1:  # its size is that of its centre's distance: a disc beside its axis is wider, a bob thinner
+        if mass > 0 and inertia:
+            about = f"inertia of {name} / (mass * (twice its centre from its joint)^2)"
+            yield from proportion("link_needle", about, inertia / (mass * length**2))
+        return
+    if link["turns"] in rotors or link["turns"] and link["centre"] == list(link["pivot"] or ()):
+        inertia = 0.0  # of a flywheel
+    # webs, discs and counterweights of a crank are wider than its throw
+    size, of = (longest, "longest link") if link["turns"] else (length, "distance of its joints")
     if mass > 0:
-        yield from proportion("link_density", f"mass of {name} / (distance of its joints)^3", mass / length**3)
+        yield from proportion("link_density", f"mass of {name} / ({of})^3", mass / size**3)
         middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True))
         away = math.dist(_point(link["centre"], letters), middle)
-        yield from proportion(
-            "link_centre", f"centre of {name} from the middle of its joints / their distance", away / length
-        )
-        if inertia:
-            about = f"inertia of {name} / (mass * (distance of its joints)^2)"
+        yield from proportion("link_centre", f"centre of {name} from the middle of its joints / {of}", away / size)
+        about, ratio = f"inertia of {name} / (mass * ({of})^2)", inertia / (mass * size**2)
+        if inertia and link["turns"]:
+            yield from proportion("link_needle", about, ratio, _CARRIES)
+        elif inertia:
             # of all that weighs m within a circle about the middle, whose centre of mass lies beside it
             reach = _BEYOND * (max(math.dist(middle, p) for p in points) + away)
-            most = (reach**2 - away**2) / length**2
-            yield from proportion("link_inertia", about, inertia / (mass * length**2), most)
-    elif inertia and link["pivot"]:  # about its bearing in the frame no mass is needed
+            yield from proportion("link_inertia", about, ratio, (reach**2 - away**2) / length**2)
+    elif inertia and link["pivot"] and not link["turns"]:  # about its bearing in the frame no mass is needed
         yield from proportion("link_density", f"inertia of {name} / (distance of its joints)^5", inertia / length**5)
-    elif inertia:
+    elif inertia and not link["turns"]:
         why = "what has no mass has no inertia: give it a mass, or leave its inertia away"
         yield Doubt(code="massless", quantity=f"inertia of {name}", value=inertia, usual="0 without a mass", why=why)
-    if link["turns"] and link["pivot"] and speed:
-        pivot = _point(link["pivot"], letters)
-        reach = max(math.dist(pivot, p) for p in points)
-        yield from proportion("point_speed", f"speed of the outermost joint of {name}", abs(speed) * reach)
+    if link["turns"] in speeds:
+        reach = max(math.dist(_point(link["pivot"], letters), p) for p in points) if link["pivot"] else length
+        speed = abs(speeds[link["turns"]]) * reach
+        yield from proportion("point_speed", f"speed of the outermost joint of {name}", speed)
 
 
 def _point(pair: Sequence[str], letters: Mapping[str, float]) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from mechsym import mechanisms
-from mechsym.cases import reads
+from mechsym.cases import facts
 from mechsym.cases.facts import CaseFacts, facts_of
 from mechsym.cycle.kinds import KINDS
 from mechsym.errors import MissingSection
@@ -27,10 +27,7 @@ _SPARK = "[cycle] kind = 'spark-ignition'"
 
 
 def require(case: Any, command: str, given: str = "") -> None:
-    """Refuse a case that lacks what a command needs.
-
-    given: what an option of the command gives in place of the case. Raises MissingSection: names all that is missing.
-    """
+    """Refuse a case that lacks what a command needs. given: by an option in its place. Raises MissingSection: all."""
     facts = facts_of(case.mechanism, case.sections)
     missing = COMMANDS[command].lacks(facts)
     if missing := [what for what in dict.fromkeys(missing) if what != given]:
@@ -42,7 +39,7 @@ def require(case: Any, command: str, given: str = "") -> None:
 def in_words(case: CaseFacts, missing: list[str]) -> list[str]:
     """What a command lacks, for people: sections that describe one thing together stand behind its name."""
     kind = "engine" if case.roles is None or case.roles.pistons or case.roles.faces else "machine"
-    for thing, names in {"hinge": reads.GUIDE, "sizes of its parts": reads.PARTS}.items():
+    for thing, names in {"hinge": facts.GUIDE, "sizes of its parts": facts.PARTS}.items():
         sections = [f"[{name}]" for name in names]
         if all(one in missing for one in sections):
             rest = [what for what in missing if what not in sections]
@@ -114,7 +111,7 @@ def _no_piston(case: CaseFacts) -> str:
 
 def _events(case: CaseFacts) -> list[str]:
     own = [] if case.roles is None else [*(s.name for s in case.roles.stops), *(f.name for f in case.roles.frictions)]
-    said = "a motion without events: {} is a stop or a friction, which only simulate and sweep take"
+    said = "a motion without events: {} makes them, which only simulate and sweep take"
     return [said.format(own[0])] if own else []
 
 
@@ -158,7 +155,7 @@ def _drive(case: CaseFacts) -> list[str]:
 
 def _hinge(case: CaseFacts) -> list[str]:
     """What a hinge on the shaft lacks."""
-    return _turning(case, *reads.GUIDE)
+    return _turning(case, *facts.GUIDE)
 
 
 def _codesign(case: CaseFacts) -> list[str]:
@@ -170,7 +167,7 @@ def _size(case: CaseFacts) -> list[str]:
     if not case.rules or not case.closed:
         given = case.rules == "slider crank" and case.has("part_crosshead")
         return _turning(case, *(("cycle",) if given else ()))
-    return _turning(case, "cycle", "speeds", *(() if case.rules == "slider crank" else reads.PARTS))
+    return _turning(case, "cycle", "speeds", *(() if case.rules == "slider crank" else facts.PARTS))
 
 
 def _spark(case: CaseFacts) -> list[str]:
@@ -218,11 +215,6 @@ def _run(case: CaseFacts) -> list[str]:
 
 
 def _export(case: CaseFacts) -> list[str]:
-    if case.held:
-        return [
-            f"{case.mechanism} is closed by constraints and an export takes independent coordinates; simulate it with "
-            "mechsym"
-        ]
     return _events(case) or _run(case)
 
 
@@ -279,22 +271,22 @@ class Command:
 
 COMMANDS: Mapping[str, Command] = {
     "app": Command(asks=lambda case: [], reads=_reads_report),
-    "balance": Command(asks=_turning, reads=lambda case: reads.of_turn(case) | {"shaft"}),
-    "codesign": Command(asks=_codesign, reads=lambda case: reads.guide(case) | {"codesign", "losses"}),
-    "compare": Command(asks=_compare, reads=lambda case: reads.of_turn(case) | reads.of_friction(case) | {"speeds"}),
-    "cycle": Command(asks=_cycle, reads=reads.cycle),
+    "balance": Command(asks=_turning, reads=lambda case: facts.of_turn(case) | {"shaft"}),
+    "codesign": Command(asks=_codesign, reads=lambda case: facts.guide(case) | {"codesign", "losses"}),
+    "compare": Command(asks=_compare, reads=lambda case: facts.of_turn(case) | facts.of_friction(case) | {"speeds"}),
+    "cycle": Command(asks=_cycle, reads=facts.cycle),
     "eval": Command(asks=lambda case: _missing(case, "parameters"), reads=lambda case: {"parameters"}),
-    "export": Command(asks=_export, reads=reads.run),
-    "flywheel": Command(asks=_turning, reads=reads.flywheel),
-    "fmu": Command(asks=_export, reads=reads.run),
-    "forces": Command(asks=_forces, reads=reads.forces),
-    "guide": Command(asks=_hinge, reads=reads.guide),
-    "hinge": Command(asks=_hinge, reads=reads.hinge),
-    "identify": Command(asks=_identify, reads=reads.identify),
-    "optimise": Command(asks=_optimise, reads=lambda case: reads.cycle(case) | {"optimise"}),
-    "page": Command(asks=_export, reads=reads.page),
+    "export": Command(asks=_export, reads=facts.run),
+    "flywheel": Command(asks=_turning, reads=facts.flywheel),
+    "fmu": Command(asks=_export, reads=facts.run),
+    "forces": Command(asks=_forces, reads=facts.forces),
+    "guide": Command(asks=_hinge, reads=facts.guide),
+    "hinge": Command(asks=_hinge, reads=facts.hinge),
+    "identify": Command(asks=_identify, reads=facts.identify),
+    "optimise": Command(asks=_optimise, reads=lambda case: facts.cycle(case) | {"optimise"}),
+    "page": Command(asks=_export, reads=facts.page),
     "report": Command(asks=lambda case: [], reads=_reads_report),
-    "simulate": Command(asks=_simulate, reads=reads.simulate),
-    "size": Command(asks=_size, reads=reads.size),
+    "simulate": Command(asks=_simulate, reads=facts.simulate),
+    "size": Command(asks=_size, reads=facts.size),
     "sweep": Command(asks=_sweep, reads=lambda case: COMMANDS[meant(case)].reads(case) if meant(case) else set()),
 }

@@ -11,21 +11,17 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mechsym.cases import load
+from mechsym.cases.cylinder_layout import CylinderLayout, boxer, in_line, in_v, opposed, radial
 from mechsym.cycle.kinds import four_stroke
 from mechsym.errors import BadInput
 from mechsym.files import write_text
-from mechsym.mechanisms.crank_train.firing import crank_phases, firing_angles
+from mechsym.mechanisms.crank_train.firing import lateness
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.plausible import Doubt
-from mechsym.quantities import RPM, record
+from mechsym.quantities import RPM
 from mechsym.quantities.units import Metre, Pure
 from mechsym.torsion.modes import stiffness_factor
 
-# usual orders of engines in line; others go up through the odd cylinders and down through the even ones
-_ORDERS = {
-    1: (1,), 2: (1, 2), 3: (1, 3, 2), 4: (1, 3, 4, 2), 5: (1, 2, 4, 5, 3), 6: (1, 5, 3, 6, 2, 4),
-    8: (1, 6, 2, 5, 8, 3, 7, 4),
-}  # fmt: skip
-_BANKS = {2: 90, 4: 90, 6: 60, 8: 90, 10: 72, 12: 60}  # angle between the banks of a V engine [deg]
 _MOST = 12
 _COMPRESSION = ((0.1, 10), (0.14, 9), (math.inf, 8))  # widest bore [m], compression ratio below knock
 PISTON_MASS = 780  # mass of a piston by the cube of the bore [kg/m^3]
@@ -35,30 +31,24 @@ _DAMPING = 0.12  # of the first mode: no order up to 12 is magnified by more tha
 _PISTON_SPEED = {"crosshead": 4.7, "small": 10.0, "four-stroke": 12.0}
 
 
-@record
-class CylinderLayout:
-    """Cylinders of a crank train: angles in degrees, one a cylinder, and one place along the shaft for each throw."""
-
-    throw: tuple[int, ...]  #: which each cylinder stands on, from 1
-    bank: tuple[float, ...]  #: where the axis of each cylinder points [deg]
-    firing: tuple[float, ...]  #: of each cylinder [deg]
-    phase: tuple[float, ...]  #: angle of the pin of each cylinder [deg]
-    period: float  #: of a cycle [deg]
-    opposed: bool = False
-
-
 def write_engine(
-    kind: str, bore: Metre, stroke: Metre, cylinders: int | None, out: Path, name: str = "", gas: str = "exchange"
-) -> list[Path]:
+    kind: str, bore: Metre, stroke: Metre, cylinders: int | None, out: Path, name: str = "", gas: str = "exchange",
+    rods: str | None = None,
+) -> list[Path]:  # fmt: skip
     """Write the case of a new engine; nothing that exists is overwritten.
 
     bore, stroke: of a cylinder; of opposed pistons and of a hypocycloid the stroke of one piston. name: stem of the
-    file; kind and number of cylinders when left out. gas: of a four-stroke engine, a word of `GASES`.
+    file; kind and number of cylinders when left out. gas: of a four-stroke engine, a word of `GASES`. rods: of several
+    cylinders on a throw, a word of `RODS`; usual for the kind when left out.
     """
+    if rods is not None and kind not in _RODS:
+        raise BadInput(f"--rods {rods}: an engine of kind {kind} has one rod on each crank pin; leave --rods away")
     count = _CYLINDERS[kind] if cylinders is None else cylinders
     if not 1 <= count <= _MOST:
         raise BadInput(f"--cylinders {count}: allowed are 1 to {_MOST}")
-    text = _detuned(_KINDS[kind](bore, stroke, count) + _load_of(kind, gas, bore, stroke), bore, stroke)
+    hangs = (rods or _RODS.get(kind)) == "articulated"
+    engine = _KINDS[kind](bore, stroke, count, *([hangs] if kind in _RODS else []))
+    text = _detuned(engine + _load_of(kind, gas, bore, stroke), bore, stroke)
     file = out / f"{name or f'{kind}-{count}'}.toml"
     if file.exists():
         raise BadInput(f"{file} exists; choose another NAME or remove it")
@@ -93,48 +83,6 @@ def _shaft(bore: float, stroke: float, throws: int, factor: Pure) -> dict[str, f
 def _throw_inertia(bore: float, stroke: float) -> float:
     """Of a throw with its share of a rod: 11 piston masses at the crank radius [kg*m^2]."""
     return 11 * PISTON_MASS * bore**3 * (stroke / 2) ** 2
-
-
-def in_line(count: int, turns: int) -> CylinderLayout:
-    """Cylinders in line, evenly fired, one throw each. turns: 1 for two-stroke, 2 for four-stroke."""
-    order = _ORDERS.get(count, (*range(1, count + 1, 2), *range(count - count % 2, 0, -2)))
-    firing, bank = firing_angles(order, turns * 2 * math.pi), (0.0,) * count
-    return CylinderLayout(
-        throw=tuple(range(1, count + 1)),
-        bank=bank,
-        firing=_degrees(firing),
-        phase=_degrees(crank_phases(firing, bank)),
-        period=360.0 * turns,
-    )
-
-
-def in_v(count: int) -> CylinderLayout:
-    """A four-stroke V: cylinders i and i + n/2 on one throw, its pin split where even firing asks for it.
-
-    A twin has one pin for both rods, as usual, and fires unevenly.
-    """
-    if count not in _BANKS:
-        raise BadInput(f"--cylinders {count}: a V engine here has {', '.join(map(str, _BANKS))}")
-    half, bank = count // 2, float(_BANKS[count])
-    first = _degrees(firing_angles(_ORDERS.get(half, (1,)), 4 * math.pi))
-    later = bank + 360.0 if count == 2 else 720.0 / count
-    firing = (*first, *((f + later) % 720 for f in first))
-    banks = (-bank / 2,) * half + (bank / 2,) * half
-    phase = tuple((b - f) % 360 for b, f in zip(banks, firing, strict=True))
-    return CylinderLayout(throw=tuple(range(1, half + 1)) * 2, bank=banks, firing=firing, phase=phase, period=720.0)
-
-
-def opposed(count: int) -> CylinderLayout:
-    """Two-stroke cylinders with two pistons each, on two cranks that gears keep together."""
-    one = in_line(count, turns=1)
-    bank = one.bank + (180.0,) * count
-    phase = (*one.phase, *((180 - f) % 360 for f in one.firing))
-    throw = tuple(range(1, 2 * count + 1))
-    return CylinderLayout(throw=throw, bank=bank, firing=one.firing * 2, phase=phase, period=360.0, opposed=True)
-
-
-def _degrees(angles: tuple[float, ...]) -> tuple[float, ...]:
-    return tuple(round(math.degrees(a), 9) % 720 for a in angles)
 
 
 def _speed(stroke: float, usual: str) -> float:
@@ -195,10 +143,19 @@ def _inline(bore: float, stroke: float, count: int) -> str:
     return _spark(in_line(count, turns=2), about, bore, stroke)
 
 
-def _v(bore: float, stroke: float, count: int) -> str:
-    layout = in_v(count)
+def _v(bore: float, stroke: float, count: int, hangs: bool) -> str:
+    layout = in_v(count, hangs)
     about = f"Four-stroke V{count}, {2 * layout.bank[-1]:g} degrees, bore {1e3 * bore:g} mm"
     return _spark(layout, about, bore, stroke)
+
+
+def _boxer(bore: float, stroke: float, count: int) -> str:
+    return _spark(boxer(count), f"Four-stroke boxer engine, {count} cylinders, bore {1e3 * bore:g} mm", bore, stroke)
+
+
+def _radial(bore: float, stroke: float, count: int, hangs: bool) -> str:
+    about = f"Four-stroke radial engine, {count} cylinders, bore {1e3 * bore:g} mm"
+    return _spark(radial(count, hangs), about, bore, stroke)
 
 
 def _spark(layout: CylinderLayout, about: str, bore: float, stroke: float) -> str:
@@ -252,7 +209,8 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, fly
     radius, rod = stroke / 2, ratio * stroke / 2
     piston, rod_mass = PISTON_MASS * bore**3, ROD_MASS * bore**3
     throws = max(layout.throw)
-    turning = rod_mass * 2 / 3 * radius  # the big end's share, with the centre of mass a third from it
+    # the big end's share, with the centre of mass a third from it
+    turning = (rod_mass * 2 / 3 + layout.turned * (piston + rod_mass / 3)) * radius
     unbalance = [-turning * layout.throw.count(k + 1) for k in range(throws)]
     middles = []  # angle half way between the pins of each throw [deg]
     for number in range(1, throws + 1):
@@ -264,23 +222,62 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, fly
     far = 2 * (radius + rod + bore) + 0.02 * stroke
     lists = {
         "throw": str(list(layout.throw)), "bank": _numbers(layout.bank, "deg"), "phase": _numbers(layout.phase, "deg"),
-        "firing": _numbers(layout.firing, "deg"), "order": _order(layout), "u0": _numbers(unbalance, "kg*m"),
-        "u_phase": _numbers(middles, "deg"), "z": _places(layout, bore), "axes": _axes(layout, far),
+        "order": _order(layout), **_rods(layout, bore, radius, rod), "weights": _weights(layout),
+        "u0": _numbers(unbalance, "kg*m"), "u_phase": _numbers(middles, "deg"), "z": _places(layout, bore),
+        "axes": _axes(layout, far),
     }  # fmt: skip
     numbers = {
-        "period": layout.period, "r": radius * 1e3, "l1": rod / 3 * 1e3, "l2": rod * 2 / 3 * 1e3, "rod": rod_mass,
-        "I_rod": 0.2 * rod_mass * rod**2, "piston": piston, "m0": 4 * piston, "I0": _throw_inertia(bore, stroke),
-        "I_f": heavy * piston * radius**2, "heavy": heavy,
-        "ratio": ratio, "pin": bore * 1e3 / 8, "r_crank": 0.3 * bore * 1e3, "ring": bore * 1e3 / 45,
+        "period": layout.period, "r": radius * 1e3, "rod": rod_mass, "piston": piston, "m0": 4 * piston,
+        "I0": _throw_inertia(bore, stroke), "I_f": heavy * piston * radius**2, "heavy": heavy, "ratio": ratio,
+        "pitch": layout.pitch, "pin": bore * 1e3 / 8, "r_crank": 0.3 * bore * 1e3, "ring": bore * 1e3 / 45,
     }  # fmt: skip
     return fill(_start("train"), **lists, **numbers)
 
 
+def _rods(layout: CylinderLayout, bore: float, radius: float, rod: float) -> dict[str, str]:
+    """Lengths and inertia of the rods, where and on which they hang, and when their cylinders fire.
+
+    A rod that hangs is shorter by the radius of its knuckle pin, and its piston not quite at the top when the crank
+    points to it.
+    """
+    mass, firing = ROD_MASS * bore**3, layout.firing
+    if not layout.master:
+        lengths = {"l1": f'"{rod / 3 * 1e3:.4g} mm"', "l2": f'"{rod * 2 / 3 * 1e3:.4g} mm"'}
+        inertia = f'"{0.2 * mass * rod**2:.4g} kg*m^2"'
+        return lengths | {"I_rod": inertia, "hung": "", "firing": _numbers(firing, "deg")}
+    knuckle = 0.45 * bore
+    long = [rod - knuckle * bool(m) for m in layout.master]
+    from_master = [b - layout.bank[m - 1] if m else 0.0 for b, m in zip(layout.bank, layout.master, strict=True)]
+    bank, phase, fires, angles = (
+        tuple(map(math.radians, of)) for of in (layout.bank, layout.phase, firing, from_master)
+    )
+    train = CrankTrainParameters(
+        throw=layout.throw, bank=bank, phase=phase, firing=fires, r=radius, l1=tuple(l / 3 for l in long),
+        l2=tuple(2 * l / 3 for l in long), master=layout.master, knuckle=knuckle, knuckle_angle=angles,
+        m_rod=mass, I_rod=mass * rod**2, m_piston=mass, I0=1.0, I_f=1.0, k=1.0,
+    )  # fmt: skip
+    tops = tuple((f - math.degrees(late)) % 720 for f, late in zip(firing, lateness(train), strict=True))
+    hung = (
+        f"master = {list(layout.master)}   # cylinder on whose rod that of each hangs; 0: on the crank pin\n"
+        f'knuckle = "{knuckle * 1e3:.4g} mm"   # assumed: knuckle pins at 0.45 of the bore from the crank pin\n'
+        f"knuckle_angle = {_numbers(from_master, 'deg')}   # from the master rod; cylinders fire at their own tops\n"
+    )
+    return {
+        "l1": _numbers([l / 3 * 1e3 for l in long], "mm"), "l2": _numbers([l * 2 / 3 * 1e3 for l in long], "mm"),
+        "I_rod": _numbers([0.2 * mass * l**2 for l in long], "kg*m^2"), "hung": hung, "firing": _numbers(tops, "deg"),
+    }  # fmt: skip
+
+
+def _weights(layout: CylinderLayout) -> str:
+    also = " and half of the oscillating masses, all of their first order" if layout.turned else ""
+    return f"counterweights balance the turning part of the rods{also}"
+
+
 def _places(layout: CylinderLayout, bore: float) -> str:
-    """Throws along the shaft, 1.2 bores apart; those of opposed pistons stand beside each other."""
+    """Throws along the shaft; those of opposed pistons stand beside each other."""
     throws = max(layout.throw)
     row = throws // 2 if layout.opposed else throws
-    return _numbers([k % row * 1.2 * bore * 1e3 for k in range(throws)], "mm")
+    return _numbers([k % row * layout.pitch * bore * 1e3 for k in range(throws)], "mm")
 
 
 def _axes(layout: CylinderLayout, far: float) -> str:
@@ -328,10 +325,13 @@ _BUILT = {
     "hypocycloid": (0.01, 0.3, 0.4, 2.0),
 }
 _FOUR_STROKE = (0.01, 0.65, 0.35, 1.8)
-_KINDS: Mapping[str, Callable[[float, float, int], str]] = {
-    "two-stroke-crosshead": _crosshead, "inline": _inline, "v": _v, "opposed": _opposed, "hypocycloid": _hypocycloid,
+_KINDS: Mapping[str, Callable[..., str]] = {
+    "two-stroke-crosshead": _crosshead, "inline": _inline, "v": _v, "boxer": _boxer, "radial": _radial,
+    "opposed": _opposed, "hypocycloid": _hypocycloid,
 }  # fmt: skip
-_CYLINDERS = {"two-stroke-crosshead": 1, "inline": 4, "v": 2, "opposed": 1, "hypocycloid": 1}
-_FOUR_STROKES = ("inline", "v", "hypocycloid")
+_CYLINDERS = {"two-stroke-crosshead": 1, "inline": 4, "v": 2, "boxer": 4, "radial": 5, "opposed": 1, "hypocycloid": 1}
+_FOUR_STROKES = ("inline", "v", "boxer", "radial", "hypocycloid")
+RODS = ("side-by-side", "articulated")  #: Of several cylinders on a throw
+_RODS = {"v": "side-by-side", "radial": "articulated"}
 GASES = {"exchange": "four_stroke", "closed": "four_stroke_closed"}  #: Gas of a four-stroke engine, and its start
 KINDS = tuple(_KINDS)

@@ -13,10 +13,12 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.motion import pistons_of, travel_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
+from mechsym.forces.driven import DrivenForces
+from mechsym.forces.motion import WORDS
 from mechsym.forces.result import Forces
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
-from mechsym.plausible import PROPORTIONS, Doubt, moving_mass, piston_speed, proportion, proportions, results
+from mechsym.plausible import PROPORTIONS, Doubt, inputs, moving_mass, piston_speed, proportion, proportions, results
 from mechsym.quantities.units import Pure, RadPerSecond, Second
 from mechsym.simulate.result import RunNumbers
 
@@ -107,10 +109,7 @@ def _motion_of(case: Case, mechanism: Mechanism) -> tuple[np.ndarray, np.ndarray
 def of_run(
     case: Case, gas: Gas | None, length: Second, fastest: RadPerSecond = 0.0, run: RunNumbers | None = None
 ) -> tuple[Doubt, ...]:
-    """Doubts of a run in time.
-
-    gas: that drives it; length: how long it ran; fastest: highest speed of the crank in it.
-    """
+    """Doubts of a run in time. gas: that drives it; length: of the run; fastest: highest speed of the crank."""
     wanted, found = case.sections.get("simulation"), of_gas(case, gas)
     sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
     if sizes is not None:
@@ -119,7 +118,8 @@ def of_run(
         found += piston_speed("highest mean piston speed of the run", sizes.stroke, speed, fired(case.sections))
     else:
         letters = asdict(case.need("parameters"))
-        links = by_links(plan_of(case.mechanism).listing(None), letters, {}, fastest)
+        listing = plan_of(case.mechanism).listing(None)
+        links = by_links(listing, letters, {}, dict.fromkeys(listing["coordinates"], fastest))
         found += tuple(doubt for doubt in links if doubt.code == "point_speed")
     found += _motion(case, run) if run is not None else ()
     if wanted is None or wanted.window is None or not length > 0:
@@ -182,6 +182,27 @@ def _driven(case: Case, found: Forces) -> tuple[Doubt, ...]:
 
 def _vectors(found: Forces) -> list[tuple[np.ndarray, np.ndarray]]:
     return [*((pin.x, pin.y) for pin in found.loads.pins), *found.loads.bearings.values()]
+
+
+def of_motion(case: Case, found: DrivenForces) -> tuple[Doubt, ...]:
+    """Doubts of a driven motion: how far its words move, results by what moves, speeds of links, torques that bend."""
+    section, table, listing = case.need("motion"), found.columns, plan_of(case.mechanism).listing(None)
+    angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]
+    told = [q for q in found.one.driven if getattr(section, q) in WORDS]
+    driven = [q for q in found.one.driven if q in angles]
+    # what a file moves on and on may turn as often as it likes
+    sways = [q for q in driven if q in told or 2 * abs(table[q][-1] - table[q][0]) < np.ptp(table[q])]
+    rise = max((float(np.ptp(table[q])) for q in sways), default=0.0)
+    speeds = {q: float(np.abs(table[f"{q}d"]).max()) for q in angles}
+    torques = {q: float(np.abs(table[f"driving_{q}"]).max()) for q in driven}
+    step = float(table["t"][1] - table["t"][0])
+    turns = step * max(speeds.values(), default=0.0) / math.tau
+    doubts = inputs({"motion.rise": rise}) if rise else ()
+    if told:
+        doubts += proportion("sampling", "time between two results / motion.duration", step / section.duration)
+    doubts += proportion("aliasing", "turns between two results", turns, 0.5)
+    links = by_links(listing, asdict(case.need("parameters")), torques, speeds)
+    return doubts + tuple(doubt for doubt in links if doubt.code in ("point_speed", "link_stress"))
 
 
 def of_cycle(case: Case, columns: Json, bound: Pure | None) -> tuple[Doubt, ...]:

@@ -96,7 +96,7 @@ ENTRIES: dict[str, Any] = {
     ),
     "shaking": "mechsym.forces.shaking:BalanceWanted",
     "comparison": "mechsym.forces.comparison:ComparisonSettings",
-    "faces": "mechsym.mechanisms.faces:RodlessFaces",
+    "faces": "mechsym.mechanisms.closing:RodlessFaces",
     "closing": (
         "rule",
         {
@@ -124,11 +124,7 @@ def selector(section: str) -> str | None:
 
 
 def record(mechanism: str, section: str, table: Json) -> type[Record]:
-    """The record class of a section.
-
-    mechanism: name of the mechanism, which decides `[parameters]`; table: the section's raw values, read for its
-    selector.
-    """
+    """The record class of a section. mechanism: decides `[parameters]`; table: raw values, for its selector."""
     if section in LETTERS:
         from mechsym import mechanisms
 

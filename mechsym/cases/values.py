@@ -41,7 +41,10 @@ def convert(field: Field, value: object, key: str) -> Any:
 
 def _single(field: Field, kind: object, value: object, key: str) -> Any:
     if "unit" in field.metadata:
-        return parse(value, field.metadata["unit"], key)
+        number = parse(value, field.metadata["unit"], key)
+        if kind is int and number != round(number):
+            raise BadInput(f"{key} = {shown(value)} is no whole number")
+        return int(number) if kind is int else number
     if kind in _WORDS and type(value) is not kind and "options" not in field.metadata:
         raise BadInput(f"{key} = {shown(value)} is not {_WORDS[kind]}")
     return value
@@ -69,10 +72,7 @@ class Place:
 
 
 def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
-    """Find the field that a key means.
-
-    key: dotted key; a bare key works if it is unique. option: where the key was written, for messages.
-    """
+    """Find the field of a dotted key, or of a bare one that is unique. option: where it was written, for messages."""
     section, dot, name = key.partition(".")
     if not dot:
         section, name = _home(tables, mechanism, key, option), key
@@ -93,10 +93,7 @@ def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
 
 
 def override(tables: Json, mechanism: str, key: str, value: object) -> None:
-    """Replace one value of a case.
-
-    tables: sections with their raw values; changed in place. key: dotted key; a bare key works if it is unique.
-    """
+    """Replace one value, by its dotted key or a bare one that is unique. tables: raw values; changed in place."""
     section, dot, name = key.partition(".")
     if not dot:
         section, name = _home(tables, mechanism, key, "--set"), key

@@ -57,6 +57,7 @@ GROUPS = {
     "Verify": {
         "audit": "mechsym.cli.audit:audit",
         "reproduce": "mechsym.cli.reproduce:reproduce",
+        "prove": "mechsym.cli.prove:prove",
         "derive": "mechsym.cli.derive:derive",
         "native": "mechsym.cli.native:native",
     },

@@ -25,8 +25,8 @@ from mechsym.quantities.display import figure, quantity_text
 if TYPE_CHECKING:
     from mechsym.codesign.peers import Rival
     from mechsym.codesign.realise import RealisedNumbers
+    from mechsym.codesign.result import CoDesignLosses, CoDesignNumbers
     from mechsym.codesign.settings import CoDesignSettings
-    from mechsym.codesign.summary import CoDesignLosses, CoDesignNumbers
     from mechsym.jobs.codesign import Beside
 
 _MOST = 100  # values of one option
@@ -69,9 +69,9 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     Examples: mechsym codesign zotov-89 --ripple 5%
               mechsym codesign zotov-89 --speeds 75,89,105,120,142 --springs 2 --pareto 1,2,5% --out demo
     """
-    from mechsym.codesign.floor import hidden
+    from mechsym.codesign.certificate import hidden
     from mechsym.codesign.realise import check_goal
-    from mechsym.codesign.summary import numbers_of
+    from mechsym.codesign.result import numbers_of
     from mechsym.files import make_folder
     from mechsym.jobs.codesign import STEPS, beside, compared, for_report, settings_of
     from mechsym.jobs.codesign import codesign as design
@@ -95,7 +95,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
         report |= {"doubts": hidden(found.design, found.given)}
         report |= {name: rows for name, rows in tell(more).items() if rows is not None}
         if out is not None:
-            from mechsym.codesign.report import write
+            from mechsym.codesign.shown import write
 
             files = write(for_report(case, settings, found), numbers, report, out)
             bar.update(1)
@@ -146,7 +146,7 @@ def _percent(share: float | None) -> str | None:
 
 
 def _text(numbers: "CoDesignNumbers", peers: "Sequence[Rival]", more: "Beside") -> str:
-    from mechsym.codesign.summary import prices
+    from mechsym.codesign.result import prices
     from mechsym.quantities.results import tell
 
     checked, lost = numbers.verified, numbers.losses
@@ -212,7 +212,7 @@ def _losses(lost: "CoDesignLosses") -> str:
 
 def _turning(numbers: "CoDesignNumbers") -> list[str]:
     """All inertia that turns, and the least that has to."""
-    from mechsym.codesign.summary import bound_words
+    from mechsym.codesign.result import bound_words
 
     bound, given = numbers.bound, numbers.with_given_hardware
     springs = ("one spring", "two springs", "three springs")

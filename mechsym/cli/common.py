@@ -1,4 +1,4 @@
-"""Options and output that every command shares."""
+"""Options and output that every command shares, and the ranges of a performance map."""
 
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -16,12 +16,13 @@ from mechsym.inputs import reads
 from mechsym.mechanisms import own
 from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import load
-from mechsym.quantities.display import SMALLEST, choose, column_text, heading, ratio_text, shown_in
+from mechsym.quantities.display import SMALLEST, choose, column_text, heading, key_words, ratio_text, shown_in
 from mechsym.quantities.results import units_of
-from mechsym.quantities.words import key_words
 
 if TYPE_CHECKING:
     from mechsym.page.finding import Finding
+from mechsym.quantities.ranges import values
+from mechsym.quantities.units import RadPerSecond
 
 # endings of files: a folder of such a name is a slip, and so is a file of another kind
 _ENDINGS = tuple(".csv .fmu .gz .html .json .nc .pdf .png .py .svg .tar .toml .txt .zip".split())
@@ -103,10 +104,7 @@ def file_in(out: Path | None, usual: str, *endings: str) -> Path:
 
 
 def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
-    """KEY=VALUE texts as a mapping.
-
-    option: the option's name, for the message. Returns values: key to text, in the order given.
-    """
+    """KEY=VALUE texts as a mapping, in the order given. option: the option's name, for the message."""
     values: dict[str, str] = {}
     for text in texts:
         key, sign, value = text.partition("=")
@@ -266,10 +264,7 @@ def _told(doubt: Doubt) -> str:
 
 
 def progress(total: int, label: str) -> Any:
-    """A progress bar on standard error, silent when that is no terminal.
-
-    Returns bar: context manager, call `update(1)` on it after each step.
-    """
+    """A progress bar on standard error, silent where that is no terminal; call `update(1)` on it after each step."""
     return click.progressbar(length=total, label=label, file=sys.stderr, hidden=not sys.stderr.isatty())
 
 
@@ -315,3 +310,25 @@ def in_rows(rows: list[Json], keys: tuple[str, ...], unit: str = "unit") -> list
             values = [ratio_text(v) if isinstance(v, float) and v else v for v in values]
         found.append(row | dict(zip(keys, values, strict=True)) | {unit: name})
     return found
+
+
+def parse_speeds(text: str, option: str = "--speeds") -> list[RadPerSecond]:
+    """Speeds from a list or a range, in rpm where no unit is written."""
+    omega = values(text, "rad/s", option, "rpm", most=20_000)
+    if min(omega) <= 0:
+        raise BadInput(f"{option} {text}: speeds must be > 0 rpm")
+    return omega
+
+
+def parse_over(text: str, units: Mapping[str, str]) -> tuple[str, list[float]]:
+    """A value and what it runs over from NAME=RANGE, with or without units.
+
+    text: `compression_ratio=8:14:0.5` or `cycle.ignition=-30..0 deg:7`; the section may be left out where only one
+    value has the name. units: known names and their SI units. Returns values: in the SI unit of the name [-].
+    """
+    written, _, span = text.partition("=")
+    bare = [known for known in units if known.rpartition(".")[2] == written]
+    name = bare[0] if len(bare) == 1 else written
+    if name not in units:
+        raise BadInput(f"--over {text}: {name!r} is not known; names are {', '.join(units)}")
+    return name, values(span, units[name], "--over", key=name)

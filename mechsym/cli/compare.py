@@ -5,10 +5,19 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, judge_ends, out_option, pairs, set_option, table
-from mechsym.cli.speeds import parse_speeds
+from mechsym.cli.common import (
+    case_of,
+    emit,
+    json_option,
+    judge_ends,
+    out_option,
+    pairs,
+    parse_speeds,
+    set_option,
+    table,
+)
 from mechsym.files import Json
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import key_words
 
 if TYPE_CHECKING:
     from mechsym.cycle.compare import ComparedValue, EngineComparison

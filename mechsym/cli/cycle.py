@@ -18,10 +18,11 @@ from mechsym.cli.common import (
     only_of,
     out_option,
     pairs,
+    parse_over,
+    parse_speeds,
     progress,
     set_option,
 )
-from mechsym.cli.speeds import parse_over, parse_speeds
 from mechsym.cycle.columns import UNITS
 from mechsym.errors import BadInput
 from mechsym.files import Json

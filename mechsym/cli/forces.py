@@ -6,8 +6,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, heads, in_rows, json_option, out_option, pairs, set_option, table
-from mechsym.cli.speeds import parse_speeds
+from mechsym.cli.common import (
+    case_of,
+    emit,
+    heads,
+    in_rows,
+    json_option,
+    out_option,
+    pairs,
+    parse_speeds,
+    set_option,
+    table,
+)
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
@@ -59,7 +69,7 @@ def forces(
     from mechsym.jobs.gas import measured
     from mechsym.page import ranked
     from mechsym.torsion import train
-    from mechsym.torsion.findings import criticals
+    from mechsym.torsion.shown import criticals
 
     loaded = case_of(case, pairs(overrides))
     if "motion" in loaded.sections:
@@ -82,13 +92,15 @@ def forces(
 
 
 def _motion(case: "Case", out: Path | None, as_json: bool) -> None:
+    from mechsym.cases.outcomes import of_motion
     from mechsym.forces.driven import numbers
     from mechsym.jobs.forces import motion, write_motion
 
     found = motion(case)
     told = numbers(found, case.name)
     files = [] if out is None else [str(file) for file in write_motion(found, tell(told), out)]
-    emit(told, as_json, lambda: _over_time(told), beside={"files": files}, files=files)
+    beside = {"doubts": of_motion(case, found), "files": files}
+    emit(told, as_json, lambda: _over_time(told), beside=beside, files=files)
 
 
 def _over_time(report: "DrivenNumbers") -> str:
@@ -142,7 +154,7 @@ def _shaking(weight: Json, largest: float) -> str:
 
 
 def _loads(found: "Forces") -> str:
-    from mechsym.forces.report import borne
+    from mechsym.forces.shown import borne
 
     rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(found)]
     several = ["of"] if any(row["of"] for row in rows) else []

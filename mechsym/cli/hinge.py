@@ -40,8 +40,8 @@ def hinge(
     """
     from mechsym.cases.outcomes import of_gas
     from mechsym.files import make_folder
+    from mechsym.hinge.guide import setting_text
     from mechsym.hinge.result import LATER, complete
-    from mechsym.hinge.setting import setting_text
     from mechsym.hinge.summary import HingeNumbers
     from mechsym.jobs.hinge import hinge as design
 

@@ -60,7 +60,8 @@ def _text(found: "Identified") -> str:
     for e in found.estimates:
         unit = "" if e.unit == "-" else f" {e.unit}"
         value, low, high = _told_apart(e.value, e.low, e.high)
-        within = f"{low} to {high}{unit}" if low != high else "no wider than 1e-8 of it"
+        alike = "no ends" if math.isinf(e.high - e.low) else "no wider than 1e-8 of it"
+        within = f"{low} to {high}{unit}" if low != high else alike
         lines.append(f"{e.name} = {value}{unit}, 95 %: {within}")
     return "\n".join([*lines, f"left over: {_left_over(found)}"])
 
@@ -75,7 +76,7 @@ def _left_over(found: "Identified") -> str:
 
 def _write(out: Path, found: "Identified") -> list[Path]:
     from mechsym.files import write_quantities
-    from mechsym.optimise.plots import trace_picture
+    from mechsym.optimise.shown import trace_picture
 
     columns = {"t": found.t}
     for name, values in found.measured.items():

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from mechsym.cases.new_engine import GASES, KINDS
+from mechsym.cases.new_engine import GASES, KINDS, RODS
 from mechsym.cli.common import emit, json_option
 from mechsym.errors import BadInput
 from mechsym.plausible import Doubt
@@ -21,6 +21,9 @@ from mechsym.quantities import parse
 @click.option(
     "--gas", type=click.Choice(list(GASES)), help="Of a four-stroke engine: gas exchange, or closed period only."
 )
+@click.option(
+    "--rods", type=click.Choice(RODS), help="Of a v or radial: all on the crank pin, or hung on a master rod."
+)
 @click.option("--trace", type=click.Path(dir_okay=False), help="CSV of a measured cylinder pressure, of a diagram.")
 @click.option("--rod", help="Length of the connecting rod, of a diagram.")
 @click.option("--compression", type=click.FloatRange(1.5, 30), help="Compression ratio, of a diagram.")
@@ -28,8 +31,8 @@ from mechsym.quantities import parse
 @click.option("--out", type=click.Path(path_type=Path), default=Path("."), help="Folder, or FILE.toml of an engine.")
 @json_option
 def new(what: str, name: str | None, kind: str | None, bore: str | None, stroke: str | None, cylinders: int | None,
-        gas: str | None, trace: str | None, rod: str | None, compression: float | None, speed: str | None,
-        out: Path, as_json: bool) -> None:  # fmt: skip
+        gas: str | None, rods: str | None, trace: str | None, rod: str | None, compression: float | None,
+        speed: str | None, out: Path, as_json: bool) -> None:  # fmt: skip
     """Write a new mechanism (declaration, case, test), the case of a new engine, or that of a measured pressure.
 
     An engine gets sizes by similarity, a firing order and the angles that belong to it, every value with a comment;
@@ -46,18 +49,19 @@ def new(what: str, name: str | None, kind: str | None, bore: str | None, stroke:
     traced = {"--trace": trace, "--rod": rod, "--compression": compression, "--speed": speed}
     if what != "diagram" and (named := [option for option, value in traced.items() if value is not None]):
         raise BadInput(f"only a diagram has {', '.join(named)}; leave it away, or write: mechsym new diagram")
-    sizes = {"--kind": kind, "--bore": bore, "--stroke": stroke, "--cylinders": cylinders, "--gas": gas}
+    sizes = {"--kind": kind, "--bore": bore, "--stroke": stroke, "--cylinders": cylinders, "--gas": gas,
+             "--rods": rods}  # fmt: skip
     if what == "mechanism" and (given := [option for option, value in sizes.items() if value is not None]):
         raise BadInput(f"only an engine has {', '.join(given)}; leave it away, or write: mechsym new engine")
     doubts: tuple[Doubt, ...] = ()
     if what == "mechanism":
         files = _mechanism(name, out)
     elif what == "diagram":
-        if (kind, cylinders, gas) != (None, None, None):
-            raise BadInput("--kind, --cylinders and --gas belong to an engine; a diagram is of one cylinder")
+        if (kind, cylinders, gas, rods) != (None, None, None, None):
+            raise BadInput("--kind, --cylinders, --gas and --rods belong to an engine; a diagram is of one cylinder")
         files, doubts = _diagram(name, trace, (bore, stroke, rod), compression, speed, out)
     else:
-        files, doubts = _engine(name, kind, (bore, stroke), cylinders, gas, out)
+        files, doubts = _engine(name, kind, (bore, stroke), cylinders, gas, rods, out)
     shown = [str(path) for path in files]
     emit({"written": shown, "doubts": doubts}, as_json, lambda: "", files=shown)
 
@@ -78,6 +82,7 @@ def _engine(
     sizes: tuple[str | None, str | None],
     cylinders: int | None,
     gas: str | None,
+    rods: str | None,
     out: Path,
 ) -> tuple[list[Path], tuple[Doubt, ...]]:
     from mechsym.cases.new_engine import judged, write_engine
@@ -86,7 +91,8 @@ def _engine(
     if kind is None:
         raise BadInput(f"an engine needs --kind: {', '.join(KINDS)}")
     out, name = _place(name, out)
-    return write_engine(kind, bore, stroke, cylinders, out, name, gas or "exchange"), judged(kind, bore, stroke)
+    files = write_engine(kind, bore, stroke, cylinders, out, name, gas or "exchange", rods)
+    return files, judged(kind, bore, stroke)
 
 
 def _diagram(

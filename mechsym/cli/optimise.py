@@ -10,7 +10,7 @@ from mechsym.cli.common import budget_option, case_of, emit, json_option, out_op
 from mechsym.quantities.display import quantity_text
 
 if TYPE_CHECKING:
-    from mechsym.optimise.result import Optimised
+    from mechsym.optimise.solver import Optimised
 
 
 @click.command(short_help="Best design of a case under its limits.")

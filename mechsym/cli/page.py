@@ -24,8 +24,7 @@ def page(case: str, out: Path | None, diagram: str | None, overrides: tuple[str,
     \b
     Example: mechsym page zotov-89 --out engine.html
     """
-    from mechsym.jobs.drawing import turning
-    from mechsym.jobs.export import ready
+    from mechsym.jobs.export import ready, turning
     from mechsym.out.laws import block_of
     from mechsym.out.web import page as make
     from mechsym.out.web.build import PageChecks, WrittenPage

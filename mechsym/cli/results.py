@@ -22,17 +22,18 @@ RESULTS = {
     ),
     "eval": ("mechsym.mechanisms.state:MechanismState",),
     "identify": ("mechsym.optimise.identify:Identified",),
-    "optimise": ("mechsym.optimise.result:Optimised",),
+    "optimise": ("mechsym.optimise.solver:Optimised",),
     "study": ("mechsym.sweep.numbers:StudyNumbers",),
     "sweep": ("mechsym.sweep.numbers:SweepNumbers",),
-    "simulate": ("mechsym.torsion.finished:FinishedRun",),
+    "simulate": ("mechsym.torsion.startup:FinishedRun",),
     "hinge": ("mechsym.hinge.summary:HingeNumbers",),
-    "codesign": ("mechsym.codesign.summary:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
+    "codesign": ("mechsym.codesign.result:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
     "flywheel": ("mechsym.jobs.flywheel:FlywheelDesign",),
     "forces": ("mechsym.jobs.forces:ForceReport", "mechsym.forces.driven:DrivenNumbers"),
     "fmu": ("mechsym.out.fmi.build:UnitFile",),
     "guide": ("mechsym.out.cad.curve:GrooveDrawings",),
     "page": ("mechsym.out.web.build:WrittenPage",),
+    "prove": ("mechsym.proof.outputs:ProvenRounding", "mechsym.jobs.prove:ProvenMotion"),
     "report": ("mechsym.report.numbers:ReportNumbers",),
     "reproduce": ("mechsym.papers.rows:ReproducedNumber",),
     "size": ("mechsym.sizing.rows:SizeRow",),
@@ -62,10 +63,7 @@ def _pattern(name: str) -> re.Pattern[str]:
 
 
 def rows(command: str | None = None) -> list[Json]:
-    """Rows of `mechsym sections --results`: `command`, `path`, `unit`, `about`.
-
-    Raises BadInput: no command of that name tells numbers.
-    """
+    """Rows of `sections --results`: `command`, `path`, `unit`, `about`. Raises BadInput: such a command tells none."""
     if command is not None and command not in RESULTS:
         raise BadInput(f"command {command!r} has no list of results; {suggest(command, list(RESULTS))}")
     wanted = RESULTS if command is None else {command: RESULTS[command]}

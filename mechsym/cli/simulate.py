@@ -15,7 +15,7 @@ from mechsym.quantities.display import figure, ratio_text
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
-    from mechsym.torsion.finished import FinishedRun
+    from mechsym.torsion.startup import FinishedRun
 
 _EVENTS = 12  # shown of a run
 _ENDS = {"turns": "after its turns", "t_end": "as planned"}

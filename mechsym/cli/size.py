@@ -8,7 +8,7 @@ import click
 from mechsym.cli.common import case_of, emit, in_rows, json_option, out_option, pairs, set_option, table, tried
 
 if TYPE_CHECKING:
-    from mechsym.sizing.result import Sizing
+    from mechsym.sizing.rows import Sizing
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", "source", "note")

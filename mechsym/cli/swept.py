@@ -36,10 +36,7 @@ def judge(plan: "Plan", points: "Layout") -> None:
 
 
 def kept_or_short(count: int, seconds: Second, out: Path | None) -> None:
-    """Refuse long work that nothing would be left of; make the folder of what is kept.
-
-    seconds: what all points take on one processor.
-    """
+    """Refuse long work that leaves nothing; make the folder of what is kept. seconds: of all on one processor."""
     from mechsym.files import make_folder
 
     if out is not None:

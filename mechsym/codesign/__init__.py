@@ -1,13 +1,14 @@
 """Guide, pressures of springs and a small flywheel designed together, for a range of speeds and loads.
 
-    points      speeds and loads: the work that each wants from the hinge      family, machines: where they come from
-    rank        a bound that knows no guide: how many springs pay
-    programme   the design: task -> basis, unknowns, motion_block, contact_block -> co-design
-    front       the same for many ripples; a guide cut for one point
-    verify      every number by two other ways: running (over the angle, in time)
-    scenarios, changes, manoeuvres    what kills it
-    loss, real  friction and heat in the motion
-    control, realise, cylinders, schedule    what it costs, how it is kept, sized, used
+    points      speeds and loads: the work that each wants from the hinge      machines: where they come from
+    rank        a bound that knows no guide: how many springs pay, and cylinders; certificate: its proof
+    programme   the design: task -> basis, unknowns, contact_block -> co-design
+    front       the same for many ripples and pressures; a guide cut for one point
+    verify      every number by two other ways: running (over the angle, in time), and how sure it is
+    scenarios, manoeuvres    what kills it, what controls it
+    loss        friction and heat in the motion
+    realise     other hardware for the same works
+    result      what the job gives and tells        shown    its pictures and files
 
 Source: none; the elastic hinge is that of Zotov et al. (2024). See docs/codesign.md for the formulas.
 """

@@ -4,8 +4,7 @@ import numpy as np
 
 from mechsym.codesign.hardware import Hardware
 from mechsym.codesign.task import Track
-from mechsym.hinge.bounds.face import Rows, Station, asked
-from mechsym.hinge.bounds.track import CENTRE
+from mechsym.hinge.bounds.face import CENTRE, Rows, Station, asked
 from mechsym.quantities import record
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Metre, Scalar

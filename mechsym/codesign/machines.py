@@ -1,7 +1,11 @@
-"""A machine at one speed and load as a point of a co-design, the hardware of its hinge, a torque curve as a point."""
+"""Machines at speeds and loads as points of a co-design, of the family of `[codesign]` too; its hardware."""
 
+import ast
+import csv
 import dataclasses
-from collections.abc import Sequence
+import io
+import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import scipy
@@ -9,13 +13,18 @@ import scipy
 from mechsym import periodic
 from mechsym.codesign.hardware import Hardware
 from mechsym.codesign.points import Function, Point
-from mechsym.cycle.unfired import unfired, unfired_kinks
-from mechsym.errors import BadInput
+from mechsym.codesign.settings import CoDesignSettings
+from mechsym.cycle.gas import unfired, unfired_kinks
+from mechsym.cycle.kinds import kind_of
+from mechsym.errors import BadInput, shown
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
+from mechsym.inputs import read_text
 from mechsym.machine.record import Machine, lever, only_gas
+from mechsym.quantities import parse, quantity, record
+from mechsym.quantities.records import Record
 from mechsym.quantities.units import Array, Inertia, NewtonMetre, Pascal, Pure, Radian, RadPerSecond
 
 _KEPT = 6  # angles of a function that is remembered
@@ -110,3 +119,131 @@ def hardware(spring: Spring, guide: GuideParameters, rollers: RollerParameters, 
         shaft_ratio=guide.shaft_ratio, radius=rollers.radius, width=rollers.width, E=rollers.E, nu=rollers.nu,
         moving_mass=moving_mass,
     )  # fmt: skip
+
+
+_COMBUSTION = ("a_p", "m_p", "a_d", "m_d", "b")  # of the double Wiebe function
+_COLUMNS = {"speed": "rad/s", "load": "Pa", "weight": "-"}
+_FUNCTIONS: dict[str, Callable[..., float]] = {"max": max, "min": min}
+
+_MOST = 100  # points; each brings about 200 unknowns and 800 constraints
+
+
+@record
+class SpeedAndLoad:
+    """One speed and load of a family."""
+
+    omega: float = quantity("rad/s", above=0, about="speed")
+    mep: float = quantity("Pa", above=0, about="mean indicated pressure")
+    weight: float = quantity("-", default=1.0, low=0, about="share of the time")
+
+
+def places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
+    """Speeds and loads of the curve `propeller` or `constant_speed`, or of a CSV file."""
+    found = _places(settings)
+    if not 0 < len(found) <= _MOST:
+        raise BadInput(f"{len(found)} points of speed and load; allowed are 1 to {_MOST} in one design")
+    return found
+
+
+def _places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
+    if settings.curve.endswith(".csv"):
+        return _from_file(settings.curve)
+    if settings.curve == "propeller":
+        shares = [(s, (s / settings.full_speed) ** 2) for s in settings.speeds]
+        pairs = [(s, share * load) for s, share in shares for load in settings.loads]
+    else:
+        pairs = [(s, load) for s in settings.speeds for load in settings.loads]
+    return [SpeedAndLoad(omega=s, mep=share * settings.full_load) for s, share in pairs]
+
+
+def _from_file(name: str) -> list[SpeedAndLoad]:
+    """Points of a CSV file with the headings speed, load and perhaps weight, each with its unit: `speed [rpm]`."""
+    rows = list(csv.reader(io.StringIO(read_text(name, "codesign.curve =", "give a CSV file of points"), newline="")))
+    heads = [head.strip().partition("[") for head in rows[0]] if rows else []
+    columns = {head.strip(): (i, unit.rstrip("] ")) for i, (head, _, unit) in enumerate(heads)}
+    if not {"speed", "load"} <= set(columns) <= set(_COLUMNS):
+        raise BadInput(f"{name}: the headings are speed [rpm], load [bar] and perhaps weight, not {rows[:1]}")
+    found = []
+    for number, row in enumerate(rows[1:], start=2):
+        if len(row) != len(heads):
+            raise BadInput(f"{name}, line {number}: {len(row)} values below {len(heads)} headings")
+        values = {key: parse(f"{row[i].strip()} {unit}".strip(), _COLUMNS[key], f"{name}, line {number}: {key}")
+                  for key, (i, unit) in columns.items()}  # fmt: skip
+        found.append(SpeedAndLoad(omega=values["speed"], mep=values["load"], weight=values.get("weight", 1.0)))
+    return found
+
+
+def cycle_at(cycle: Record, high: Record | None, settings: CoDesignSettings, mep: float) -> Record:
+    """The cycle of a case at another mean indicated pressure [Pa]; what else follows it is in the settings.
+
+    high: record, optional, cycle at the upper end; combustion is linear in mep between the two and constant outside.
+    """
+    kind = kind_of(cycle)
+    if not kind.load:
+        if abs(mep - settings.full_load) > 1e-9 * settings.full_load:
+            raise BadInput(
+                "[cycle] has no mean_indicated_pressure that could be changed; it has one load: "
+                "take --curve constant_speed and --loads 1, at any speeds"
+            )
+        return cycle
+    changed: dict[str, float] = {kind.load: mep}
+    if kind.scavenge and settings.scavenge:
+        changed[kind.scavenge] = scavenge_pressure(settings.scavenge, mep)
+    if high is not None:
+        low_mep, high_mep = getattr(cycle, kind.load), getattr(high, kind.load)
+        share = float(np.clip((mep - low_mep) / (high_mep - low_mep), 0, 1)) if high_mep != low_mep else 0.0
+        for name in _COMBUSTION:
+            changed[name] = (1 - share) * getattr(cycle, name) + share * getattr(high, name)
+    return dataclasses.replace(cycle, **changed)
+
+
+def scavenge_pressure(text: str, mep: float) -> float:
+    """Absolute scavenge pressure [Pa] at a mean indicated pressure [Pa], from a text such as `1.6 + (mep-8)/6 bar`.
+
+    The text holds numbers, mep in bar, + - * / **, max and min; its value is in bar.
+    """
+    formula = text.rpartition("=")[2].strip().removesuffix("bar").strip()
+    try:
+        value = _value(ast.parse(formula, mode="eval").body, {"mep": mep / 1e5})
+    except (SyntaxError, ValueError, ZeroDivisionError, OverflowError, TypeError) as error:
+        raise BadInput(
+            f"codesign.scavenge = {shown(text)} cannot be read ({error}); write for example "
+            '"p_s = max(1.05, 1.6 + (mep-8)/6) bar", mep in bar'
+        ) from None
+    if not math.isfinite(value) or value <= 0:
+        raise BadInput(
+            f"codesign.scavenge = {shown(text)} gives {value:g} bar at mep = {mep / 1e5:g} bar; it must be > 0"
+        )
+    return 1e5 * value
+
+
+def _value(node: ast.AST, names: dict[str, float]) -> float:
+    match node:
+        case ast.Constant(value=int() | float() as number) if not isinstance(number, bool):
+            return float(number)
+        case ast.Name(id=name) if name in names:
+            return names[name]
+        case ast.UnaryOp(op=ast.USub(), operand=inner):
+            return -_value(inner, names)
+        case ast.BinOp(left=left, op=op, right=right):
+            return _binary(op, _value(left, names), _value(right, names))
+        case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if name in _FUNCTIONS and args:
+            return float(
+                _FUNCTIONS[name](*(_value(a, names) for a in args)) if len(args) > 1 else _value(args[0], names)
+            )
+    raise ValueError("it may hold numbers, mep, + - * / **, max and min")
+
+
+def _binary(op: ast.operator, a: float, b: float) -> float:
+    match op:
+        case ast.Add():
+            return a + b
+        case ast.Sub():
+            return a - b
+        case ast.Mult():
+            return a * b
+        case ast.Div():
+            return a / b
+        case ast.Pow() if abs(b) <= 10:
+            return float(a**b)
+    raise ValueError("it may hold + - * / and small powers")

@@ -18,7 +18,7 @@ import scipy
 from mechsym.codesign.front import front
 from mechsym.codesign.points import Function, Point, bare_flywheel, motion, sample
 from mechsym.codesign.task import CoDesignTask
-from mechsym.hinge.ripple import ripple
+from mechsym.hinge.balance import ripple
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import Array, Inertia
 

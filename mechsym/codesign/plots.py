@@ -6,11 +6,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from mechsym.codesign.contact_block import fine_path
-from mechsym.codesign.cylinders import Count
 from mechsym.codesign.loss import KINDS
+from mechsym.codesign.rank import Count
 from mechsym.codesign.result import CoDesignResult
-from mechsym.quantities.display import quantity_text
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import key_words, quantity_text
 from mechsym.style import (
     BLUE,
     GREEN,

@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 
 from mechsym.errors import BadInput
-from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
+from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Inertia, Pure
 

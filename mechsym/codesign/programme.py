@@ -2,12 +2,20 @@ r"""The programme: shapes of guides, pressures of springs and one small flywheel
 
     minimise J   over the shapes z(phi), the pressures p_k, J, and the motion of each point; J + mean(I_h) where
                  hardware is free: a flywheel on the rollers is a flywheel
-    subject to   the steady motion of each point keeps the ripple                          (motion_block)
+    subject to   the steady motion of each point keeps the ripple                          (motion_rows)
                  spring, track and rollers keep their limits where they are asked most      (contact_block)
-                 friction and heat, if the task asks for them                               (loss_block)
+                 friction and heat, if the task asks for them                               (unknowns)
 
 Angles are common to all points and contain the kinks. IPOPT with exact derivatives; the splines are sparse. The
 multipliers of ripple and limits come out as what one unit of each is worth in flywheel.
+
+The steady motion of one point as constraints of the programme, exact under propeller and constant load.
+
+.. math:: u^2 = (\dot\varphi/\omega)^2 = 1 + \frac{2 (g - w)}{I_t \omega^2}, \qquad g' = a (w - g), \qquad
+          a = \frac{2 M_r}{I_t \omega^2}
+
+with w the missing work. Propeller: g is periodic, and the mean of u^2 over the angle is 1 of itself. Constant load:
+a = 0, g is a number, and a governor holds the mean speed in time, mean(1/u) = 1.
 """
 
 import dataclasses
@@ -20,9 +28,9 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.codesign import contact_block, loss_block, motion_block
+from mechsym.codesign import contact_block, unknowns
 from mechsym.codesign.basis import Basis, basis, curve
-from mechsym.codesign.points import Samples, sample
+from mechsym.codesign.points import Point, Samples, sample
 from mechsym.codesign.settings import FREE
 from mechsym.codesign.task import Active, CoDesign, CoDesignTask, Track
 from mechsym.codesign.unknowns import Gathered, GuideSymbols, guides
@@ -31,6 +39,7 @@ from mechsym.hinge.bounds.face import asked as asked_of
 from mechsym.hinge.springs.face import lettered
 from mechsym.optimise.solvers import Solved, ipopt
 from mechsym.quantities import quantity, record
+from mechsym.quantities.units import Inertia, Joule, NewtonMetre, Pure, Scalar
 
 _OPTIONS: dict[str, Any] = {
     "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-7, "acceptable_tol": 1e-5, "max_iter": 400},
@@ -173,18 +182,18 @@ def _motions(
     total = ca.DM(samples.inertia) + flywheel + rollers
     sides = (1 - task.robust, 1 + task.robust) if task.robust else (1.0,)
     ripples, given = [], task.losses
-    warm = loss_block.warmths(task, samples, found, given, gathered) if given else []
+    warm = unknowns.warmths(task, samples, found, given, gathered) if given else []
     for k, point in enumerate(task.points):
         for errors in itertools.product(sides, repeat=task.springs):
             # the constant of the work is free: g takes it up
             missing, taken = ca.DM(samples.work[k]) + point.omega**2 / 2 * rollers, 0.0
             if given:
                 pressures = [e * g.p0[k] for g, e in zip(found, errors, strict=True)]
-                lost = loss_block.taken(task, point, samples, found, pressures, warm[k], given, gathered)
+                lost = unknowns.taken(task, point, samples, found, pressures, warm[k], given, gathered)
                 missing, taken = missing + lost.work, lost.torque
             else:
                 missing += sum(_energy(task, g, k, e) for g, e in zip(found, errors, strict=True))
-            made = motion_block.block(point, k, samples, missing, total, ripple, taken)
+            made = motion_rows(point, k, samples, missing, total, ripple, taken)
             gathered.add(made.unknowns, made.start)
             gathered.group(zip(made.rows, made.low, made.high, strict=True))
             ripples.append(made.ripple)
@@ -246,4 +255,57 @@ def _active(task: CoDesignTask, sensitivity: np.ndarray, flywheel: float) -> tup
         Active(limit=name, multiplier=float(cost), unit=unit)
         for (name, unit), value, cost in rows
         if abs(cost * value) > least
+    )
+
+
+@record
+class MotionRows:
+    """Unknowns and constraints of one motion, scaled to the order of one."""
+
+    unknowns: ca.SX  #: g by its scale, then the lowest and the highest u [-]
+    start: np.ndarray  #: where the unknowns start [-]
+    ripple: ca.SX  #: (max - min) / mean over the angles; the programme bounds it from above [-]
+    rows: tuple[ca.SX, ...]  #: constraints in pieces: low <= rows <= high [-]
+    low: tuple[float, ...]  #: least value of each piece [-]
+    high: tuple[float, ...]  #: largest value of each piece [-]
+
+
+def motion_rows(
+    point: Point,
+    k: int,
+    samples: Samples,
+    missing: Joule[Scalar],
+    inertia: Inertia[Scalar],
+    ripple: Pure[Scalar],
+    taken: NewtonMetre[Scalar] = 0.0,
+) -> MotionRows:
+    """The motion of a point that keeps a ripple.
+
+    missing: work that is wanted and missing; inertia: all inertia that turns; ripple: largest (max - min) / mean of the
+    speed; taken: mean torque that the hinge takes from the load.
+    """
+    n = samples.phi.size
+    scale = 0.1 * float(np.ptp(samples.work[k]))
+    propeller = point.law == "propeller"
+    g = ca.SX.sym(f"g{k}", n if propeller else 1)
+    u_low, u_high = ca.SX.sym(f"u_low{k}"), ca.SX.sym(f"u_high{k}")
+    lag = g - missing / scale
+    squares = 1 + 2 * scale * lag / (inertia * point.omega**2)
+    # outside of sensible speeds the square root would leave the programme without a number
+    inverse = 1 / ca.sqrt(ca.fmax(squares, 1e-3))
+    mean = ca.dot(ca.DM(samples.weights), inverse)
+    rows = [squares - u_low**2, squares - u_high**2, (u_high - u_low) * mean - ripple]
+    if propeller:
+        rate = -2 * (point.load_torque - taken) / (inertia * point.omega**2) * lag
+        after = ca.vertcat(rate[1:], rate[0])
+        rows.append(ca.vertcat(g[1:], g[0]) - g - ca.DM(samples.step) / 2 * (rate + after))
+    else:
+        rows.append(mean - 1)
+    return MotionRows(
+        unknowns=ca.vertcat(g, u_low, u_high),
+        start=np.concatenate([np.zeros(g.numel()), [0.9, 1.1]]),
+        ripple=(ca.mmax(1 / inverse) - ca.mmin(1 / inverse)) * mean,
+        rows=tuple(rows),
+        low=(0.0, -np.inf, -np.inf, 0.0),
+        high=(np.inf, 0.0, 0.0, 0.0),
     )

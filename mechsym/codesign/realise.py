@@ -17,10 +17,9 @@ from mechsym.codesign.contact_block import path_of
 from mechsym.codesign.hardware import Hardware
 from mechsym.codesign.task import CoDesign, Track
 from mechsym.errors import BadInput, suggest
-from mechsym.hinge.bounds.face import Station
-from mechsym.hinge.bounds.spring import ROOM
+from mechsym.hinge.bounds.face import ROOM, Station
+from mechsym.hinge.guide import setting_of
 from mechsym.hinge.losses import HingeLosses, bearing_torque
-from mechsym.hinge.setting import setting_of
 from mechsym.hinge.springs.face import affine_energy
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result

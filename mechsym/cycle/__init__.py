@@ -1,7 +1,7 @@
 """What the gas does: pressure on the pistons over the crank angle, and what an engine makes of it.
 
 chamber     volume over the travel of a piston        motion     travel and moving mass out of a mechanism
-pressure    pressure over the angle, peak, work       gas        pressure in its chamber: the force on a piston
+gas         pressure over the angle, peak, work, and in its chamber: the force on a piston
 kinds       one table: every kind of cycle, and what each needs
 source      what every kind of gas answers        cylinder    where a cylinder is enough to answer it
 mixture, heat, wiebe, friction    properties, heat to the walls, combustion, friction mean pressure
@@ -20,7 +20,7 @@ _NAMES = {
     "ClosedEngine": "mechsym.cycle.closed.model:ClosedEngine",
     "Gas": "mechsym.cycle.gas:Gas",
     "KINDS": "mechsym.cycle.kinds:KINDS",
-    "Pressure": "mechsym.cycle.pressure:Pressure",
+    "Pressure": "mechsym.cycle.gas:Pressure",
     "columns": "mechsym.cycle.engine:columns",
     "curves": "mechsym.cycle.engine:curves",
     "gas_in_cylinder": "mechsym.cycle.kinds:gas_in_cylinder",

@@ -1,13 +1,14 @@
-"""The figures of a cycle over the speeds: every name that a kind of cycle may tell, with its unit and meaning."""
+"""The figures of a cycle over the speeds, and every name that a kind of cycle may tell, with its unit and meaning."""
 
 import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
 
-from mechsym.quantities.display import without_unit
+from mechsym.cycle.source import GasSource
+from mechsym.page import ShownFigures
+from mechsym.quantities.display import key_words, without_unit
 from mechsym.quantities.results import part, quantity, result, units_of
-from mechsym.quantities.words import key_words
 
 Curve = np.ndarray
 
@@ -107,3 +108,11 @@ AFTER_FRICTION = ("friction_mep_kpa", "brake_mep_kpa", "brake_torque", "brake_po
 SHARES = ("heat", "work", "exhaust", "unburnt")  #: Where the fuel's heat goes
 #: By name, those inside `per_cylinder` and `pistons` too, and of the shares as tables name them
 UNITS: Mapping[str, str] = units_of(CycleColumns) | {f"fraction_{name}": "-" for name in SHARES}
+
+
+class CycleFigures(ShownFigures):
+    """Figures of an engine over the speeds, under the names of `mechsym cycle`."""
+
+    units = UNITS
+    source: GasSource | None = None  #: What answers for its gas; None where pistons move differently
+    apart: float = 0.0  #: By how much strokes differ from that of the cylinder that stands for all [-]

@@ -10,12 +10,9 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.brake import brake_figures
-from mechsym.cycle.chamber import Chamber, Motion, piston_force, travel
-from mechsym.cycle.dead_centres import chamber_over
-from mechsym.cycle.friction import NoFriction, friction_pressure
-from mechsym.cycle.gas import Gas
-from mechsym.cycle.pressure import Pressure
+from mechsym.cycle.chamber import Chamber, Motion, chamber_over, piston_force, travel
+from mechsym.cycle.friction import NoFriction, brake_figures, friction_pressure
+from mechsym.cycle.gas import Gas, Pressure
 from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
 from mechsym.files import Json
 from mechsym.quantities import RPM

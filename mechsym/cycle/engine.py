@@ -9,18 +9,17 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from mechsym.cycle.brake import mechanical_efficiency
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel, volume
 from mechsym.cycle.closed.blowdown import check_blowdown, open_period
 from mechsym.cycle.closed.model import ClosedEngine, closed_period
 from mechsym.cycle.closed.performance import Performance, performance
 from mechsym.cycle.closed.run import at_angles, run
 from mechsym.cycle.cylinder import ENGINE_PAGE, otto_bound
-from mechsym.cycle.gas import Gas
+from mechsym.cycle.friction import mechanical_efficiency
+from mechsym.cycle.gas import Gas, periodic, pressure_over
 from mechsym.cycle.kinds.printed import marched, performance_printed
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
 from mechsym.cycle.mixture import ConstantGamma
-from mechsym.cycle.pressure import periodic, pressure_over
 from mechsym.cycle.source import EngineParts, Progress, unseen
 from mechsym.errors import BadInput
 from mechsym.files import Json
@@ -33,10 +32,7 @@ _STEP = math.radians(0.25)  # of the tabulated cycle
 
 
 def over_speeds(engine: ClosedEngine, omega: RadPerSecond[Array], progress: Progress = unseen) -> Performance:
-    """Figures over the speeds, by the method that the cycle names.
-
-    progress: called with the number of points done after each block of them.
-    """
+    """Figures over the speeds, by the method that the cycle names. progress: called after each block of points."""
     return over_design(engine, {"omega": omega}, progress)
 
 
@@ -72,10 +68,7 @@ def _joined(parts: list[Performance]) -> Performance:
 
 
 def columns(found: Performance) -> Json:
-    """Figures under the names and units of the command line.
-
-    Returns columns: `speed_rpm`, `torque_avg`, ...; `fractions` and `loads` are mappings.
-    """
+    """Figures by names and units of the command line: `speed_rpm`, ...; `fractions` and `loads` are mappings."""
     shares = {name: getattr(found, name) for name in ("heat", "work", "exhaust", "unburnt")}
     return {
         "speed_rpm": found.omega / RPM,

@@ -15,8 +15,7 @@ import numpy as np
 import scipy
 
 from mechsym import mechanisms
-from mechsym.cycle.chamber import Motion
-from mechsym.cycle.dead_centres import check_motion, with_bottom
+from mechsym.cycle.chamber import Motion, check_motion, with_bottom
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, bind

@@ -63,10 +63,7 @@ def both_logarithmic(axis: "Axes") -> None:
 
 
 def performance_picture(path: Path, engines: Mapping[str, Json]) -> Path:
-    """Torque, power, consumption, peak pressure and energy shares over the speeds.
-
-    engines: mapping of str to mapping, name of each engine to its `cycle.columns`.
-    """
+    """Torque, power, consumption, peak pressure, energy shares over the speeds. engines: name to `cycle.columns`."""
     figure, axes = panels(12, 7.2, 2, 3, "Torque, power, consumption, peak pressure and shares of energy over speed")
     (turning, turning_unit), runs = axis_unit("rpm"), tuple(zip(_LOOKS, engines.items(), strict=False))
     for axis, (key, label, unit) in zip(axes, _MAP, strict=False):
@@ -103,10 +100,7 @@ def pareto_picture(
     against: str,
     units: Mapping[str, str],
 ) -> Path:
-    """Front of two figures, and the design along it.
-
-    columns: mapping of str to sequence, both figures and the design variables, point by point, in SI [units].
-    """
+    """Front of two figures, and the design along it. columns: figures and variables, point by point [SI]."""
     variables = [name for name in columns if name not in (objective, against)]
     names = [objective, *variables]
     figure, axes = panels(3.2 * len(names), 3.2, 1, len(names), f"Front of {objective} against {against}")

@@ -16,19 +16,13 @@ from mechsym.files import write_text
 
 
 def folders() -> tuple[Path, Path, Path]:
-    """Where the derivations, the generated code and the derivation core live.
-
-    Returns derivations, generated, core: folders.
-    """
+    """Where the derivations, the generated code and the derivation core live, in this order."""
     files = [importlib.import_module(f"mechsym.{name}").__file__ for name in ("derivations", "generated", "derive")]
     return tuple(Path(str(f)).parent for f in files)  # type: ignore[return-value]
 
 
 def scripts() -> list[str]:
-    """Names of the derivation scripts.
-
-    Returns names: sorted file stems.
-    """
+    """Names of the derivation scripts. Returns names: sorted file stems."""
     return sorted(p.stem for p in folders()[0].glob("*.py") if p.stem != "__init__")
 
 
@@ -48,10 +42,7 @@ def declared(name: str) -> Declaration:
 
 
 def source_digest(name: str) -> str:
-    """Hash of a script and of the derivation core: equal hashes mean that the generated file is not stale.
-
-    Returns digits: 16 hex digits.
-    """
+    """Hash of a script and of the derivation core in 16 hex digits: equal ones mean a file that is not stale."""
     derivations, _, core = folders()
     return digest(
         "\0".join(p.read_text(encoding="utf-8") for p in [derivations / f"{name}.py", *sorted(core.glob("*.py"))])
@@ -97,20 +88,14 @@ def write(names: Iterable[str] | None = None) -> list[str]:
 
 
 def orphans() -> list[str]:
-    """Generated files that no script makes.
-
-    Returns files: paths below `generated/`.
-    """
+    """Generated files that no script makes. Returns files: paths below `generated/`."""
     generated, known = folders()[1], set(scripts())
     files = [*generated.glob("*.py"), *generated.glob("equations/*.json")]
     return sorted(str(p.relative_to(generated)) for p in files if p.stem not in known and p.name != "__init__.py")
 
 
 def differences(names: Iterable[str] | None = None) -> dict[str, str]:
-    """What `write` would change.
-
-    names: scripts to compare. Returns differs: path below `generated/` to a unified diff.
-    """
+    """What `write` would change of the scripts `names`: path below `generated/` to a unified diff."""
     diffs = {}
     for name in names or scripts():
         for file, text in build(name).items():

@@ -49,6 +49,8 @@ def _single(m: Declaration, link: Link) -> bool:
     for one in _outer(m, link):
         for other in _open(m, link):
             close, before = dyads.SINGLES.get((one.kind, other.kind)), len(m.tape.entries)
+            if m.by_constraint and other.kind != "gear":  # a wheel has no dead point
+                continue
             if close and one is not other and close(m, link, one, other):
                 _choose(m, (other, one), (link,), before)
                 return True
@@ -57,7 +59,7 @@ def _single(m: Declaration, link: Link) -> bool:
 
 def _dyad(m: Declaration, a: Link, b: Link) -> bool:
     between = _inner(m, a, b)
-    if len(between) != 1 or a.given or b.given:
+    if m.by_constraint or len(between) != 1 or a.given or b.given:
         return False
     inner = between[0]
     for first, second in ((a, b), (b, a)):

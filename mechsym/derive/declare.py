@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from sympy import Expr, Integer
 
 from mechsym.derive import closing, dimensions, rates
+from mechsym.derive.cams import Cams
 from mechsym.derive.drawing import Drawing
 from mechsym.derive.linkage import Link, Linkage, LinkPoint, point_of
 from mechsym.derive.refuse import place, refuse
-from mechsym.derive.unilateral import Unilateral
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +59,7 @@ class Element:
     along: Expr
 
 
-class Declaration(Linkage, Unilateral, Drawing):
+class Declaration(Linkage, Cams, Drawing):
     """What a mechanism is made of.
 
     name: name through all stages; source: file stem of the source; about: one line for lists.

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from sympy import Abs, Add, Expr, Max, Min, Mod, Mul, Piecewise, Pow, Rational, Symbol, atan2, sign
 
 from mechsym import quantities
+from mechsym.derive.printer import Lookup
 from mechsym.derive.refuse import refuse
 
 Dimension = tuple[Rational | int, ...]
@@ -13,18 +14,12 @@ _BASE = ("kg", "m", "s", "K")
 
 
 def of_unit(unit: str) -> Dimension:
-    """Exponents of a unit.
-
-    unit: product of units, `"-"` for a pure number. Returns dimension: of kg, m, s, K.
-    """
+    """Exponents of a unit. unit: product of units, `"-"` for a pure number. Returns dimension: of kg, m, s, K."""
     return quantities.dimension(unit)
 
 
 def in_words(dimension: Dimension) -> str:
-    """A dimension as a unit that people write.
-
-    dimension: exponents of kg, m, s, K. Returns unit: for example ``kg*m^2/s^2``, ``-`` for a pure number.
-    """
+    """Exponents of kg, m, s, K as a unit that people write: ``kg*m^2/s^2``, ``-`` for a pure number."""
 
     def product(powers: list[tuple[str, Rational | int]]) -> str:
         return "*".join(b if p == 1 else f"{b}^{p}" for b, p in powers)
@@ -46,6 +41,8 @@ def dimension_of(expression: Expr, letters: Mapping[Symbol, Dimension | None]) -
         return letters.get(expression)
     if expression.is_number:
         return None if expression.is_zero else PURE
+    if isinstance(expression, Lookup):
+        return None
     parts = [dimension_of(a, letters) for a in expression.args if isinstance(a, Expr)]
     if isinstance(expression, (Add, Max, Min, Mod, Piecewise)):
         return _alike(expression, parts)

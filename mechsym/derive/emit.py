@@ -57,7 +57,8 @@ def groups(equations: Equations) -> list[Group]:
 
     Returns groups: flat list, in the order of the module.
     """
-    q = [v.name for v in equations.mechanism.q]
+    m = equations.mechanism
+    q = [v.name for v in m.q]
     mass = {f"mass_{a}_{b}": equations.mass_matrix[i][j] for i, a in enumerate(q) for j, b in enumerate(q)}
     bias = {f"bias_{a}": e for a, e in zip(q, equations.bias, strict=True)}
     force = {f"force_{a}": e for a, e in zip(q, equations.generalized_force, strict=True)}
@@ -86,6 +87,11 @@ def groups(equations: Equations) -> list[Group]:
         closure = {f"closure_{c}": e for c, e in equations.mechanism.constraints.items()}
         about = "Constraints: closure = 0, jacobian * qdd + bias = 0."
         functions.append(Group(name="constraints", about=about, outputs=closure | jacobian | velocity_terms))
+    if m.roots:
+        turns = {f"turn_{k.name}": k.turns for k in m.links if not k.given and k.turns is not None}
+        roots = {f"root_{i}": root for i, root in enumerate(m.roots)}
+        about = "Angles of links, and what is 0 where the two ways to close a loop meet."
+        functions.append(Group(name="sides", about=about, outputs=turns | roots))
     if points := equations.mechanism.shape_points:
         functions.append(Group(name="drawing", about="Points and sizes that a drawing needs.", outputs=points))
     return functions

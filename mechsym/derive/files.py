@@ -14,7 +14,7 @@ from mechsym.derive import closing
 from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import module_text
 from mechsym.derive.lagrange import derive
-from mechsym.derive.linkage import Link
+from mechsym.derive.linkage import BY_CONSTRAINT, Link
 from mechsym.derive.listing import Listing, listing
 from mechsym.derive.printer import UnsupportedNode
 from mechsym.derive.textbook import disagreement
@@ -151,19 +151,23 @@ def explained(path: Path, name: str) -> list[str]:
     return [*map(str, m.sides), *held]
 
 
-def build(path: Path, name: str, source_hash: str) -> tuple[str, Listing]:
+def build(path: Path, name: str, source_hash: str, by_constraint: bool = False) -> tuple[str, Listing]:
     """Generated code and listing of a mechanism in a file, after the check against T - V.
 
-    path: a Python file; name: name of the mechanism, empty where there is one; source_hash: for the header. Returns
-    code: str, text of the generated module. listing: see `mechsym.derive.listing`; `checked` says how many random
-    states agreed.
+    path: a Python file; name: name of the mechanism, empty where there is one; source_hash: for the header;
+    by_constraint: whether its loops close by constraint, whatever closed form there is. Returns code: str, text of the
+    generated module. listing: see `mechsym.derive.listing`; `checked` says how many random states agreed.
 
     Raises
     ------
     BadInput
         The declaration is refused, or its equations differ from those of T - V
     """
-    declaration = chosen(path, name)
+    held = BY_CONSTRAINT.set(by_constraint)
+    try:
+        declaration = chosen(path, name)
+    finally:
+        BY_CONSTRAINT.reset(held)
     try:
         equations = derive(declaration)
         code = module_text(equations, path.name, source_hash)

@@ -25,10 +25,7 @@ _most: ContextVar[int] = ContextVar("most", default=MAX_TERMS)  # of the proof t
 
 
 def random_state(symbols: Sequence[Symbol], generator: random.Random) -> dict[Symbol, Rational]:
-    """Random rational values in [1/10, 1], so that a rod is longer than its crank and no root is imaginary.
-
-    symbols: what gets a value; generator: seeded generator.
-    """
+    """Rational values in [1/10, 1] by a seeded generator: a rod is longer than its crank, no root imaginary."""
     return {s: Rational(generator.randint(100, 1000), 1000) for s in symbols}
 
 

@@ -11,6 +11,7 @@ placed as soon as their joints allow a closed form (closing.py); what remains cl
 """
 
 from collections.abc import Callable
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from math import pi
 from typing import Any
@@ -24,6 +25,9 @@ from mechsym.quantities.units import Radian
 
 Pair = tuple[Expr, Expr]
 _FAR = 4 * pi  # rad: a pose beyond two turns is one in degrees
+
+#: Whether declarations that are made now close every loop by constraint, so that they have no dead points
+BY_CONSTRAINT: ContextVar[bool] = ContextVar("by_constraint", default=False)
 
 
 @dataclass(eq=False)
@@ -159,6 +163,8 @@ class Linkage(Letters):
         self.link_joints: list[Joint] = []
         self.poses: dict[str, float | tuple[float, float]] = {}
         self.sides: list[Any] = []  # how loops were closed, see poses.py
+        self.roots: list[Expr] = []  # that are 0 where the two ways to close a loop meet
+        self.by_constraint = BY_CONSTRAINT.get()
         self.frame = Link(self, "frame", turns=Integer(0), origin=(Integer(0), Integer(0)))
 
     def link(

@@ -103,7 +103,8 @@ def _link(m: Declaration, link: Link) -> Json:
     sides = [joint.side(link) for joint in joints]
     points = list(dict.fromkeys((str(p.u), str(p.v)) for p in sides if isinstance(p, LinkPoint)))
     free = {s for p in sides if isinstance(p, LinkPoint) for s in p.u.free_symbols | p.v.free_symbols}
-    if link.mass == link.inertia == 0 or len(points) < 2 or not free <= {*m.parameter_list}:
+    alone = len(points) == 1 and points[0] != tuple(map(str, link.centre))  # hangs on its joint
+    if link.mass == link.inertia == 0 or len(points) < 2 and not alone or not free <= {*m.parameter_list}:
         return {}
     ground = [joint.side(link) for joint in joints if joint.other(link).link is m.frame and joint.kind == "pin"]
     return {

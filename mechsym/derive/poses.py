@@ -48,6 +48,7 @@ def choose(m: Linkage, joints: Sequence[Joint], links: tuple[Link, ...], entries
     """
     joint, branch = joints[0], next((j.branch for j in joints if j.branch), 0)
     roots = [name for name in entries if _roots(m, m.tape.entries[name])]
+    m.roots += [p for name in roots for p in _roots(m, m.tape.entries[name])]
     names, pins = tuple(link.name for link in links), all(j.kind == "pin" for j in joints)
     if not roots:
         return None

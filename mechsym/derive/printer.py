@@ -27,6 +27,22 @@ class UnsupportedNode(ValueError):
     """The expression holds something that has no place in generated code; the message names it."""
 
 
+class Lookup(sp.Function):
+    """A number that is constant between breaks of its argument: the first value below the first break."""
+
+    breaks: tuple[float, ...] = ()
+    values: tuple[float, ...] = ()
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Between its breaks it does not change."""
+        return sp.Integer(0)
+
+    def _casadi(self, printer: "_Printer") -> str:
+        steps = [after - before for before, after in zip(self.values, self.values[1:], strict=False)]
+        passed = f"ca.ge({printer._print(self.args[0])}, ca.DM({list(self.breaks)}))"
+        return f"({self.values[0]!r} + ca.dot(ca.DM({steps}), {passed}))"
+
+
 _FUNCTIONS = {
     "sin": "sin", "cos": "cos", "tan": "tan", "asin": "asin", "acos": "acos", "atan": "atan", "atan2": "atan2",
     "sinh": "sinh", "cosh": "cosh", "tanh": "tanh", "exp": "exp", "log": "log", "Abs": "fabs", "sign": "sign",
@@ -55,7 +71,12 @@ def require_known(expr: sp.Basic | float) -> None:
         name = type(node).__name__
         if isinstance(node, sp.Float):
             raise UnsupportedNode(f"the number {node} is a Float and would be rounded; write a Rational or a parameter")
-        if isinstance(node, sp.Basic) and name not in _NODES and name not in _FUNCTIONS:
+        if (
+            isinstance(node, sp.Basic)
+            and name not in _NODES
+            and name not in _FUNCTIONS
+            and not isinstance(node, Lookup)
+        ):
             raise UnsupportedNode(f"{name!r} in {expr} has no CasADi counterpart; known are {known()}")
         if isinstance(node, sp.Piecewise) and node.args[-1].cond != sp.true:
             raise UnsupportedNode(f"{node} has no value where no condition holds; end it with (value, True)")
@@ -67,10 +88,7 @@ class _Printer(StrPrinter):
     printmethod = "_casadi"
 
     def doprint(self, expr: sp.Basic | float) -> str:
-        """Check every node against the list, then print.
-
-        expr: Expr, sympy expression. Returns text: Python text.
-        """
+        """Check every node against the list, then print. expr: Expr, sympy expression. Returns text: Python text."""
         require_known(expr)
         return self._print(expr)
 
@@ -191,10 +209,7 @@ class _Printer(StrPrinter):
 
 
 def known() -> str:
-    """The functions and nodes that are printed.
-
-    Returns names: sorted, separated by commas.
-    """
+    """The functions and nodes that are printed. Returns names: sorted, separated by commas."""
     return ", ".join(sorted([*_FUNCTIONS, *_NODES], key=str.lower))
 
 

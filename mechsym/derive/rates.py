@@ -7,18 +7,12 @@ from mechsym.derive.refuse import refuse, require_declaration
 
 
 def velocities(m: Letters) -> list[Symbol]:
-    """Symbols of the velocities, `phid` for `phi`.
-
-    Returns symbols: in the order of the coordinates.
-    """
+    """Symbols of the velocities, `phid` for `phi`. Returns symbols: in the order of the coordinates."""
     return [Symbol(f"{v.name}d", real=True) for v in m.q]
 
 
 def accelerations(m: Letters) -> list[Symbol]:
-    """Symbols of the accelerations, `phidd` for `phi`.
-
-    Returns symbols: in the order of the coordinates.
-    """
+    """Symbols of the accelerations, `phidd` for `phi`. Returns symbols: in the order of the coordinates."""
     return [Symbol(f"{v.name}dd", real=True) for v in m.q]
 
 
@@ -36,10 +30,7 @@ def _rate(m: Letters, value: Expr) -> Expr:
 
 
 def acceleration(m: Letters, value: Expr) -> Expr:
-    """Second time derivative of an expression.
-
-    value: expression in names and coordinates. Returns acceleration: expression with the velocities and accelerations.
-    """
+    """Second time derivative of an expression in names and coordinates, with velocities and accelerations."""
     require_declaration(m, "acceleration(m, x)")
     value = m._checked(value, "", "what moves")
     linear = (m.tape.diff(value, v) * a for v, a in zip(m.q, accelerations(m), strict=True))
@@ -69,10 +60,7 @@ def reaction(m: Letters, joint: Symbol) -> Symbol:
 
 
 def output(m: Letters, *symbols: Symbol, order: int = 0) -> None:
-    """Make names part of the kinematic outputs, with their derivatives by the coordinates.
-
-    *symbols: names on the tape; order: highest derivative, 0 to 2.
-    """
+    """Make names of the tape kinematic outputs, with derivatives by the coordinates up to an order of 0 to 2."""
     require_declaration(m, "output(m, x, order=2)")
     if order not in (0, 1, 2) or not symbols:
         refuse(f"output takes names and derivatives of order 0, 1 or 2, not {len(symbols)} names of order {order!r}")

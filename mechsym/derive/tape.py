@@ -86,11 +86,12 @@ class Intermediates:
         self._rules[angle] = lambda v: (ends[0] * self.diff(ends[1], v) - ends[1] * self.diff(ends[0], v)) / square
         return angle
 
-    def named(self, expression: Expr) -> Expr:
-        """Replace sine and cosine of single names by the tape's names for them.
+    def follow(self, symbol: Symbol, rule: Rule) -> None:
+        """Let a name have its derivative by a rule in place of its expression's."""
+        self._rules[symbol] = rule
 
-        expression: any expression.
-        """
+    def named(self, expression: Expr) -> Expr:
+        """Replace sine and cosine of single names by the tape's names for them. expression: any expression."""
         functions = sorted(expression.atoms(sin, cos), key=str)
         return expression.xreplace({f: self._circular(f) for f in functions})
 
@@ -155,20 +156,14 @@ class Intermediates:
         return self._derived_from.get(symbol, (symbol, ()))
 
     def flat(self, expression: Expr) -> Expr:
-        """The expression with every name replaced by its definition, down to coordinates and parameters.
-
-        Returns expression: closed form.
-        """
+        """The expression in coordinates and parameters: every name replaced by its definition."""
         values: dict[Symbol, Expr] = {}
         for symbol in self.needed([expression]):
             values[symbol] = self.entries[symbol].xreplace(values)
         return expression.xreplace(values)
 
     def needed(self, expressions: Iterable[Expr]) -> list[Symbol]:
-        """Names that the expressions depend on, in the order of definition.
-
-        Returns names: an order in which each name follows what it uses.
-        """
+        """Names that the expressions depend on, each after what it uses."""
         done: dict[Symbol, None] = {}
 
         def visit(expression: Expr) -> None:

@@ -39,10 +39,7 @@ def lagrange_left_side(equations: Equations) -> list[Expr]:
 
 
 def geometric_left_side(equations: Equations) -> list[Expr]:
-    """M qdd + h in closed form.
-
-    Returns left: one expression a coordinate.
-    """
+    """M qdd + h in closed form. Returns left: one expression a coordinate."""
     a = accelerations(equations.mechanism)
     rows = zip(equations.mass_matrix, equations.bias, strict=True)
     return [_held(equations, sum((e * x for e, x in zip(row, a, strict=True)), bias)) for row, bias in rows]

@@ -8,7 +8,7 @@ shaking.py      orders; what shakes the frame, the counterweight that shakes it 
 friction.py     first-order losses from the frictionless reactions, of rings, and as a law of the engine cycle
 comparison.py   slider crank, hypocycloid and rodless at equal stroke, mass and gas force; the sources' claims judged
 result.py       all of it in one record, with the table forces.csv and its extremes
-summary.py      the record in numbers
+summary.py      the record in numbers; shown.py its pictures, its moving scene, its files
 motion.py       how coordinates are driven: evenly, by a word, through points; driven.py their forces over time
 """
 

@@ -120,10 +120,7 @@ def balance(
 
 
 def amplitudes(values: Newton[Array], turn: Turn, rounding: Newton = 0.0) -> dict[int, Newton]:
-    """Largest value that each whole order of a force or couple in the plane reaches: |forwards| + |backwards|.
-
-    rounding: what is not larger is 0.
-    """
+    """|forwards| + |backwards| of each whole order of a force or couple. rounding: what is not larger is 0."""
     both = {k: abs(part(values, turn, k)) + abs(part(values, turn, -k)) for k in range(1, HIGHEST + 1)}
     return {k: size if size > rounding else 0.0 for k, size in both.items()}
 

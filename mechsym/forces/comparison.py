@@ -73,10 +73,7 @@ class ComparedMechanism:
 def compare(
     turn: Turn, friction: Friction | None, rings: Rings, settings: ComparisonSettings
 ) -> list[ComparedMechanism]:
-    """The mechanisms side by side with the stroke, mass and gas of a machine, which must have gas.
-
-    friction: the same coefficients for all; None leaves friction out.
-    """
+    """The mechanisms with the stroke, mass and gas of a machine. friction: the same for all; None leaves it out."""
     if turn.gas is None:
         raise BadInput("a comparison at equal gas force needs a [cycle]")
     if turn.gas.pistons:

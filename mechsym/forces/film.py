@@ -83,10 +83,9 @@ def rotation(eccentricity: Pure, width: Pure) -> tuple[Pure, Radian]:
               \qquad So = \frac{F \psi^2}{B D \eta\, \omega}
 
     eccentricity: over the clearance; width: b = B/D. Returns both: So over eps, and the angle from the load to the
-    narrowest gap.
-    Source: H.-J. Butenschoen, thesis, Karlsruhe (1976); coefficients as in the multibody code MBDyn. Valid: full
-    bearing, film that ends where its pressure and slope are 0. Against a solution of Reynolds' equation, eccentricity
-    0.1 to 0.95: So within 6 % at B/D of 0.25, 0.5 and 1, 10 % at 0.75; the angle within 5 degrees.
+    narrowest gap. Source: H.-J. Butenschoen, thesis, Karlsruhe (1976); coefficients as in the multibody code MBDyn.
+    Valid: full bearing, film that ends where its pressure and slope are 0. Against a solution of Reynolds' equation,
+    eccentricity 0.1 to 0.95: So within 6 % at B/D of 0.25, 0.5 and 1, 10 % at 0.75; the angle within 5 degrees.
 
     >>> so, angle = rotation(0.8, 0.5)
     >>> round(0.8 * so, 3), round(math.degrees(angle), 1)
@@ -142,10 +141,7 @@ def finite_velocity(eccentricity: complex, load: complex, width: Pure) -> comple
 
 
 def orbit(journal: Journal, film: MainShaft, omega: RadPerSecond, phi: Radian[Array], period: Radian) -> Orbit:
-    """Motion of a journal under its load, run until it repeats.
-
-    phi: crank angles, evenly spaced over the period, those of the loads.
-    """
+    """Motion of a journal under its load, run until it repeats. phi: crank angles of the loads, evenly spaced."""
     from scipy.integrate import solve_ivp
 
     load = journal.x + 1j * journal.y

@@ -57,11 +57,9 @@ def shaft_lines(
 
     with generalised force Q and bias b of the derived equations at constant speed. mechanism: reduced to the angle of
     its shaft, as `crank_drive` builds it; areas: by input the force that one pascal gives it, with its sign; held:
-    inputs that do not change [N] or [N*m].
-    Source: derived here, from the equations of the mechanism. Valid at constant speed.
-
-    A crank of 1 m, massless but for its rotor, and a long rod: at 90 degrees each newton on the piston is one newton
-    metre.
+    inputs that do not change [N] or [N*m]. Source: derived here, from the equations of the mechanism. Valid at constant
+    speed. A crank of 1 m, massless but for its rotor, and a long rod: at 90 degrees each newton on the piston is one
+    newton metre.
 
     >>> from mechsym.mechanisms import bind
     >>> letters = dict(r1=0.5, r2=0.5, l1=5e4, l2=5e4, m1=0, m2=0, m3=0, m4=0, m5=0, I01=1, IC2=0, g=0, axis_tilt=0)

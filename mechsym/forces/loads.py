@@ -60,10 +60,7 @@ def loads(turn: Turn) -> Loads:
 
 
 def pin_torque(loads: Loads) -> NewtonMetre[Array]:
-    """Torque on the crank from the forces on its pins.
-
-    Returns torque: together with the torque of the crank's weight.
-    """
+    """Torque on the crank from the forces on its pins, together with that of the crank's weight."""
     return loads.weight_torque + sum(pin.radius * tangential(pin) for pin in loads.pins)
 
 
@@ -105,9 +102,6 @@ def polar(loads: Loads) -> dict[str, tuple[Newton[Array], Newton[Array]]]:
 
 
 def roll_sense(turn: Turn) -> Pure:
-    """Sense of rotation of the shaft end that carries the load: the flywheel stands behind the last throw.
-
-    Returns sense: 1 or -1.
-    """
+    """Sense, 1 or -1, of the shaft end that carries the load: the flywheel stands behind the last throw."""
     mains = main_roles(turn)
     return mains[-1].sense if mains else 1.0

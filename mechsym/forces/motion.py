@@ -15,11 +15,11 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import scipy
 
-from mechsym.cycle.measured.file import numbers_of, split_table, text_of
 from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms.driven import MotionSettings
 from mechsym.quantities import parse
 from mechsym.quantities.units import Array, Second
+from mechsym.tables import columns_of
 
 Curve = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]  # times [s] to place, speed, acceleration
 
@@ -71,6 +71,10 @@ class DrivenMotion:
 
     def __init__(self, section: MotionSettings, units: Mapping[str, str], start: Mapping[str, float]) -> None:
         given = {q: getattr(section, q) for q in units if getattr(section, q) is not None}
+        if section.periodic and not section.file:
+            raise BadInput("motion.periodic is for a file that repeats; name it, motion.file, or leave periodic out")
+        if section.rise is not None and not set(given.values()) & {*WORDS}:
+            raise BadInput(f"motion.rise is for {', '.join(map(repr, WORDS))}; no coordinate moves so: leave it out")
         table = _table(section.file, units) if section.file else {}
         if twice := sorted(given.keys() & table.keys()):
             raise BadInput(f"motion.{twice[0]} stands in the section and in {section.file}; keep one")
@@ -129,21 +133,12 @@ def _curve(section: MotionSettings, q: str, value: object, unit: str, start: flo
 
 def _table(file: str, units: Mapping[str, str]) -> dict[str, np.ndarray]:
     """Columns of a file in SI: `t`, and those of its coordinates."""
-    _, (line, names), rows = split_table(file, text_of(file))
-    values, columns, known = numbers_of(file, rows, names, tuple(range(len(names)))), {}, {"t": "s", **units}
-    for name, column in zip(names, values.T, strict=True):
-        head, _, unit = (part.strip() for part in name.rstrip("] ").partition("["))
-        if head not in known or head in columns:
-            why = "stands twice" if head in columns else "is no time t and no coordinate"
-            raise BadInput(f"{file}, line {line}: column {name!r} {why}; {suggest(head, list(known))}")
-        columns[head] = column * parse(f"1 {unit or known[head]}", known[head], f"{file}, line {line}: unit of {head}")
+    columns, lines = columns_of(file, {"t": "s", **units}, "is no time t and no coordinate")
     if "t" not in columns or len(columns) < 2:
-        raise BadInput(
-            f"{file}, line {line}: a motion has the columns t [s] and one for each coordinate that it drives"
-        )
+        raise BadInput(f"{file}: a motion has the columns t [s] and one for each coordinate that it drives")
     bad = np.flatnonzero(np.diff(columns["t"]) <= 0)
-    if bad.size or len(rows) < 7:
-        at = rows[int(bad[0]) + 1][0] if bad.size else rows[-1][0]
+    if bad.size or len(lines) < 7:
+        at = lines[int(bad[0]) + 1] if bad.size else lines[-1]
         why = "t must rise row by row" if bad.size else "a spline of degree 5 takes at least 7 rows"
         raise BadInput(f"{file}, line {at}: {why}; mend the file")
     columns["t"] = columns["t"] - columns["t"][0]

@@ -43,10 +43,7 @@ _NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of wh
 
 
 def chain(forces: Forces) -> "Figure":
-    """Piston, crank pin, guides (or teeth) and torque over the cycle; the two-mass rod dotted beside the exact forces.
-
-    Returns figure: four panels over the crank angle.
-    """
+    """Piston, crank pin, guides (or teeth) and torque over the cycle; the two-mass rod dotted beside the exact."""
     figure, axes = panels(9, 9, 4, 1, "Forces and torque over the crank angle", sharex=True)
     table = forces.columns
     phi = np.radians(table["phi_deg"])
@@ -114,10 +111,7 @@ def polar_diagrams(forces: Forces) -> "Figure":
 
 
 def journal_loads(forces: Forces) -> "Figure":
-    """Load of the shaft on each main bearing, seen from the block and from the shaft.
-
-    Returns figure: two panels, at most six curves each.
-    """
+    """Load of the shaft on at most six main bearings, seen from the block and from the shaft."""
     oiled = bool(forces.orbits)
     figure, axes = panels(9, 4.2 if oiled else 5.2, 1, 3 if oiled else 2, "Loads of the main bearings at their places")
     turning = {f"{one.z}{one.sense}": np.exp(-1j * one.sense * forces.turn.phi) for one in forces.journals}
@@ -338,10 +332,7 @@ def _label(name: str) -> str:
 
 
 def pressure_picture(path: Path, indicated: IndicatedPressure, period: Radian) -> Path:
-    """Absolute pressure over the angle with its 95 % interval; gaps at the dead centres stay empty.
-
-    period: of the cycle.
-    """
+    """Absolute pressure over a period with its 95 % interval; gaps at the dead centres stay empty."""
     figure, axes = panels(8, 4, 1, 1, "Pressure that the torque tells, and its 95 % interval")
     axis = axes[0]
     p, half = (np.where(indicated.told, v, np.nan) for v in (indicated.p, NORMAL_95 * indicated.error))

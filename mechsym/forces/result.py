@@ -81,10 +81,7 @@ def extremes(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, float], dict[
 
 
 def angle_of_largest(phi: Radian[Array], values: Pure[Array]) -> Annotated[float, "deg"]:
-    """Crank angle at which a column is largest.
-
-    values: column, in any unit. Returns angle: within a period, in degrees.
-    """
+    """Crank angle within a period, in degrees, at which a column in any unit is largest."""
     return math.degrees(phi[int(np.argmax(values))])
 
 
@@ -114,10 +111,7 @@ def forces(
     shaft: MainShaft | None = None,
     whole: CycleFriction | None = None,
 ) -> Forces:
-    """Forces of a turn, friction where coefficients are given; the mechanisms are not compared.
-
-    whole: law of the friction of the whole engine, see `friction.losses`.
-    """
+    """Forces of a turn, friction where coefficients are given. whole: law of friction, see `friction.losses`."""
     carried, shake, chains = loads(turn), shaking(turn), {}
     if textbook.rod_of(turn) is not None:
         rod = textbook.slider_crank(turn)

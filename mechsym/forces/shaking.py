@@ -53,10 +53,7 @@ def orders(values: Pure[Array], period: Radian, highest: Pure = 12.0) -> Harmoni
 
 
 def whole(harmonics: Harmonics, order: int) -> complex:
-    """One whole order as a complex amplitude.
-
-    Returns amplitude: a exp(-i delta), so that the quantity is Re(a exp(i (k phi - delta))).
-    """
+    """One whole order as a complex amplitude a exp(-i delta): the quantity is Re(a exp(i (k phi - delta)))."""
     at = int(np.argmin(np.abs(harmonics.order - order)))
     return complex(harmonics.amplitude[at] * np.exp(-1j * harmonics.phase[at]))
 

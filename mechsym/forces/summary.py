@@ -7,6 +7,7 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.forces import textbook
+from mechsym.forces.cams import CamNumbers, cams
 from mechsym.forces.comparison import ComparedMechanism, claims, left_out
 from mechsym.forces.film import Orbit, beyond
 from mechsym.forces.friction import NO_PLACE, Losses
@@ -128,6 +129,7 @@ class ForceNumbers:
     two_mass: Mapping[str, Mapping[str, float]] | None = quantity("-")
     weight: Mapping[str, float] | None = quantity("-")  #: What the weights do to the forces of a slider crank
     closing: Mapping[str, ClosingNumbers | None] = part(inline=True)  #: By overconstrained mechanism
+    cams: Mapping[str, tuple[CamNumbers, ...]] = part(inline=True)  #: Whose followers are held, where there are any
     balance: BalanceNumbers = part()
     comparison: list[ComparedMechanism] | None = part()  #: At equal stroke, mass and gas
     claims: list[dict[str, str]] = part()  #: Of the source, judged
@@ -137,10 +139,7 @@ class ForceNumbers:
 
 
 def summary(forces: Forces, case: str, source: str = "") -> ForceNumbers:
-    """The result in numbers.
-
-    case, source: name of the case, and the source whose engine it is: only the claims of that source are judged.
-    """
+    """The result in numbers. case, source: name of the case, and the source whose claims are judged."""
     one, table = forces.turn, forces.columns
     largest, smallest = extremes(table)
     name = mechanisms.listing(one.drive.name)["name"]
@@ -172,6 +171,7 @@ def summary(forces: Forces, case: str, source: str = "") -> ForceNumbers:
         two_mass={name: textbook.errors(one, chain) for name, chain in forces.chains.items()} or None,
         weight=shares,
         closing=closing,
+        cams={"cams": held} if (held := cams(one)) else {},
         balance=BalanceNumbers(reached=not forces.unbalanced, reasons=forces.unbalanced),
         comparison=forces.comparison,
         claims=[row for row in judged if row["source"] == source],

@@ -67,8 +67,7 @@ def terskih(omega: RadPerSecond) -> Pure:
 
     .. math:: L_m / L = 0.2\,\frac{(0.001 n)^2 + 2}{(0.001 n)^2 + 1}, \quad n \text{ in rpm}
 
-    Returns ratio: between 0.2 (fast) and 0.4 (slow).
-    Source: Moroianu (2017), eq. (3). Empirical.
+    Returns ratio: between 0.2 (fast) and 0.4 (slow). Source: Moroianu (2017), eq. (3). Empirical.
 
     >>> round(terskih(89 * math.pi / 30), 4)
     0.3984
@@ -78,10 +77,7 @@ def terskih(omega: RadPerSecond) -> Pure:
 
 
 def slider_crank(turn: Turn) -> SliderCrank:
-    """The slider crank of a turn in the letters of the sources.
-
-    Returns slider_crank: with the true centre of mass of the rod.
-    """
+    """The slider crank of a turn in the letters of the sources, with the true centre of mass of the rod."""
     letters = turn.drive.mechanism.parameters
     if (rod := rod_of(turn)) is None:
         raise BadInput(f"the chain of Moroianu is that of a slider crank, not of {turn.drive.name}")

@@ -18,7 +18,8 @@ import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.cycle.motion import slopes, top_of
+from mechsym.cycle.gas import Gas, over_travel
+from mechsym.cycle.motion import from_top, slopes, top_of
 from mechsym.errors import BadInput
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.arrays import along
@@ -31,10 +32,10 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.units import Array, Kilogram, NewtonMetre, Pure, Radian, RadPerSecond
 
 if TYPE_CHECKING:
-    from mechsym.cycle.gas import Gas
-    from mechsym.mechanisms.faces import RodlessFaces
+    from mechsym.mechanisms.closing import RodlessFaces
 
 _STEPS_PER_TURN = 1440
+_ROUNDING = 1e-9  # of a torque: less is none [-]
 
 
 @record
@@ -48,6 +49,7 @@ class GasFace:
     sense: float = 1.0  #: 1 where the gas pushes along the travel, else -1 [-]
     mass: float = 0.0  #: That moves with it [kg]
     throw: int = 0  #: Which coordinate turns it
+    top: float | None = None  #: Shaft angle at its top dead centre, where it moves otherwise than the first [rad]
 
 
 @record
@@ -187,7 +189,7 @@ def gas_faces(
     return tuple(
         GasFace(
             input=face.force, travel=face.travel, fires=fires, area=area, sense=face.sense,
-            mass=mass_with(face, letters), throw=face.throw,
+            mass=mass_with(face, letters), throw=face.throw, top=face.top,
         )
         for face, area, fires in rows
     )  # fmt: skip
@@ -223,7 +225,16 @@ def acting(drive: CrankDrive, gas: Gases) -> tuple[Acting, ...]:
         shared = zip(gas_faces(drive.roles, drive.mechanism.parameters, drive.faces), gas.pistons, strict=True)
         return tuple(Acting(gas=gas, face=dataclasses.replace(one, fires=0.0, area=area)) for one, area in shared)
     plan_of(drive.name).require_firing(drive.parameters, gas.pressure.period)
-    return tuple(Acting(face=one, gas=gas) for one in faces_of(drive))
+    return tuple(Acting(face=one, gas=_own(drive, one, gas)) for one in faces_of(drive))
+
+
+def _own(drive: CrankDrive, face: GasFace, gas: Gas) -> Gas:
+    """The gas of a face: that of all, but over its own travel where it moves otherwise."""
+    if face.top is None:
+        return gas
+    first = next(one.travel for one in drive.roles.faces if one.top is None)
+    own, other = (from_top(slopes(drive.mechanism, travel, {})) for travel in (first, face.travel))
+    return over_travel(gas, own, other, math.remainder(face.top - face.fires, 2 * math.pi))
 
 
 def period_of(acts: Sequence[Acting]) -> float:
@@ -324,8 +335,11 @@ def _powers(mechanism: Mechanism) -> ca.Function:
     idle = ca.substitute(force, inputs, ca.DM.zeros(len(named))) if named else force
     stored = energy(**{n: letters[n] for n in energy.name_in()})
     q, u = (letters[f"{mechanism.coordinates[0]}{dot}"] for dot in ("", "d"))
-    damped = ca.jacobian(idle, u).nnz() > 0
-    damping = idle + ca.gradient(stored["potential_energy"], q) if damped else ca.SX(0)
+    damping = idle + ca.gradient(stored["potential_energy"], q)
+    if not ca.jacobian(idle, u).nnz():  # what is left of weight and springs is rounding, but a constant force is not
+        both = ca.Function("both", list(letters.values()), [damping, idle])
+        left, whole = (np.abs(np.asarray(v)) for v in both.map(3).call([np.array([[0.3, 1.7, 4.1]])] * both.n_in()))
+        damping = damping if np.max(left) > _ROUNDING * np.max(whole) else ca.SX(0)
     slope = ca.gradient(stored["kinetic_energy"] + stored["potential_energy"], q)
     return ca.Function(
         "powers", list(letters.values()), [force - idle, damping, slope], list(letters), ["work", "damping", "slope"]

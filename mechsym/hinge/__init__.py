@@ -1,10 +1,9 @@
 """From the torque wanted to the verdict, in the order of the work.
 
-torque      the torque M_h that keeps the crank at constant speed     balance, ways   which part of it is taken
+torque      the torque M_h that keeps the crank at constant speed     balance, ways   what of it is taken, what is left
 springs     force, energy and closing of each law                     choices         arrangement, start, shaft
-guide       the track cut for a spring                                rollers, contact  forces around a turn
-limits      can it be built?                                          setting, retune   another speed or load
-fitted      the machine with its hinge                                ripple, steady, trials  how it turns
+guide       the track cut for a spring, its setting, its machine      rollers, contact  forces around a turn
+limits      can it be built?                                          steady, trials    how it turns, also elsewhere
 result      a finished design                                         summary, plots, report
 """
 
@@ -17,12 +16,12 @@ _NAMES = {
     "Coil": "mechsym.hinge.springs.coil:Coil",
     "crank_torque": "mechsym.hinge.guide:crank_torque",
     "cut": "mechsym.hinge.guide:cut",
-    "fitted": "mechsym.hinge.fitted:fitted",
+    "fitted": "mechsym.hinge.guide:fitted",
     "judge": "mechsym.hinge.limits:judge",
     "Limits": "mechsym.hinge.choices:Limits",
     "parallel": "mechsym.hinge.rollers:parallel",
     "refit": "mechsym.hinge.guide:refit",
-    "retune": "mechsym.hinge.retune:retune",
+    "retune": "mechsym.hinge.steady:retune",
     "torque": "mechsym.hinge.torque:torque",
 }
 __all__ = sorted(_NAMES)

@@ -1,12 +1,27 @@
-"""Which part of the torque the hinge takes, and the ripple that the rest leaves.
+r"""Which part of the torque the hinge takes, and the ripple that the rest leaves.
 
 A four-stroke torque repeats every two turns. Two ways out, by name: `whole_cycle` (the track turns on a slower shaft,
 once per cycle) and `every_turn` (the track turns with the crank and takes the part that repeats every turn, the mean of
 the two turns). For a two-stroke both are the same.
+
+The crank speed that missing work leaves: closed forms for one rigid coordinate and two load laws, from samples. If the
+hinge gives less than the torque M_h that keeps the speed at omega, the missing torque works on E = I (phid^2 - omega^2)
+/ 2. With w(phi) the work that is wanted and missing,
+
+.. math:: \frac{dE}{d\varphi} = -\frac{dw}{d\varphi} - \left(M_\mathrm{load} - M_r\right)
+
+Constant load: the bracket is zero and E = c - w; every c is a motion, and c is chosen for the mean speed omega.
+Propeller load, M_r (phid/omega)^2: the bracket is a E with a = 2 M_r / (I omega^2), the equation is linear and has one
+periodic solution. All arrays are over even crank angles of one period without its end.
+
+These serve the design, which tries hundreds of guides and settings and knows only what work each leaves over. They
+know no machine: how an engine with its gas, guide, spring and any load law turns is found by `simulate.steady`, whose
+numbers are reported for the engine as built; a test holds the two together.
 """
 
 import functools
 import math
+from itertools import accumulate
 
 import numpy as np
 import scipy
@@ -14,10 +29,11 @@ import scipy
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge.choices import BALANCES
-from mechsym.hinge.ripple import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
+from mechsym.quantities.units import Array, Inertia, Joule, NewtonMetre, Pure, Radian, RadPerSecond
+from mechsym.simulate.speed import Speed
 
 _TURN = 2 * math.pi
 
@@ -42,10 +58,7 @@ class Balance:
 # the springs of a sweep share one torque
 @functools.lru_cache(maxsize=8)
 def balance(hinge: Hinge, kind: str) -> Balance:
-    """The part of the hinge torque that the hinge takes.
-
-    hinge: torque that would keep the speed constant. Returns balance: the torque, the rest and its ripple.
-    """
+    """The part that the hinge takes of the torque that keeps the speed constant, the rest and its ripple."""
     if kind not in BALANCES:
         raise BadInput(f"balance = {kind!r} is not an option; options are {', '.join(BALANCES)}")
     period = hinge.period if kind == "whole_cycle" else min(hinge.period, _TURN)
@@ -87,3 +100,78 @@ def _rest(torque: "scipy.interpolate.PPoly", part: "scipy.interpolate.PPoly") ->
         return scipy.interpolate.PPoly(np.zeros_like(torque.c), torque.x, extrapolate="periodic")
     breaks = np.concatenate([torque.x, part.x, part.x + _TURN])
     return periodic.fit(lambda phi: torque(phi) - part(phi), breaks, torque.x[-1], tol=1e-9)
+
+
+def constant_load_speed(
+    missing: Joule[Array], inertia: Inertia[Array], omega: RadPerSecond
+) -> RadPerSecond[Array] | None:
+    """Crank speed around a period at constant load, for a given mean speed.
+
+    missing: work that is wanted and missing; inertia: reduced inertia; omega: mean speed in time.
+
+    Returns
+    -------
+    phid : ndarray, shape (n,), or None
+        Speed; None if no motion with that mean speed exists: the crank would stop
+
+    Notes
+    -----
+    Neutrally stable: a run that starts elsewhere keeps another c and another ripple.
+    """
+
+    def phid(c: float) -> np.ndarray:
+        return np.sqrt(omega**2 + 2 * (c - missing) / inertia)
+
+    def excess(c: float) -> float:
+        return mean_speed(phid(c)) - omega
+
+    swing, energy = float(np.ptp(missing)), float(inertia.max()) * omega**2 / 2
+    if swing <= 1e-12 * energy:
+        return np.full_like(missing, omega)
+    # above the rounding of the energy, so that no square is negative
+    slowest = float(np.max(missing - inertia * omega**2 / 2)) + max(1e-9 * swing, 1e-14 * energy)
+    if excess(slowest) > 0:
+        return None
+    return phid(scipy.optimize.brentq(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))
+
+
+def propeller_load_speed(
+    missing: Joule[Array], inertia: Inertia[Array], omega: RadPerSecond, load_torque: NewtonMetre, period: Radian
+) -> RadPerSecond[Array] | None:
+    r"""Crank speed around a period when the load grows with the square of the speed.
+
+    .. math:: E = g - w, \qquad g' = a\,(w - g), \qquad a = \frac{2 M_r}{I \omega^2}
+
+    missing: work w that is wanted and missing. inertia: reduced inertia I. omega: speed at which the load takes the
+    load torque. load_torque: M_r; where it is not positive a steady torque holds the machine in its place, see
+    `settle`. Returns phid: speed of the periodic motion, to which every run settles; None if the crank would stop.
+    """
+    if load_torque <= 0:
+        return constant_load_speed(missing, inertia, omega)
+    rate = 2 * load_torque / (inertia * omega**2)
+    step = period / missing.size * (rate + np.roll(rate, -1)) / 2
+    decay = np.exp(-step)
+    # over one step g relaxes towards the mean of w; -expm1 keeps the digits of short steps
+    gain = -np.expm1(-step) * (missing + np.roll(missing, -1)) / 2
+    steps = zip(decay.tolist(), gain.tolist(), strict=True)
+    *forced, end = accumulate(steps, lambda g, s: s[0] * g + s[1], initial=0.0)
+    faded = np.exp(-np.cumsum(step) + step)
+    g = np.array(forced) + faded * end / -np.expm1(-step.sum())
+    squares = omega**2 + 2 * (g - missing) / inertia
+    return None if squares.min() <= 0 else np.sqrt(squares)
+
+
+def mean_speed(phid: RadPerSecond[Array]) -> RadPerSecond:
+    """Mean in time of a speed, not negative, given over even angles: angle over time of a period."""
+    # a crank that stands at one angle takes for ever
+    return 1 / float(np.mean(1 / phid)) if phid.min() > 0 else 0.0
+
+
+def ripple(phid: RadPerSecond[Array] | None) -> Pure | None:
+    """Speed ripple of a closed form, which knows the speed at its angles only; see `mechsym.simulate.speed.Speed`.
+
+    phid: speed over even angles; None for a crank that stops.
+    """
+    if phid is None or phid.min() <= 0:
+        return None
+    return Speed(mean=mean_speed(phid), min=float(phid.min()), max=float(phid.max())).ripple

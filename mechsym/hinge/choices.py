@@ -18,8 +18,7 @@ Source: Zotov et al. (2024), section 3, draws two rollers on one track, which ca
 import math
 
 from mechsym.errors import BadInput
-from mechsym.hinge.bounds.spring import CLOSING, SPRING_PRESSURE
-from mechsym.hinge.bounds.track import HERTZ_STRESS, PRESSURE_ANGLE, ROLLER_REACTION, UNDERCUT
+from mechsym.hinge.bounds.face import CLOSING, HERTZ_STRESS, PRESSURE_ANGLE, ROLLER_REACTION, SPRING_PRESSURE, UNDERCUT
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Pure, Radian
 

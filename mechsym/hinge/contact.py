@@ -68,10 +68,7 @@ def station_of(
     spring: Spring, choices: GuideParameters, rollers: RollerParameters, omega: RadPerSecond,
     values: Sequence[Metre[Array]], warm: Pure[Array] | None = None,
 ) -> Station:  # fmt: skip
-    """A guide at angles of its track.
-
-    omega: speed of the crank. values: path and its derivatives there. warm: state of the gas, where it has one.
-    """
+    """A guide at angles of its track. omega: of the crank. values: path and derivatives. warm: state of the gas."""
     count = ROLLERS[choices.arrangement]
     rho, drho, d2rho = values
     z = count * (choices.rho0 - rho)

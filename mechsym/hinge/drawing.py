@@ -37,10 +37,7 @@ def elastic_hinge(guide: Guide, rollers: RollerParameters) -> Callable[[float], 
 
 
 def same_after_half_a_turn(points: Metre[Array]) -> bool:
-    """Whether a closed curve, given at even angles with both ends, comes back to itself after half a turn.
-
-    points: any n that is odd, shape (n, 2).
-    """
+    """Whether a closed curve repeats after half a turn. points: at even angles, both ends, odd n, shape (n, 2)."""
     half = len(points) // 2
     return bool(np.abs(points[half:] + points[: half + 1]).max() < 1e-6 * float(np.abs(points).max()))
 

@@ -14,8 +14,16 @@ The spring gives the work that the torque takes: U(z) = const - W(phi), so z fol
 
 Source: Zotov et al. (2024), eqs. (9) to (14), for `two_tracks` with the start `as_printed`; the names are explained in
 `mechsym.hinge.choices`.
+
+A guide as a function of its spring setting: the pressure p0 of an air spring, the preload F0 of a coil. All laws are
+affine in the setting s, so the torque and the work of a guide that stays as it was cut are too:
+
+.. math:: M_h^*(\varphi; s) = M_0 + s\,M_1, \qquad W^*(\varphi; s) = W_0 + s\,W_1
+
+Source: Zotov et al. (2024), eqs. (12) to (14), where M_0 = 0 for the gauge law.
 """
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -28,8 +36,13 @@ from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters, refuse_open_track
 from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.hinge.torque import Hinge
+from mechsym.machine.loads import settle
+from mechsym.machine.record import AngleForce, Machine
+from mechsym.mechanisms.shaft import with_torque
+from mechsym.periodic import even_angles
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, Metre, NewtonMetre, Radian
+from mechsym.quantities.display import quantity_text
+from mechsym.quantities.units import Array, Joule, Metre, NewtonMetre, Radian
 
 _POINTS = 1440  # angles of a period at which a gas with a state is followed
 
@@ -52,9 +65,8 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
     """Guide that makes a spring give a torque, as the spring says, see `Spring.path`.
 
     wanted: torque to give with its work: all of it, or the part that was chosen. Returns guide: the path, or status and
-    reason. Raises BadInput: the track would not close after a turn of its shaft, or z_margin leaves no spring.
-
-    Valid: massless rollers and spring, no friction.
+    reason. Raises BadInput: the track would not close after a turn of its shaft, or z_margin leaves no spring. Valid:
+    massless rollers and spring, no friction.
     """
     refuse_open_track(parameters, wanted.period)
     if parameters.z_margin >= spring.H:
@@ -78,10 +90,7 @@ def refit(guide: Guide, spring: Spring) -> Guide:
 
 
 def path(guide: Guide) -> "scipy.interpolate.PPoly":
-    """The path of the roller centres.
-
-    Returns rho: over the angle of the guide's shaft [m]. Raises BadInput: there is no path; the message says why.
-    """
+    """The path over the angle of the guide's shaft [m]. Raises BadInput: there is none; the message says why."""
     if guide.rho is None:
         raise BadInput(f"there is no guide: {guide.reason}")
     return guide.rho
@@ -166,3 +175,106 @@ def torque_function(guide: Guide) -> Callable[[float], float]:
         return ratio * c * force(c * (rho0 - rho)) * slope
 
     return torque
+
+
+@record
+class Affine:
+    """Torque and work of a guide as offset + setting * slope, beside what is wanted; arrays over even crank angles."""
+
+    omega: float  #: Wanted speed [rad/s]
+    period: float  #: [rad]
+    load_torque: float  #: [N*m]
+    inertia: np.ndarray  #: shape (n,): Reduced inertia [kg*m^2]
+    #: shape (n,): Hinge torque at that speed, and the guide's at setting 0 [N*m]
+    torque_wanted: np.ndarray
+    torque_0: np.ndarray
+    torque_1: np.ndarray  #: shape (n,): Change of the guide's torque per unit of setting [N*m/Pa], of a coil [N*m/N]
+    #: shape (n,): integrals of the torques from phi = 0 [J], of `torque_1` [J/Pa] or [J/N]
+    work_wanted: np.ndarray
+    work_0: np.ndarray
+    work_1: np.ndarray
+
+
+def setting_of(spring: Spring) -> float:
+    """The value that retuning changes. Returns setting: p0 [Pa], or F0 of a coil [N]."""
+    return float(getattr(spring, spring.setting[0]))
+
+
+def setting_text(spring: Spring, setting: float) -> str:
+    """A setting with its unit, for people, four digits. setting: p0 [Pa], or F0 of a coil [N]."""
+    return quantity_text(setting, spring.setting[1], 4)
+
+
+def with_setting(spring: Spring, setting: float) -> Spring:
+    """The same spring with another setting. setting: p0 [Pa], or F0 of a coil [N]."""
+    return dataclasses.replace(spring, **{spring.setting[0]: setting})
+
+
+def affine(guide: Guide, hinge: Hinge) -> Affine:
+    """Torque and work of a guide over a period as functions of its setting, beside what a speed needs."""
+    phi = even_angles(hinge.period)
+    rho, ratio = path(guide), guide.parameters.shaft_ratio
+    z = closing(guide, rho(ratio * np.append(phi, 0.0)))
+    # two settings fix a straight line; the second is far enough from the first to lose no digits
+    first = setting_of(guide.spring)
+    second = 2 * first if first > 0 else float(guide.spring.force(guide.spring.H))
+    torques, works = [], []
+    for spring in (guide.spring, with_setting(guide.spring, second)):
+        torques.append(crank_torque(refit(guide, spring), phi))
+        if spring.state:
+            works.append(_work(torques[-1], hinge.period))
+        else:
+            energy = spring.energy(z)
+            works.append(energy[-1] - energy[:-1])
+    torque_1, work_1 = ((values[1] - values[0]) / (second - first) for values in (torques, works))
+    return Affine(
+        omega=hinge.omega,
+        period=hinge.period,
+        load_torque=hinge.load_torque,
+        inertia=hinge.inertia(phi),
+        torque_wanted=hinge.torque(phi),
+        torque_0=torques[0] - first * torque_1,
+        torque_1=torque_1,
+        work_wanted=hinge.work(phi),
+        work_0=works[0] - first * work_1,
+        work_1=work_1,
+    )
+
+
+def _work(torque: np.ndarray, period: float) -> np.ndarray:
+    """Work of a torque at even angles [J], less the share of what the gas keeps: the load is lowered by that."""
+    swing = (torque - torque.mean()) * period / torque.size
+    return np.cumsum(swing) - (swing + swing[0]) / 2
+
+
+def missing_work(parts: Affine, setting: float) -> Joule[Array]:
+    """Work that is wanted and missing. setting: p0 [Pa], or F0 of a coil [N]. Returns work: from phi = 0."""
+    return parts.work_wanted - parts.work_0 - setting * parts.work_1
+
+
+def work_swing(parts: Affine, setting: float) -> Joule:
+    """Largest minus smallest missing work, convex in the setting: p0 [Pa], or F0 of a coil [N]."""
+    return float(np.ptp(missing_work(parts, setting)))
+
+
+def fitted(machine: Machine, wanted: Hinge, guide: Guide | None = None, lost: NewtonMetre = 0.0) -> Machine:
+    """The machine ready to run, with or without hinge.
+
+    wanted: gives the mean torque for a load law without numbers. guide: guide that could be cut, with the spring that
+    works in it; none leaves the machine without hinge. lost: mean torque that friction of the hinge takes from such a
+    load.
+    """
+    if guide is None:
+        return replace(machine, load=settle(machine.load, wanted.load_torque, machine.omega))
+    # a gas with a state runs at the speed of the machine, whatever the guide was cut for
+    guide = replace(guide, omega=machine.omega)
+    load = settle(machine.load, wanted.load_torque - kept_torque(guide) - lost, machine.omega)
+    hinge = AngleForce(
+        name="hinge",
+        input="M_h",
+        role="store",
+        value=lambda phi: crank_torque(guide, phi),
+        point=torque_function(guide),
+    )
+    place = with_torque(machine.mechanism, hinge.input)
+    return replace(machine, mechanism=place, load=load, forces=(*machine.forces, hinge))

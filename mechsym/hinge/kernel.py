@@ -25,9 +25,7 @@ import numpy as np
 from mechsym import periodic
 from mechsym.errors import BadInput, suggest
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.bounds.face import GuideLimit, Station, asked
-from mechsym.hinge.bounds.spring import ROOM
-from mechsym.hinge.bounds.track import CENTRE
+from mechsym.hinge.bounds.face import CENTRE, ROOM, GuideLimit, Station, asked
 from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Formulas, Spring, lettered
@@ -54,6 +52,12 @@ class DesignKernel:
     margins: Callable[[np.ndarray], np.ndarray]
     #: Values (n, free) [SI] -> derivatives of the margins (n, limits, free) [1/SI]; 0 where there is no guide
     gradients: Callable[[np.ndarray], np.ndarray]
+    #: What is compiled: (stage, lanes) to the shares around the turn, and (lanes, peaks) to the margins
+    functions: tuple[ca.Function, ca.Function]
+    around: tuple[str, ...]  #: Limits that have shares around the turn
+    stages: np.ndarray  #: shape (k, 3): Torque [N*m], its slope [N*m/rad], work [J] at ascending angles
+    angles: np.ndarray  #: shape (k,): Of the guide's shaft [rad]
+    lanes: dict[str, float]  #: All numbers that the functions take [SI]
 
 
 @record
@@ -63,6 +67,7 @@ class _KernelParts:
     march: Callable[[np.ndarray], np.ndarray]  #: Lanes (all, n) to the index of each peak (peaks, n)
     values: Compiled  #: Stage and lanes to the shares of the limits there
     finish: Compiled  #: Lanes and peaks to margins, the last is above 0 where there is a guide
+    functions: tuple[ca.Function, ca.Function]  #: Of both
     slopes: Callable[[], tuple[Compiled, Compiled]]  #: Derivatives of both by what is free
     names: tuple[str, ...]
     peaks: tuple[int, ...]  #: Place among the names of each limit that has its peak somewhere around the turn
@@ -101,6 +106,11 @@ def design_kernel(
         limits=parts.names,
         margins=lambda values: _in_blocks(lambda v: _margins(parts, v)[0], values, lanes, chosen),
         gradients=lambda values: _in_blocks(lambda v: _gradients(parts, v), values, lanes, chosen),
+        functions=parts.functions,
+        around=tuple(parts.names[i] for i in parts.peaks),
+        stages=parts.stages,
+        angles=parts.angles,
+        lanes=lanes,
     )
 
 
@@ -170,12 +180,17 @@ def _parts(
         })  # fmt: skip
         return made["slopes"], made["ends"]
 
+    functions = (
+        ca.Function("design_values", [stage, lane], [found], ["stage", "lane"], ["shares"]),
+        ca.Function("design_margins", [lane, peaks], [values], ["lane", "peaks"], ["margins"]),
+    )
     return _KernelParts(
         angles=phi * ratio,
         stages=stages,
         march=_march(stage, lane, found, stages),
-        values=compiled(ca.Function("design_values", [stage, lane], [found])),
-        finish=compiled(ca.Function("design_margins", [lane, peaks], [values])),
+        values=compiled(functions[0]),
+        finish=compiled(functions[1]),
+        functions=functions,
         slopes=functools.cache(slopes),
         names=names,
         peaks=tuple(names.index(limit.name) for _, limit, _ in rows if not limit.by_closing),

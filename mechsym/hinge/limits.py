@@ -7,9 +7,7 @@ from typing import Annotated
 import numpy as np
 
 from mechsym import periodic
-from mechsym.hinge.bounds.face import GuideLimit, Station, asked
-from mechsym.hinge.bounds.spring import ROOM
-from mechsym.hinge.bounds.track import CENTRE
+from mechsym.hinge.bounds.face import CENTRE, ROOM, GuideLimit, Station, asked
 from mechsym.hinge.choices import GuideParameters, Limits
 from mechsym.hinge.contact import at_pieces, end_stations
 from mechsym.hinge.guide import Guide, path

@@ -110,9 +110,8 @@ def side_force(
     .. math:: S = \left[F + m_h \omega^2 (\rho - \rho'')\right] \frac{\rho'}{\rho} - 2 m_h \omega^2 \rho'
 
     force: of the spring on each roller; rho, drho, d2rho: path of the roller centres; mass: m_h, moving with each
-    roller. Returns S: signed.
-    Source: tangential part of the track's force, less the Coriolis force of the mass. Valid: spring and rollers turn
-    with the shaft, without the traction that the roller's own inertia asks for.
+    roller. Returns S: signed. Source: tangential part of the track's force, less the Coriolis force of the mass. Valid:
+    spring and rollers turn with the shaft, without the traction that the roller's own inertia asks for.
 
     >>> side_force(1e5, 0.8, 0.08, 0.0, 0.0, 10.0)
     10000.0
@@ -127,8 +126,7 @@ def guide_torque(side: Newton[Scalar], drho: MetrePerRadian[Scalar], mu: Pure, c
     .. math:: M = c\,\mu_g |S\,\rho'|
 
     side: side force S of each piston; drho: derivative of the path; mu: friction of the guide. Returns torque: on the
-    shaft.
-    Source: Coulomb friction.
+    shaft. Source: Coulomb friction.
 
     >>> guide_torque(1e4, -0.1, 0.05, 2)
     100.0

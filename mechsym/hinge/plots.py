@@ -88,10 +88,7 @@ def torque(design: Design) -> "Figure":
 
 
 def track(design: Design, turn: Contact, radius: Metre) -> "Figure":
-    """The path of the roller centres and the cut profile, to scale.
-
-    turn: the guide in numbers over a whole turn of its shaft.
-    """
+    """The path of the roller centres and the cut profile, to scale. turn: over a whole turn of the guide's shaft."""
     figure, (axis,) = panels(5.4, 5.8, title="Path of the roller centres and cut profile, to scale")
     x, y = parallel(turn.rho, turn.drho, turn.theta, radius)
     factor, unit = axis_unit("m", x, y)

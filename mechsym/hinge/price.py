@@ -13,11 +13,10 @@ import dataclasses
 import numpy as np
 import scipy
 
-from mechsym.cycle.unfired import unfired, unfired_kinks
+from mechsym.cycle.gas import unfired, unfired_kinks
 from mechsym.hinge import losses as law
 from mechsym.hinge.contact import Contact, at_angles
-from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import Guide
+from mechsym.hinge.guide import Guide, fitted
 from mechsym.hinge.losses import HingeLosses, LossTorques
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.air_thermal import AirThermal

@@ -8,11 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.files import to_json, write_quantities, write_text
-from mechsym.hinge.findings import of_design
-from mechsym.hinge.moving import readouts, scenes
+from mechsym.hinge.guide import setting_text
 from mechsym.hinge.result import Design
-from mechsym.hinge.setting import setting_text
-from mechsym.hinge.shown import cards, pictures
+from mechsym.hinge.shown import cards, of_design, pictures, readouts, scenes
 from mechsym.hinge.summary import HingeNumbers, guide_columns, guide_turn, hinge_columns
 from mechsym.mechanisms.record import listing
 from mechsym.mechanisms.turning import rules
@@ -22,10 +20,7 @@ from mechsym.style import svg
 
 
 def write(design: Design, folder: Path, finish: Callable[[str], str] = str) -> list[Path]:
-    """Write report, tables, summary and pictures of a design.
-
-    folder: where to write; made when missing. finish: makes of the report's text the one that is written.
-    """
+    """Write report, tables, summary and pictures into a folder. finish: makes the text that is written of it."""
     numbers, columns = HingeNumbers(judged=design), hinge_columns(design)
     figures = {picture.name: svg(picture.draw()) for picture in pictures(design)}
     files = [write_text(folder / "report.html", finish(html(design, numbers, figures)))]

@@ -147,9 +147,8 @@ def hertz_stress(N: Newton[Array], kappa: Annotated[Array, "1/m"], rollers: Roll
               \frac1{R_e} = \frac1r - \frac{\kappa}{1 + r\kappa} = \frac1{r\,(1 + r\kappa)}
 
     kappa: curvature of the path. Returns p_H: pressure in the middle of the contact; infinite where the profile is
-    undercut, 0 where nothing presses.
-    Source: K. L. Johnson, Contact Mechanics (1985), section 4.2(c), load per unit width N / w. Valid: both bodies of
-    one material, contact much narrower than r, no edge loading.
+    undercut, 0 where nothing presses. Source: K. L. Johnson, Contact Mechanics (1985), section 4.2(c), load per unit
+    width N / w. Valid: both bodies of one material, contact much narrower than r, no edge loading.
     """
     relative_radius = rollers.radius * np.maximum(1 + rollers.radius * kappa, 0.0)
     with np.errstate(divide="ignore"):

@@ -1,22 +1,32 @@
-"""What of a hinge design is worth seeing: its cards, its figures, its curves."""
+"""What of a hinge design is worth seeing, has to be known first, and how engine and hinge turn together."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 
+import numpy as np
+
+from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.hinge import plots
-from mechsym.hinge.findings import of_design
+from mechsym.hinge.contact import at_angles
+from mechsym.hinge.drawing import elastic_hinge
+from mechsym.hinge.guide import Guide, setting_of, setting_text
 from mechsym.hinge.limits import ALL_KEPT, Verdict
 from mechsym.hinge.result import Design
-from mechsym.hinge.setting import setting_of, setting_text
+from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_turn, hinge_columns
-from mechsym.mechanisms.drawing import Shapes
+from mechsym.mechanisms.drawing import Shapes, shapes
 from mechsym.mechanisms.drawing import declared as drawn
 from mechsym.mechanisms.plots import figure_of
 from mechsym.mechanisms.record import listing
+from mechsym.mechanisms.turning import scene
 from mechsym.page import Card, Picture, View, card, shows
+from mechsym.page.finding import LEAST_SURE, LOOK_AT, NOT_MET, Finding
 from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, per_cent, quantity_text, ratio_text
+from mechsym.quantities.units import Pure
+from mechsym.style import axis_unit
 
 
 @shows(Design)
@@ -153,3 +163,97 @@ def pictures(design: Design) -> tuple[Picture, ...]:
                              see="Left: speed ripple over the load, a cross where the crank does not turn steadily. "
                              "Right: the setting of the spring that fits best."))  # fmt: skip
     return tuple(found)
+
+
+_FEW = 0.9  # of the speed: what one lost combustion may leave without a word
+
+
+def of_design(design: Design) -> Iterator[Finding]:
+    """What of a hinge design has to be known first."""
+    numbers = HingeNumbers(judged=design)
+    if not design.target.met:
+        worst = [ripple for ripple in design.target.with_losses if ripple is not None]
+        yield Finding(rank=NOT_MET, words=design.answer, value=max(worst, default=None))
+    yield from lost_combustion(numbers.misfire_speed_share)
+    yield from _least_sure(design)
+
+
+def lost_combustion(share: Pure | None, where: str = "") -> Iterator[Finding]:
+    """What one lost combustion does, where it is much. share: lowest speed after it by the mean; 0 stalls."""
+    if share is not None and share < _FEW:
+        left = f"pulls the speed down to {figure(100 * share, 2)} % of its mean" if share else "stops the shaft"
+        words = f"one lost combustion{where} {left} with the flywheel that is kept"
+        yield Finding(rank=LOOK_AT if share else NOT_MET, words=words, value=share)
+
+
+def _least_sure(design: Design) -> Iterator[Finding]:
+    """The quantity of the spring of which 1 % costs most."""
+    sides = [(one, side.speed_ripple) for one in design.sensitivities for side in (one.low, one.high)]
+    known = [(ripple, one) for one, ripple in sides if ripple is not None]
+    if known:
+        ripple, worst = max(known, key=lambda row: row[0])
+        value = quantity_text(worst.value, worst.unit, 4)
+        words = f"{worst.name} = {value}: 1 % off it, the ripple is {figure(100 * ripple, 2)} %"
+        yield Finding(rank=LEAST_SURE, words=words, value=ripple)
+
+
+_FRAMES = 120
+
+
+def scenes(design: Design) -> list[Json]:
+    """The engine, where there is a drawing of it, and the hinge, where there is a guide, over one period."""
+    turns = design.hinge.period / (2 * np.pi)
+    frames, found = round(_FRAMES * max(1.0, turns)), []
+    machine = engine(design)
+    if machine is not None:
+        found.append(scene(machine, "the engine to scale", turns, frames))
+    if design.usable is not None:
+        found.append(hinge_scene(design.usable, design.rollers, turns, frames))
+    return found
+
+
+def hinge_scene(guide: Guide, rollers: RollerParameters, turns: Pure, frames: int) -> Json:
+    """The hinge alone over some turns of the crank."""
+    drawn = elastic_hinge(guide, rollers)
+    two = any(shape.role == "second_track" for shape in drawn(0.0))
+    tracks = ", first track (red) and second (violet), in planes beside each other" if two else ", track"
+    shown = scene(drawn, f"the elastic hinge to scale: spring with its pistons, rollers{tracks}", turns, frames)
+    theta = guide.parameters.shaft_ratio * np.linspace(0, 2 * np.pi * turns, frames, endpoint=False) % (2 * np.pi)
+    pressure = at_angles(guide, rollers, theta).pressure
+    if pressure is not None:
+        share = np.rint(100 * pressure / pressure.max()).astype(int).tolist()
+        shown["shapes"] = [shape | {"share": share} if shape["role"] == "gas" else shape for shape in shown["shapes"]]
+    return shown
+
+
+def engine(design: Design) -> Callable[[float], Shapes] | None:
+    """Crank angle [rad] to a drawing of the engine; None of a mechanism without one."""
+    if (own := shapes_of(design)) is not None:
+        return own
+    gas = design.machine.gas
+    bore = float(gas.chamber.bore) if gas is not None else None
+    drawn = partial(shapes, design.machine.mechanism.name, design.origin.sections["parameters"], bore=bore)
+    try:
+        drawn(0.0)
+    except BadInput:
+        return None
+    return drawn
+
+
+def readouts(design: Design) -> list[Json]:
+    """What is read beside the drawing: name, unit and the number as text for each frame."""
+    turns = design.hinge.period / (2 * np.pi)
+    phi = np.linspace(0, design.hinge.period, round(_FRAMES * max(1.0, turns)), endpoint=False)
+    rows: list[tuple[str, str, np.ndarray]] = [("torque on the crank", "N*m", design.hinge.torque(phi))]
+    if design.usable is not None:
+        theta = design.guide.parameters.shaft_ratio * phi % (2 * np.pi)
+        turn = at_angles(design.usable, design.rollers, theta)
+        rows += [] if turn.pressure is None else [("excess pressure in the spring", "Pa", turn.pressure)]
+        rows += [("spring force", "N", turn.force), ("roller force N₁", "N", turn.reaction_1)]
+        rows += [("closing of the spring", "m", turn.z)]
+    return [_readout(*row) for row in rows]
+
+
+def _readout(name: str, si: str, values: np.ndarray) -> Json:
+    factor, unit = axis_unit(si, values)
+    return {"name": name, "unit": unit, "text": [figure(float(v), 4) for v in values * factor]}

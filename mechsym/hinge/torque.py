@@ -109,10 +109,7 @@ def torque(machine: Machine, tol: Pure = 1e-12) -> Hinge:
 # the springs of a sweep share one engine, and so its hinge torque
 @functools.lru_cache(maxsize=8)
 def hinge_of(torques: EngineTorques, omega: RadPerSecond, tol: Pure = 1e-12) -> Hinge:
-    """The same from what has to be balanced, wherever that comes from.
-
-    tol: error of the piecewise polynomials, as a share of the largest part.
-    """
+    """The same from what has to be balanced. tol: error of the piecewise polynomials by the largest part."""
     parts = periodic.fit(
         lambda phi: np.stack(
             [omega**2 / 2 * torques.dinertia_dphi(phi), -torques.gas_torque(phi), -torques.gravity_torque(phi)]
@@ -150,10 +147,7 @@ def hinge_of(torques: EngineTorques, omega: RadPerSecond, tol: Pure = 1e-12) -> 
 
 
 def exists(torque: "scipy.interpolate.PPoly") -> bool:
-    """Whether a spring can give a torque: its work over a period vanishes.
-
-    torque: periodic torque [N*m]. Returns exists: the mean is below 1e-9 of the peak.
-    """
+    """Whether a spring can give a periodic torque [N*m]: its mean is below 1e-9 of the peak."""
     low, _, high, _ = periodic.extremes(torque)
     return abs(periodic.mean(torque)) <= _MEAN_TOLERANCE * max(abs(low), abs(high))
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.hinge.contact import at_angles
-from mechsym.hinge.fitted import fitted
+from mechsym.hinge.guide import fitted
 from mechsym.hinge.in_time import KINDS, RealHinge, is_real, with_real_hinge
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import friction
@@ -19,7 +19,7 @@ from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.machine.record import Machine, period_of
 from mechsym.mechanisms import roles_of
 from mechsym.mechanisms.record import Mechanism, bind
-from mechsym.mechanisms.shaft_inertia import with_inertia
+from mechsym.mechanisms.shaft import with_inertia
 from mechsym.periodic import even_angles
 from mechsym.quantities.display import figure
 from mechsym.quantities.results import computed, part, quantity, result
@@ -75,10 +75,7 @@ def run(
     settings: Settings | None = None,
     real: RealHinge | None = None,
 ) -> Trial:
-    """Run a machine in time from top dead centre.
-
-    speed: speed at the start. real: losses and masses of its hinge; None for an ideal one.
-    """
+    """Run a machine from top dead centre. speed: at the start. real: losses of its hinge; None for an ideal one."""
     what = problem(machine, speed, turns)
     result = simulate(
         what if real is None else with_real_hinge(what, machine, real), settings or Settings(check="none")
@@ -91,10 +88,7 @@ def run(
 
 
 def trial(name: str, machine: Machine, wanted: Hinge, hinge: RealHinge, turns: Pure) -> Trial:
-    """One run with a guide.
-
-    name: `hinge_constant`, `hinge_propeller`; `off_constant`, `off_propeller` start 1 per cent fast.
-    """
+    """One run with a guide: `hinge_constant`, `hinge_propeller`; `off_constant`, `off_propeller` start 1 % fast."""
     kind, law = name.split("_")
     engine, real = ready(replace(machine, load=_LAWS[law]), wanted, hinge)
     if kind == "hinge":

@@ -13,7 +13,7 @@ size        every part with load, limit and factor
 optimise    the design that `[optimise]` declares
 identify    parameters out of a measured run
 flywheel    the flywheel for a wanted ripple
-export      what leaves the tool
+export      what leaves the tool, and the machine in motion
 """
 
 from mechsym.quantities import lazily

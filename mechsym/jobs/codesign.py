@@ -8,22 +8,19 @@ import numpy as np
 from mechsym import budget, cases
 from mechsym.cases import Case
 from mechsym.cases.needs import require
-from mechsym.codesign import changes, family, loss, real, scenarios
-from mechsym.codesign.cylinders import Count, counts
-from mechsym.codesign.floor import floor, rollers_inertia
-from mechsym.codesign.front import cut_for_one, front, worth_it
+from mechsym.codesign import loss, machines, scenarios
+from mechsym.codesign.certificate import floor, rollers_inertia
+from mechsym.codesign.front import RippleMap, cut_for_one, front, ripple_map, worth_it
 from mechsym.codesign.machines import hardware, point
 from mechsym.codesign.peers import peers, springs_of
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
-from mechsym.codesign.rank import rank
+from mechsym.codesign.rank import Count, counts, rank
 from mechsym.codesign.realise import RealisedNumbers, chosen, realise
 from mechsym.codesign.result import CoDesignResult
-from mechsym.codesign.schedule import RippleMap, ripple_map
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesign, CoDesignTask
-from mechsym.codesign.uncertainty import spread
-from mechsym.codesign.verify import Verified, verify
+from mechsym.codesign.verify import Verified, spread, verify
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.hinge.losses import HingeLosses, LossTorques
@@ -81,7 +78,7 @@ def codesign(
         if taken == "none"
         else (
             loss.losses(design, assumed),
-            tuple(real.with_losses(design, k, assumed) for k in range(len(task.points))),
+            tuple(loss.with_losses(design, k, assumed) for k in range(len(task.points))),
         )
     )
     progress()
@@ -149,12 +146,12 @@ def _changes(case: Case, settings: CoDesignSettings, design: CoDesign) -> list[s
     """What else happens at the first and the last point."""
     found = []
     for k in sorted({0, len(design.task.points) - 1}):
-        place = family.places(settings)[k]
+        place = machines.places(settings)[k]
         cycle, lower = _acting(case, settings, place.mep).get("cycle"), None
         if cycle is not None and (key := kind_of(cycle).scavenge):
             changed = dataclasses.replace(cycle, **{key: (1 - _SCAVENGE) * getattr(cycle, key)})
             lower = _point(case, settings, place, {"cycle": changed})
-        found += changes.rows(design, k, lower)
+        found += scenarios.rows(design, k, lower)
     return found
 
 
@@ -207,12 +204,12 @@ def _taken(case: Case, settings: CoDesignSettings) -> str:
     return by_case if settings.losses == "by_case" else settings.losses
 
 
-def _ideal(verified: Verified) -> tuple[tuple[LossTorques, ...], tuple[real.Lossy, ...]]:
+def _ideal(verified: Verified) -> tuple[tuple[LossTorques, ...], tuple[loss.Lossy, ...]]:
     """No losses at each point, and the ripple that is left then."""
     none = LossTorques(**dict.fromkeys(loss.KINDS, 0.0))
     columns = (verified.steady_ripple, verified.time_ripple, verified.energy_residual)
     rows = [[float(v) if np.isfinite(v) else None for v in row] for row in zip(*columns, strict=True)]
-    lossy = tuple(real.Lossy(ripple=a, time_ripple=b, energy_residual=c, fill=1.0) for a, b, c in rows)
+    lossy = tuple(loss.Lossy(ripple=a, time_ripple=b, energy_residual=c, fill=1.0) for a, b, c in rows)
     return (none,) * len(rows), lossy
 
 
@@ -222,11 +219,11 @@ def _losses(case: Case) -> HingeLosses:
 
 def points(case: Case, settings: CoDesignSettings) -> tuple[Point, ...]:
     """The operating points of a case."""
-    places = family.places(settings)
+    places = machines.places(settings)
     return tuple(_point(case, settings, place, _acting(case, settings, place.mep)) for place in places)
 
 
-def _point(case: Case, settings: CoDesignSettings, place: family.SpeedAndLoad, acting: dict[str, Record]) -> Point:
+def _point(case: Case, settings: CoDesignSettings, place: machines.SpeedAndLoad, acting: dict[str, Record]) -> Point:
     operation = dataclasses.replace(case.need("operation"), speed=place.omega)
     at = dataclasses.replace(case, sections={**case.sections, **acting, "operation": operation})
     engine = machine(at)
@@ -249,7 +246,7 @@ def _acting(case: Case, settings: CoDesignSettings, mep: float) -> dict[str, Rec
         curve: TorqueCurve = case.need("torque")
         return {"torque": dataclasses.replace(curve, load=curve.load * mep / settings.full_load)}
     high = cases.load(settings.high_case).need("cycle") if settings.high_case else None
-    return {"cycle": family.cycle_at(case.need("cycle"), high, settings, mep)}
+    return {"cycle": machines.cycle_at(case.need("cycle"), high, settings, mep)}
 
 
 def _map(case: Case, settings: CoDesignSettings, design: CoDesign, fastest: float) -> RippleMap:

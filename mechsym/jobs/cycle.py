@@ -12,7 +12,7 @@ from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.cases.settings import Speeds
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.figures import CycleFigures
+from mechsym.cycle.columns import CycleFigures
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
 from mechsym.cycle.kinds import KINDS, four_stroke, kind_of
 from mechsym.cycle.motion import from_top, slopes
@@ -28,6 +28,7 @@ from mechsym.quantities.units import Array, RadPerSecond
 _ADD = ("torque_avg", "power_kw", "brake_torque", "brake_power_kw")
 _NOT_LARGER = "torque_max"
 _ALIKE = 1e-9  # of the stroke: pistons whose travels differ by less move alike
+_NEARLY = 0.03  # of the stroke: rods that hang on others change it by up to 1 %
 
 
 @record
@@ -37,12 +38,13 @@ class CylinderCount:
     count: int  #: Chambers of a crank train, working faces of a rodless engine
     share: float  #: What one cylinder's figures are multiplied with for the engine [-]
     each: str = "cylinder"  #: What is counted: a cylinder, or a piston where two share one
+    apart: float = 0.0  #: By how much strokes differ from that of the first, all taken as that one [-]
 
 
 def cylinders(case: Case) -> CylinderCount:
     """The cylinders of a case.
 
-    Raises BadInput: They fire off their dead centres, move differently, or the pistons of a chamber do not divide them.
+    Raises BadInput: They fire off their dead centres, strokes differ, or the pistons of a chamber do not divide them.
     """
     parameters, plan = case.need("parameters"), plan_of(case.mechanism)
     roles = plan.parts(parameters)
@@ -52,7 +54,11 @@ def cylinders(case: Case) -> CylinderCount:
         return CylinderCount(count=len(areas), share=sum(areas) / (math.pi / 4 * float(bore) ** 2))
     with of(case):
         plan.require_firing(parameters, 4 * math.pi if four_stroke(case.need("cycle")) else 2 * math.pi)
-    if other := other_piston(case):
+    other, strokes, apart = other_piston(case), np.ones(len(roles.heads)), 0.0
+    if other:
+        strokes = np.array([np.ptp(travel) for travel in piston_travels(case, 1441).values()])
+        apart = float(np.abs(strokes / strokes[0] - 1).max())
+    if other and not 0 < apart < _NEARLY:
         alone = "'mechsym cycle' without --over, "
         raise BadInput(
             f"{case.file}: piston {other} moves otherwise than {roles.heads[0].name}: this is computed for one of them "
@@ -64,7 +70,9 @@ def cylinders(case: Case) -> CylinderCount:
             f"{case.file}: [chamber] pistons = {sharing} does not divide the {all_of} cylinders; give 1 or a divisor"
         )
     count = max(1, all_of // sharing)
-    return CylinderCount(count=count, share=float(count), each="piston" if roles.opposed else "cylinder")
+    each = "piston" if roles.opposed else "cylinder"
+    share = count * float(strokes.mean() / strokes[0])
+    return CylinderCount(count=count, share=share, each=each, apart=apart)
 
 
 def _sharing(case: Case) -> int:
@@ -72,14 +80,14 @@ def _sharing(case: Case) -> int:
     return int(getattr(case.sections.get("chamber"), "pistons", 1))
 
 
-def piston_travels(case: Case) -> dict[str, np.ndarray]:
+def piston_travels(case: Case, points: int = 73) -> dict[str, np.ndarray]:
     """Travel of each piston over a turn, from its own top dead centre on [m]; none where a case chooses its faces."""
     roles = plan_of(case.mechanism).parts(case.need("parameters"))
     heads = {head.name: head.travel for head in roles.heads}
     with of(case):
         mechanism = one_coordinate(case)
         moved = {name: from_top(slopes(mechanism, travel, {})) for name, travel in heads.items()}
-    phi = np.linspace(0, 2 * math.pi, 73)[None, :]
+    phi = np.linspace(0, 2 * math.pi, points)[None, :]
     return {name: np.asarray(travel.call([phi])[0]).ravel() for name, travel in moved.items()}
 
 
@@ -223,11 +231,12 @@ def cycle(case: Case, omega: RadPerSecond[Array] | None = None, progress: Progre
     elif mechanisms.roles_of(case.mechanism).pistons and other_piston(case):
         return CycleFigures(unlike_pistons(case, speeds, friction))
     else:
-        cylinders(case)  # what is wrong with them is said before the work begins
+        counted = cylinders(case)  # what is wrong with them is said before the work begins
         found = source(one_cylinder(case), friction)
         with of(case):
             alone = found.figures(speeds, progress)
         figures = CycleFigures(of_engine(case, alone, speeds))
+        figures.apart = counted.apart
     figures.source = found
     return figures
 
@@ -264,9 +273,6 @@ def _extremes(case: Case, speed: float) -> dict[str, float]:
 
 
 def speed_range(speeds: Speeds) -> RadPerSecond[Array]:
-    """The speeds of a performance map.
-
-    speeds: section `[speeds]` of a case. Returns omega: lowest, lowest + step.. up to highest.
-    """
+    """Speeds of a performance map from section `[speeds]`: lowest, lowest + step.. up to highest."""
     count = int((speeds.highest - speeds.lowest) / speeds.step + 1e-9) + 1
     return speeds.lowest + speeds.step * np.arange(count)

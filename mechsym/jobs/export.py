@@ -1,4 +1,4 @@
-"""Case -> what leaves the tool: its run, with what the parts of it are made of."""
+"""Case -> what leaves the tool: its run, with what its parts are made of, and the machine in motion, to scale."""
 
 import dataclasses
 import math
@@ -14,14 +14,21 @@ from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.friction import NoFriction
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
+from mechsym.files import Json
+from mechsym.forces.shown import charged
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.shown import hinge_scene
 from mechsym.hinge.torque import Hinge
-from mechsym.jobs.gas import engine_with, measured, one_cylinder
-from mechsym.jobs.machine import acting_on, drive_of
-from mechsym.jobs.problem import Ready, guide_of
+from mechsym.jobs.gas import engine_with, gas, measured, one_cylinder
+from mechsym.jobs.machine import acting_on, drive_of, one_coordinate
+from mechsym.jobs.problem import Ready, beyond, guide_of
 from mechsym.jobs.problem import ready as running
 from mechsym.machine.loads import Load, settle
+from mechsym.mechanisms.drawing import Shapes, drawn
+from mechsym.mechanisms.turning import FRAMES, scene
+from mechsym.simulate import Settings, simulate
+from mechsym.simulate.constrained import LOCKED
 from mechsym.simulate.problem import Kinks, Periodic, Problem
 from mechsym.simulate.settings import Simulation
 
@@ -40,8 +47,18 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
             raise BadInput(f"{case.file}: --diagram needs an engine with crosshead and [cycle], as the case generator")
         case = measured(case, diagram)
     wanted = case.sections.get("simulation") or Simulation(turns=TURNS)
-    found = running(dataclasses.replace(case, sections={**case.sections, "simulation": wanted}))
+    found = running(_beyond(dataclasses.replace(case, sections={**case.sections, "simulation": wanted})))
     return dataclasses.replace(found, problem=_splined(case, found.problem)) if _by_spark(case) else found
+
+
+def _beyond(case: Case) -> Case:
+    """The case on loops by constraint where its own run in time goes on through a dead point of the closed forms."""
+    case = beyond(case)
+    problem = running(case).problem
+    if "sides" not in problem.mechanism.functions or problem.unilateral:
+        return case
+    run = simulate(problem, dataclasses.replace(Settings(), check="none"))
+    return beyond(case, ends=True) if run.end == LOCKED else case
 
 
 def _by_spark(case: Case) -> bool:
@@ -109,3 +126,36 @@ def _spline(force: _Force, first: float, last: float) -> "scipy.interpolate.PPol
     knots = np.concatenate([[first] * 7, np.linspace(first, last, pieces + 1), [last] * 7])
     poly = scipy.interpolate.PPoly.from_spline(scipy.interpolate.make_lsq_spline(phi, force(asked), knots, k=7))
     return scipy.interpolate.PPoly(poly.c[:, 7:-7], poly.x[7:-7])
+
+
+def drawing(case: Case) -> Callable[[float], Shapes] | None:
+    """Crank angle [rad] to the machine of a case as its declaration draws it; None where nothing draws it."""
+    try:
+        acting = gas(case)
+        bore = None if acting is None else float(acting.chamber.bore)
+        return drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
+    except BadInput:
+        return None
+
+
+def with_gas(scenes: list[Json], case: Case) -> list[Json]:
+    """Scenes of a case whose first shows what the gas of its cycle does; as they are where there is none."""
+    if not scenes or "cycle" not in case.sections:
+        return scenes
+    try:
+        drive = drive_of(case)
+        acting = acting_on(case, drive)
+    except BadInput:
+        return scenes
+    return [charged(scenes[0], drive, acting), *scenes[1:]]
+
+
+def turning(case: Case, guide: Guide | None = None) -> list[Json]:
+    """The machine of a case as a page turns it, and the hinge of a guide; nothing of one without a drawing."""
+    shapes, found = drawing(case), []
+    turns = 1 if guide is None else max(1, round(1 / guide.parameters.shaft_ratio))
+    if shapes is not None:
+        found.append(scene(shapes, "the machine to scale", turns, turns * FRAMES))
+    if guide is not None:
+        found.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
+    return with_gas(found, case)

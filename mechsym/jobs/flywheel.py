@@ -120,10 +120,7 @@ def _swing(panels: Panels, omega: float) -> float:
 
 
 def shaft(case: Case, inertia: Inertia) -> Machine:
-    """The rigid shaft of a case with all that acts on it, and a flywheel.
-
-    inertia: of the flywheel, on top of what the case has.
-    """
+    """The rigid shaft of a case with all that acts on it. inertia: of a flywheel, on top of what the case has."""
     free = machine(replace(case, sections={**case.sections, "load": ConstantLoad(torque=0.0)}), inertia=inertia)
     torque = mean_torque(tabulate(reduced(free)))
     return replace(free, load=settle(load(case), torque, free.omega))

@@ -14,7 +14,7 @@ from mechsym.cycle.friction import Friction, MechanismFriction
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.files import Json, to_json, write_quantities, write_text
-from mechsym.forces import driven, report, result
+from mechsym.forces import driven, result, shown
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import NoRings
 from mechsym.forces.result import Forces
@@ -76,10 +76,7 @@ def forces(case: Case, comparison: bool = False) -> Forces:
 
 
 def motion(case: Case) -> driven.DrivenForces:
-    """Forces of a case over time, whose `[motion]` says how some or all of its coordinates move.
-
-    Raises BadInput: what is driven, or the path, cannot be.
-    """
+    """Forces of a case over time, by its `[motion]`. Raises BadInput: what is driven, or the path, cannot be."""
     require(case, "forces")
     mechanism, units = mechanism_of(case), listing(case.mechanism)["outputs"]
     try:
@@ -111,12 +108,9 @@ def _law(case: Case, speeds: Sequence[float]) -> FrictionLaw:
 
 
 def write(case: Case, found: Forces, numbers: Json, folder: Path, findings: Sequence[Finding] = ()) -> list[Path]:
-    """Write page, tables, summary and pictures.
-
-    folder: where to write; made when missing. findings: what has to be known first.
-    """
+    """Write page, tables, summary and pictures into a folder. findings: what has to be known first."""
     about = case.about or listing(case.mechanism)["about"] or case.name
-    return report.write(found, numbers, folder, about, findings)
+    return shown.write(found, numbers, folder, about, findings)
 
 
 def write_motion(found: driven.DrivenForces, numbers: Json, folder: Path) -> list[Path]:

@@ -15,15 +15,13 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cases.runs import guesses
-from mechsym.cycle.chamber import Chamber, piston_area
+from mechsym.cycle.chamber import Chamber, motion_over, piston_area
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.dead_centres import motion_over
 from mechsym.cycle.friction import Friction, NoFriction
-from mechsym.cycle.gas import Gas
+from mechsym.cycle.gas import ATMOSPHERE, Gas
 from mechsym.cycle.kinds import kind_of, source_of, with_diagram
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.motion import pistons_of, top_of, travel_of
-from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.cycle.source import EngineParts, GasSource
 from mechsym.errors import BadInput
 from mechsym.machine.torque_curve import TorqueCurve, read_torque, torque_at
@@ -81,10 +79,7 @@ def source(case: Case, friction: Friction = _FREE, number: int = 0) -> GasSource
 
 
 def parts_of(case: Case, friction: Friction = _FREE, number: int = 0) -> EngineParts:
-    """What stands around the gas of a case.
-
-    Raises BadInput: a section is missing that its kind needs, or one belongs to another kind.
-    """
+    """What stands around the gas of a case. Raises BadInput: a section is missing, or belongs to another kind."""
     kind = kind_of(case.need("cycle"))
     if kind.cylinder and not kind.measured and "scavenging" not in kind.reads and charged(case):
         raise BadInput(f"{case.file}: [scavenging] belongs to a cycle of kind two-stroke-marine; leave it out, or set "
@@ -109,10 +104,7 @@ def charged(case: Case) -> bool:
 
 
 def one_cylinder(case: Case) -> Case:
-    """The case as one cylinder of it sees itself.
-
-    Returns case: with a mechanism that has one piston and its travel as `x`.
-    """
+    """The case as one cylinder sees itself: its mechanism has one piston and its travel as `x`."""
     with of(case):
         name, parameters = plan_of(case.mechanism).alone(case.need("parameters"))
     return replace(case, mechanism=name, sections={**case.sections, "parameters": parameters})

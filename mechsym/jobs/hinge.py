@@ -15,14 +15,12 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.hinge import steady
 from mechsym.hinge.contact import Contact, at_pieces
-from mechsym.hinge.guide import Guide, path, refit
+from mechsym.hinge.guide import Guide, path, refit, setting_of, with_setting
 from mechsym.hinge.limits import Verdict, judge
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.result import AtLoad, Design, Origin
-from mechsym.hinge.retune import retune
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.setting import setting_of, with_setting
-from mechsym.hinge.steady import sensitivities, with_guide
+from mechsym.hinge.steady import retune, sensitivities, with_guide
 from mechsym.hinge.torque import torque
 from mechsym.hinge.ways import offers
 from mechsym.jobs.machine import kept_flywheel, machine
@@ -131,10 +129,7 @@ def hinge(case: Case, diagram: str | None = None, loads: Sequence[Pure] = ()) ->
 
 
 def design_load(case: Case) -> Pascal:
-    """The load that a case is designed for.
-
-    Returns mean_indicated_pressure: of its cycle. Raises BadInput: the cycle has no mean indicated pressure to change.
-    """
+    """The mean indicated pressure that a case is designed for. Raises BadInput: the cycle has none to change."""
     cycle = case.need("cycle")
     if not kind_of(cycle).load:
         raise BadInput(f"{case.file}: [cycle] has no mean_indicated_pressure that could be changed; it has one load")

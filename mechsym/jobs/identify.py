@@ -14,7 +14,7 @@ from mechsym.errors import BadInput, suggest
 from mechsym.jobs.machine import constants, drive_on
 from mechsym.mechanisms import parameters_class
 from mechsym.mechanisms.record import Mechanism, bind, velocities
-from mechsym.mechanisms.shaft_inertia import with_inertia
+from mechsym.mechanisms.shaft import with_inertia
 from mechsym.optimise.fit import TracedMotion
 from mechsym.optimise.identify import Identified
 from mechsym.optimise.identify import identify as solve

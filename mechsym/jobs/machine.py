@@ -38,7 +38,7 @@ from mechsym.mechanisms.loops import along_turn
 from mechsym.mechanisms.own import content
 from mechsym.mechanisms.plan import driving_inputs
 from mechsym.mechanisms.record import Mechanism, evaluate
-from mechsym.mechanisms.shaft_inertia import at_rest, is_damped, with_inertia, with_torque
+from mechsym.mechanisms.shaft import at_rest, is_damped, with_inertia, with_torque
 from mechsym.quantities import record
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Inertia, RadPerSecond

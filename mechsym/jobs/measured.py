@@ -11,8 +11,7 @@ import numpy as np
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.new_diagram import TraceSizes, diagram_case
-from mechsym.cycle.chamber import Chamber
-from mechsym.cycle.dead_centres import chamber_over
+from mechsym.cycle.chamber import Chamber, chamber_over
 from mechsym.cycle.kinds import with_diagram
 from mechsym.cycle.measured.alignment import between
 from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts, exponent_doubts, speed_doubt

@@ -17,9 +17,8 @@ from mechsym.files import Json
 from mechsym.jobs.cycle import cycle, engine
 from mechsym.mechanisms import roles_of
 from mechsym.optimise.problem import Limit, Optimise, limit_of, problem
-from mechsym.optimise.result import Optimised, ParetoPoint, TriedWords
 from mechsym.optimise.search import FigureProgramme, search
-from mechsym.optimise.solver import Optimum, Task, pareto, solve
+from mechsym.optimise.solver import Optimised, Optimum, ParetoPoint, Task, TriedWords, pareto, solve
 from mechsym.quantities.display import without_unit
 from mechsym.quantities.results import Columns
 

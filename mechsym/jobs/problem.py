@@ -13,7 +13,7 @@ case's own. Gas that follows the motion is no problem of this kind: see `mechsym
 import functools
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 
@@ -22,8 +22,7 @@ from mechsym.cases import Case
 from mechsym.cases.runs import TURN_POINTS, count_times, count_turns, guesses, simulation_of
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
-from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import Guide, cut
+from mechsym.hinge.guide import Guide, cut, fitted
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.gas import at_recorded_speed
 from mechsym.jobs.machine import (
@@ -40,9 +39,11 @@ from mechsym.jobs.machine import (
 )
 from mechsym.machine.loads import Load, PropellerLoad, settle
 from mechsym.machine.record import Machine, acting, kinks_of, period_of
+from mechsym.mechanisms.beyond import by_constraint, meets
+from mechsym.mechanisms.own import letters_class
 from mechsym.mechanisms.record import Mechanism
-from mechsym.mechanisms.shaft_inertia import at_rest, with_torque
-from mechsym.quantities import record
+from mechsym.mechanisms.shaft import at_rest, with_torque
+from mechsym.quantities import quantity, record
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import at_angle, load_value, reduced
 from mechsym.simulate.problem import Kinks, Part, Periodic, Problem, Steps, Stop
@@ -89,6 +90,24 @@ class _Shaft:
 def problem_of(case: Case) -> Problem:
     """The run that a case describes. Raises BadInput: a section is missing or names what the mechanism has not."""
     return ready(case).problem
+
+
+def beyond(case: Case, ends: bool = False) -> Case:
+    """The case on loops that close by constraint, where its closed forms end on the way, or would leave the motion.
+
+    ends: whether a run is known to end there.
+    """
+    mechanism = mechanism_of(case)
+    if "sides" not in mechanism.functions or not (ends or meets(mechanism)):
+        return case
+    roles = mechanisms.roles_of(case.mechanism)
+    if roles.stops or roles.frictions:
+        return case
+    start = {q: simulation_of(case).phi_start for q in mechanism.coordinates} | guesses(case)
+    at = {q: start[q] for q in mechanism.coordinates}
+    name, numbers, pose = by_constraint(case.mechanism, mechanism, asdict(case.need("parameters")), at)
+    places = letters_class("Start", {n: quantity("", default=v) for n, v in {**start, **pose}.items()})()
+    return replace(case, mechanism=name, sections={**case.sections, "parameters": numbers, "start": places})
 
 
 def ready(case: Case) -> Ready:
@@ -182,8 +201,11 @@ def _start(
 ) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Coordinates and velocities at the start [rad or m, by time]."""
     held, places = mechanism.dependents, mechanism.coordinates
-    values = {q: held.get(q, wanted.phi_start) for q in places} | guesses(case)
-    rates = {f"{q}d": 0.0 if q in held else speed for q in places} | guesses(case)
+    roles = mechanisms.roles_of(case.mechanism)
+    cams = {cam.name for cam in roles.cams}
+    still = {*held, *(stop.gap for stop in roles.stops if stop.name in cams)}  # a follower begins on its cam
+    values = {q: held.get(q, 0.0 if q in still else wanted.phi_start) for q in places} | guesses(case)
+    rates = {f"{q}d": 0.0 if q in still else speed for q in places} | guesses(case)
     _require_closed(case, mechanism, values)
     return tuple(values[q] for q in places), tuple(rates[f"{q}d"] for q in places)
 
@@ -239,10 +261,7 @@ def is_hinged(case: Case) -> bool:
 
 
 def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Guide]:
-    """Engine, wanted torque and guide of a case with `[spring]` and `[guide]`.
-
-    Raises BadInput: the guide that the case asks for cannot be cut.
-    """
+    """Engine, wanted torque and guide of a case. Raises BadInput: the guide that it asks for cannot be cut."""
     engine, choices = machine(case, diagram), case.need("guide")
     wanted = torque(engine)
     guide = cut(balance(wanted, choices.balance), case.need("spring"), choices)

@@ -23,7 +23,7 @@ from mechsym.jobs.flywheel import shaft
 from mechsym.jobs.forces import vibration
 from mechsym.jobs.gas import at_recorded_speed, firing, gas, one_cylinder
 from mechsym.jobs.machine import load_input, mechanism_of, turning
-from mechsym.jobs.problem import problem_of, window_of
+from mechsym.jobs.problem import beyond, problem_of, window_of
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
@@ -31,6 +31,7 @@ from mechsym.mechanisms.roles import ShaftRole
 from mechsym.mechanisms.shaft import elastic as shaft_of
 from mechsym.simulate import Result, Settings, simulate, simulate_many
 from mechsym.simulate.angle import tabulate
+from mechsym.simulate.constrained import LOCKED
 from mechsym.simulate.engine import reduced
 from mechsym.simulate.loop.events import CYCLE
 from mechsym.simulate.loop.run import simulate_loop
@@ -38,8 +39,7 @@ from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
 from mechsym.simulate.result import RunNumbers, final_state, summary
 from mechsym.simulate.steady import steady_state
-from mechsym.torsion.finished import EngineSpeed, FinishedRun
-from mechsym.torsion.startup import AVERAGE, StartUp, StartUpClaim, findings, start_up
+from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
 from mechsym.torsion.startup import numbers as start_numbers
 from mechsym.torsion.train import doubts, twist_words, words
 from mechsym.torsion.twist import Settling, natural_frequencies, sections, sentences, settling
@@ -199,8 +199,13 @@ def run_of(case: Case, settings: Settings) -> tuple[Result, RunNumbers, float]:
         result = run_in_loop(case, settings)
         coordinates = tuple(name for name, unit in result.units.items() if unit == "rad")
         return result, summary(result, coordinates, simulation_of(case).window, CYCLE), CYCLE
+    case = beyond(case)
     problem = problem_of(case)
-    result, period = simulate(problem, settings), period_of(problem)
+    result = simulate(problem, settings)
+    if result.end == LOCKED and (further := beyond(case, ends=True)) is not case:
+        case, problem = further, problem_of(further)
+        result = simulate(problem, settings)
+    period = period_of(problem)
     return result, summary(result, problem.mechanism.coordinates, window_of(case, problem), period), period
 
 
@@ -279,10 +284,7 @@ def _two_discs(case: Case) -> ShaftRole:
 
 
 def startup_map(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...]) -> tuple[StartUp, ...]:
-    """The same start-up with several dampers, run side by side.
-
-    dampings: of the shaft. Returns found: one for each damper, in their order.
-    """
+    """The same start-up with several dampers of the shaft, run side by side; one for each, in their order."""
     (letter,) = _two_discs(case).damping
     damped = [replace(case.need("parameters"), **{str(letter): damping}) for damping in dampings]
     cases = [replace(case, sections={**case.sections, "parameters": p}) for p in damped]

@@ -25,13 +25,18 @@ from mechsym.sizing.checks import unsafe
 from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
 from mechsym.sizing.crosshead import checks as crosshead_checks
 from mechsym.sizing.hypocycloid import masses
-from mechsym.sizing.hypocycloid.checks import check_all, engine_rows, mass_rows, nearest_rows, part_rows
-from mechsym.sizing.hypocycloid.design import size_hypocycloid
+from mechsym.sizing.hypocycloid.checks import (
+    check_all,
+    engine_rows,
+    mass_rows,
+    nearest_rows,
+    part_rows,
+    size_hypocycloid,
+)
 from mechsym.sizing.hypocycloid.engine import Parts, Stock
 from mechsym.sizing.hypocycloid.masses import PlanetDrive, hypocycloid_forces
 from mechsym.sizing.pressures import Pressures, pressures_over
-from mechsym.sizing.result import Sizing
-from mechsym.sizing.rows import SizeRow, check_rows, fact, size_rows
+from mechsym.sizing.rows import SizeRow, Sizing, check_rows, fact, size_rows
 from mechsym.sizing.rules import bearings, materials
 from mechsym.sizing.slider_crank import size_slider_crank, slider_crank_forces
 from mechsym.sizing.wants import Wants
@@ -48,10 +53,7 @@ class Task:
 
 
 def size(case: Case) -> Sizing:
-    """Size the engine of a case for the loads of its cycle.
-
-    Raises BadInput: the mechanism is not one that can be sized.
-    """
+    """Size the engine of a case for the loads of its cycle. Raises BadInput: its mechanism cannot be sized."""
     require(case, "size")
     by_spark = "cycle" in case.sections and kind_of(case.need("cycle")).closed
     if _given_drive(case) and not by_spark:
@@ -163,10 +165,7 @@ def _setting(text: str, file: str) -> tuple[str, str]:
 
 
 def speeds(one: Task) -> RadPerSecond[Array]:
-    """Crank speeds at which the parts are sized and checked.
-
-    Returns omega: the range of `[speeds]` in steps of `sizing.speed_step`, the highest included, shape (k,).
-    """
+    """Crank speeds of sizing: `[speeds]` in steps of `sizing.speed_step`, the highest included, shape (k,)."""
     given = one.case.need("speeds")
     coarse = dataclasses.replace(given, step=max(given.step, one.wants.speed_step))
     return np.unique(np.append(speed_range(coarse), given.highest))
@@ -178,10 +177,7 @@ def gas_of(one: Task) -> Pressures:
 
 
 def printed_parts(case: Case) -> masses.PrintedMasses:
-    """The parts that a case prints, with their masses: the reference of the mass model.
-
-    Raises BadInput: a section is missing.
-    """
+    """Parts that a case prints, with their masses, for the mass model. Raises BadInput: a section is missing."""
     parts = Parts(piston=case.need("part_piston"), cylinder=case.need("part_cylinder"), gears=case.need("part_gears"),
                   crank=case.need("part_crank"), bearings=case.need("part_bearings"))  # fmt: skip
     return masses.PrintedMasses(parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore,

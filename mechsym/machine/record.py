@@ -135,10 +135,7 @@ def shaft_torque(machine: Machine, role: str, phi: np.ndarray) -> np.ndarray:
 
 
 def period_of(machine: Machine) -> Radian:
-    """Period of all that acts.
-
-    Returns period: that of the gas on the only piston, which the other forces share; else their own.
-    """
+    """Period of all that acts: that of the gas on the only piston, which the other forces share; else their own."""
     return machine.gas.pressure.period if machine.gas is not None and machine.gas_input else machine.period
 
 

@@ -20,10 +20,10 @@ from functools import lru_cache
 import numpy as np
 import scipy
 
-from mechsym.cycle.measured.file import numbers_of, split_table, text_of
 from mechsym.errors import BadInput, suggest
 from mechsym.quantities import parse, quantity, record
 from mechsym.quantities.units import Pure, RadPerSecond
+from mechsym.tables import numbers_of, split_table, text_of
 
 Function = Callable[[np.ndarray], np.ndarray]
 

@@ -101,9 +101,7 @@ def build(name: str, parameters: Record) -> Mechanism:
 def rigid(name: str, parameters: Record, guesses: Mapping[str, float] | None = None) -> Mechanism:
     """The mechanism with one coordinate: on a shaft that does not twist, loops closed along it.
 
-    guesses: of coordinates that loops hold [rad] or [m].
-
-    Raises BadInput: more than one coordinate is free.
+    guesses: of coordinates that loops hold [rad] or [m]. Raises BadInput: more than one coordinate is free.
     """
     return plan_of(name).rigid(parameters, guesses or {})
 

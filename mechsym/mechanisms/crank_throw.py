@@ -10,8 +10,5 @@ CrankThrowParameters = mechanisms.parameters_class(NAME)
 
 
 def build(parameters: Record) -> Mechanism:
-    """A single throw on its own shaft.
-
-    Returns mechanism: coordinate phi; inputs F, M (torque of the shaft on the throw).
-    """
+    """A single throw on its own shaft: coordinate phi; inputs F, M (torque of the shaft on the throw)."""
     return mechanisms.build(NAME, parameters)

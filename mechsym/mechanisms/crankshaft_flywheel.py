@@ -10,8 +10,5 @@ CrankshaftFlywheelParameters = mechanisms.parameters_class(NAME)
 
 
 def build(parameters: Record) -> Mechanism:
-    """The exact mechanism.
-
-    Returns mechanism: coordinates phi0, phi2; inputs M, F.
-    """
+    """The exact mechanism. Returns mechanism: coordinates phi0, phi2; inputs M, F."""
     return mechanisms.build(NAME, parameters)

@@ -12,10 +12,7 @@ CrossheadParameters = mechanisms.parameters_class(NAME)
 
 
 def build(parameters: Record) -> Mechanism:
-    """The crosshead engine's mechanism.
-
-    Returns mechanism: coordinate phi; inputs F, M_r, M_h.
-    """
+    """The crosshead engine's mechanism. Returns mechanism: coordinate phi; inputs F, M_r, M_h."""
     return mechanisms.build(NAME, parameters)
 
 

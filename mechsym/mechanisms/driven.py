@@ -60,9 +60,8 @@ class DrivenMechanism:
 def drive(mechanism: Mechanism, driven: Sequence[str], pose: Mapping[str, float]) -> DrivenMechanism:
     """A mechanism with driven coordinates; which others the loops hold is what conditions them best.
 
-    pose: coordinates of a closed pose [rad] or [m].
-
-    Raises BadInput: no such coordinate, more drives than freedoms, or drives that the loops tie together.
+    pose: coordinates of a closed pose [rad] or [m]. Raises BadInput: no such coordinate, more drives than freedoms, or
+    drives that the loops tie together.
     """
     names = mechanism.coordinates
     held = _held(mechanism, driven, np.array([pose[q] for q in names]))
@@ -142,10 +141,8 @@ def path(
 ) -> DrivenPath:
     """Coordinates and driving forces over time.
 
-    start: a closed pose [rad] or [m], and the velocities of what moves freely, 0 where not named. inputs: what
-    acts, in the order of the mechanism's inputs [SI].
-
-    Raises BadInput: a loop opens or locks on the way; says when.
+    start: a closed pose [rad] or [m], and the velocities of what moves freely, 0 where not named. inputs: what acts, in
+    the order of the mechanism's inputs [SI]. Raises BadInput: a loop opens or locks on the way; says when.
     """
     names, (places, speeds, given) = one.mechanism.coordinates, law(t)
     independent, held = loops.split(one.mechanism, one.dependents)

@@ -109,9 +109,8 @@ def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple
     """Coordinates over the turns of the first coordinate, the rest following it from the guesses.
 
     Returns q: coordinates at even angles from 0 to where they repeat, both ends included [rad] or [m], shape (n, k +
-    1); turns: after so many turns everything is as it was at the start.
-
-    Raises BadInput: the loop does not close over the turn; says where.
+    1); turns: after so many turns everything is as it was at the start. Raises BadInput: the loop does not close over
+    the turn; says where.
     """
     driver, *rest = mechanism.coordinates
     guesses = dict(mechanism.dependents)
@@ -162,9 +161,8 @@ def reduced(mechanism: Mechanism) -> tuple[Mechanism, int]:
     """The mechanism with its first coordinate alone, the others closed at every angle.
 
     Returns mechanism: one coordinate; kinematic outputs also the dependent coordinates, with derivatives, and the
-    inertia. turns: after so many turns everything is as it was at the start.
-
-    Raises BadInput: more than one independent coordinate, or the loop does not close over the turn.
+    inertia. turns: after so many turns everything is as it was at the start. Raises BadInput: more than one independent
+    coordinate, or the loop does not close over the turn.
     """
     free, _ = split(mechanism, tuple(mechanism.dependents))
     if free != [0]:

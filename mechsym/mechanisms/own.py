@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
 
 _GROUP = "mechsym.mechanisms"
+_HELD = "+constraint"  # behind which of a file's mechanisms: its loops close by constraint
 _CODE = re.compile(r"[^_].*\.py")
 
 
@@ -112,6 +113,12 @@ def file_of(name: str) -> tuple[Path, str]:
     """File of a mechanism, and which of its mechanisms is meant, empty where there is one."""
     path, _, which = _parts(name)
     return path, which
+
+
+def by_constraint(name: str) -> str:
+    """The same mechanism with loops that close by constraint, so that no dead point ends its motion."""
+    path, which = file_of(name)
+    return f"{path}:{which}{_HELD}"
 
 
 def load(name: str) -> Own:
@@ -227,7 +234,7 @@ def _derived(path: Path, which: str, key: str) -> "Derived":
         raise MissingExtra(
             f"deriving {path.name} needs sympy ({error}), which belongs to mechsym: pip install 'sympy==1.14.0'"
         ) from None
-    code, listing = files.build(path, which, key[:16])
+    code, listing = files.build(path, which.removesuffix(_HELD), key[:16], which.endswith(_HELD))
     return {"code": code, "listing": listing}
 
 
@@ -265,10 +272,7 @@ def letters_class(name: str, fields: Mapping[str, Field], requires: Sequence[Map
 
 
 def require(record: type[Record], letters: Mapping[str, float]) -> None:
-    """Refuse numbers that a declaration refuses: those for which an expression is not above another.
-
-    record: class of the mechanism's numbers.
-    """
+    """Refuse numbers of a record that a declaration refuses: where an expression is not above another."""
     for required in vars(record)["requires"]:
         _require(required, letters)
 

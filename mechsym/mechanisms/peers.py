@@ -10,8 +10,7 @@ from mechsym.quantities import record
 from mechsym.quantities.records import Record
 
 if TYPE_CHECKING:
-    from mechsym.mechanisms.closing import ClosingRule
-    from mechsym.mechanisms.faces import RodlessFaces
+    from mechsym.mechanisms.closing import ClosingRule, RodlessFaces
 
 
 @record

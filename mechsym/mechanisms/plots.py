@@ -35,10 +35,7 @@ def _paint(axes: "Axes", drawn: Callable[[float], Shapes], angle: float) -> None
 
 
 def figure(mechanism: str, parameters: Record, angle: Radian, bore: Metre | None = None) -> "Figure":
-    """One drawing with a scale.
-
-    bore: diameter of the cylinders.
-    """
+    """One drawing with a scale. bore: diameter of the cylinders."""
     return figure_of(lambda at: shapes(mechanism, parameters, at, bore), angle)
 
 

@@ -102,10 +102,7 @@ def _coordinates(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
 
 
 def generated(name: str) -> ModuleType:
-    """The generated module of a mechanism.
-
-    Returns module: tables of names and plain functions for floats or CasADi symbols.
-    """
+    """The generated module: tables of names and plain functions for floats or CasADi symbols."""
     if own.is_file(name):
         return own.load(name).module
     if not (resources.files("mechsym.generated") / f"{name}.py").is_file():
@@ -164,6 +161,7 @@ def bind_module(module: ModuleType, parameters: Mapping[str, Scalar]) -> Mechani
         "reactions": (*q, *u, *a, *module.INPUTS, *getattr(module, "MULTIPLIERS", ())),
         "momentum": (*q, *u, *a),
         "constraints": (*q, *u),
+        "sides": q,
         "drawing": q,
     }
     functions: Mapping[str, ca.Function] = BoundFunctions(module, letters, values)

@@ -9,8 +9,7 @@ import dataclasses
 
 from mechsym import mechanisms
 from mechsym.mechanisms import closing
-from mechsym.mechanisms.closing import ClosingRule, CrankFreeRadially, Stiffnesses
-from mechsym.mechanisms.faces import RodlessFaces, four_faces
+from mechsym.mechanisms.closing import ClosingRule, CrankFreeRadially, RodlessFaces, Stiffnesses, four_faces
 from mechsym.mechanisms.peers import Alike, Peer
 from mechsym.mechanisms.record import Mechanism
 from mechsym.quantities.records import Record
@@ -21,10 +20,7 @@ RodlessParameters = mechanisms.parameters_class(NAME)
 
 
 def build(parameters: Record) -> Mechanism:
-    """The rodless mechanism with the reactions that the rigid mechanism determines.
-
-    Returns mechanism: coordinate alpha; inputs F_a, F_b, M.
-    """
+    """The rodless mechanism with its determined reactions: coordinate alpha; inputs F_a, F_b, M."""
     return mechanisms.build(NAME, parameters)
 
 

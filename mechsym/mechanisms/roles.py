@@ -41,6 +41,8 @@ class FaceRole:
     stroke: Size | None = None  #: [m]
     throw: int = 0  #: Which coordinate turns it
     fires: float | None = None  #: Shaft angle at which it fires; None where the case says it [rad]
+    #: Shaft angle at its own top dead centre, where it moves otherwise than the first; None where alike [rad]
+    top: float | None = None
 
 
 @record
@@ -191,6 +193,18 @@ class FrictionRole:
 
 
 @record
+class CamRole:
+    """A cam with its follower."""
+
+    name: str
+    lift: str  #: Output
+    angle: str  #: Name of its angle within a turn
+    force: str = ""  #: Output: contact force of a follower that is held; empty where it may fly
+    flat: bool = False  #: Whether the follower has a face
+    roller: Size | None = None  #: Radius [m]
+
+
+@record
 class PartRoles:
     """All parts with a role, in the order of the declaration."""
 
@@ -207,6 +221,7 @@ class PartRoles:
     alike: tuple[AlikeRole, ...] = ()
     stops: tuple[StopRole, ...] = ()
     frictions: tuple[FrictionRole, ...] = ()
+    cams: tuple[CamRole, ...] = ()
     opposed: bool = False  #: Whether the pistons stand in pairs on one axis, each towards the other's crank
     joints: Mapping[str, str] = field(default_factory=dict)  #: What bears each reaction
 
@@ -242,7 +257,7 @@ _KINDS = {
     "piston": ("pistons", PistonRole), "face": ("faces", FaceRole), "rotor": ("rotors", RotorRole),
     "bearing": ("bearings", BearingRole), "guide": ("guides", GuideRole), "teeth": ("teeth", TeethRole),
     "rod": ("rods", RodRole), "part": ("members", MemberRole),
-    "stop": ("stops", StopRole), "friction": ("frictions", FrictionRole),
+    "stop": ("stops", StopRole), "friction": ("frictions", FrictionRole), "cam": ("cams", CamRole),
     "shaft": ("shafts", ShaftRole), "closing": ("closings", ClosingRole), "alike": ("alike", AlikeRole),
 }  # fmt: skip
 

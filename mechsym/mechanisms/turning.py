@@ -10,7 +10,7 @@ from mechsym.mechanisms.drawn_parts import Circle, Line, Shapes, extent_of
 from mechsym.quantities import record
 from mechsym.quantities.units import Pure
 from mechsym.style import BLUE, DARK, GREEN, INK, PAPER, QUIET, RED, VIOLET
-from mechsym.style.palette import GAS, ORANGE, PISTON, ROLLER, WHEEL
+from mechsym.style.panels import GAS, ORANGE, PISTON, ROLLER, WHEEL
 
 FRAMES = 120
 # role: colour of the line, line width in points, filled colour; what comes first lies behind

@@ -1,12 +1,12 @@
 """Machine code for generated functions: evaluation, integration and marching in emitted C, with a way without it.
 
 tape.py       a CasADi function as plain instructions        kernels.py   equal parts rolled into loops
-rewrite.py    cheaper forms of it                            emit.py      C text
-evaluate.py   scalar and batch calls                         fallback.py  the same without a compiler
+rewrite.py    cheaper forms of it                            source.py    C text
+evaluate.py   scalar and batch calls, derivatives            fallback.py  the same without a compiler
 cache.py      compiled files, checked before use             arc.py       motion along the arc length of each angle
 adams.py      steps that look back, in lanes                 c/adams.h    their control
 integrate.py  runs in time: DOP853 in lanes, collocation     fold.py      equal Runge-Kutta steps at many designs
-march.py      a recurrence over stages in many lanes         external.py  functions with derivatives for CasADi
+march.py      a recurrence over stages in many lanes
 c/*.h         what does not depend on the program: elementary functions, methods, step control
 """
 

@@ -13,7 +13,7 @@ from fractions import Fraction
 import casadi
 import numpy as np
 
-from mechsym.native import emit
+from mechsym.native import source
 from mechsym.native.arc import Arcs, Form, arcs, form
 from mechsym.native.integrators import dop853
 from mechsym.native.kernels import constant_table
@@ -48,10 +48,7 @@ class LookingBack:
 
 
 def ready(rates: casadi.Function, held: np.ndarray, states: Collection[int], mode: str) -> LookingBack | None:
-    """What runs need to look back, where they can; `states` are those that surfaces are of.
-
-    held: held values [SI], shape (runs, segments, p).
-    """
+    """What runs need to look back, with surfaces of `states`. held: values [SI], shape (runs, segments, p)."""
     parts = _parts(rates.serialize(), mode)
     if parts is None or len(parts.works.tape.inputs) > _MOST:
         return None
@@ -70,10 +67,7 @@ def _parts(stored: str, mode: str) -> FormPrograms | None:
 
 
 def constants(of: Program, back: LookingBack) -> list[np.ndarray]:
-    """The constants of each run: of the rates, of the programs of the form, of the series.
-
-    Returns tables: one for each run [SI].
-    """
+    """Tables of constants, one a run: of the rates, of the programs of the form, of the series [SI]."""
     same = [constant_table(p.kernels) for p in (of, back.parts.forces, back.parts.works)]
     series, scale = back.arcs.series, back.arcs.scale
     runs = scale.shape[1]
@@ -115,7 +109,7 @@ def _rows(program: Program, lanes: int) -> str:
     if not program.tape.outputs:
         head = f"MS_INLINE void {name}_rows{lanes}(const double *k, const double *x, double *y)"
         return head + " { (void)k, (void)x, (void)y; }"
-    return emit.bodies(program.kernels, name) + "\n" + emit.rows(program.kernels, name, lanes)
+    return source.bodies(program.kernels, name) + "\n" + source.rows(program.kernels, name, lanes)
 
 
 def _bent(of: Form, terms: int, even: bool) -> str:

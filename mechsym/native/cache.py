@@ -43,10 +43,7 @@ def key(source: str, options: tuple[str, ...], stamp: str) -> str:
 
 
 def shared_object(source: str, mode: str) -> Path:
-    """The shared object of a source, compiled when the cache has no sound one.
-
-    Returns path: file whose contents have been checked.
-    """
+    """The shared object of a source, its contents checked; compiled when the cache has no sound one."""
     program, options = compiler.find(), compiler.flags(mode)
     name = key(source, options, program.stamp)
     folder = writable() / name[:2]
@@ -162,10 +159,7 @@ def _loaded(source: str, mode: str, program: compiler.Compiler, _home: Path) -> 
 
 @functools.lru_cache(maxsize=256)
 def module(path: str) -> ModuleType | None:
-    """The same file as a Python extension module.
-
-    path: path of a loaded shared object. Returns module: None when it was compiled without Python's headers.
-    """
+    """A loaded shared object as a Python extension module; None when compiled without Python's headers."""
     loader = importlib.machinery.ExtensionFileLoader("mechsym_native", path)
     spec = importlib.util.spec_from_file_location("mechsym_native", path, loader=loader)
     assert spec is not None

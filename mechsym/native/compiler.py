@@ -76,10 +76,7 @@ def flags(mode: str) -> tuple[str, ...]:
 
 @functools.cache
 def python_header() -> str | None:
-    """Folder of Python.h.
-
-    Returns folder: None where Python's headers are not installed; scalar calls then go through ctypes.
-    """
+    """Folder of Python.h; None where it is not installed: scalar calls then go through ctypes."""
     folder = sysconfig.get_paths()["include"]
     return folder if (Path(folder) / "Python.h").is_file() else None
 

@@ -10,8 +10,7 @@ import casadi
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.native.dialects import NUMPY, expression, unknown
-from mechsym.native.tape import Tape, read
+from mechsym.native.tape import NUMPY, Tape, expression, read, unknown
 from mechsym.quantities.units import Scalar
 
 _CHUNK = 2048
@@ -49,10 +48,7 @@ def target(name: str, shape: tuple[int, int], out: np.ndarray | None) -> np.ndar
 
 
 def numpy_text(tape: Tape) -> str:
-    """The program as a Python function of arrays.
-
-    Returns text: defines `function(x, y)`: lists of columns to read and to write.
-    """
+    """Python text of `function(x, y)` over lists of columns to read and to write."""
     names: list[str] = []
     lines = []
     for i, (op, args) in enumerate(tape.nodes):
@@ -69,10 +65,7 @@ def numpy_text(tape: Tape) -> str:
 
 
 def numpy_function(tape: Tape) -> Callable[[Scalar, Scalar], None]:
-    """The program as a Python function of arrays.
-
-    Returns function: callable, (x, y): lists of columns to read and to write.
-    """
+    """The program as a Python function (x, y) of lists of columns to read and to write."""
     if unknown(tape, NUMPY):
         raise BadInput(f"{tape.name}: numpy has no {', '.join(unknown(tape, NUMPY))}; install a C compiler")
     scope: dict[str, Any] = {"np": np, "inf": np.inf, "nan": np.nan}

@@ -49,10 +49,7 @@ class _Run(ctypes.Structure):
 
 
 def structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: Pure[Array]) -> tuple[_Run, list[object]]:
-    """The argument of the C function, and what must stay alive as long as it is used.
-
-    chosen: run of each lane, shape (lanes,).
-    """
+    """The argument of the C function, and what must stay alive with it. chosen: run of each lane, shape (lanes,)."""
     alive: list[object] = [arrays]
     tables = (_Table * (len(runs.tables) * len(chosen)))(*(_table(t, c, alive) for t in runs.tables for c in chosen))
     surfaces = (_Surface * len(runs.surfaces))(*(_surface(s, chosen, alive) for s in runs.surfaces))

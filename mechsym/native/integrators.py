@@ -7,7 +7,7 @@ from numpy.polynomial import legendre
 
 from mechsym.errors import BadInput
 from mechsym.native import dop853_table as table
-from mechsym.native import emit
+from mechsym.native import source
 from mechsym.native.source import Program, header, preamble
 from mechsym.quantities.units import Array, Pure
 
@@ -16,10 +16,7 @@ STAGES = 8
 
 
 def sizes(program: Program) -> tuple[int, int]:
-    """Numbers of states and of held values of a right-hand side.
-
-    program: inputs t, y and p in this order, one output of the shape of y.
-    """
+    """Numbers of states and of held values of a program with inputs t, y, p and one output of the shape of y."""
     n = len(program.tape.outputs)
     if len(program.tape.inputs) < 1 + n:
         raise BadInput(
@@ -46,8 +43,8 @@ def system(program: Program, lanes: int) -> str:
     return "\n".join(
         [
             preamble(),
-            emit.bodies(program.kernels, name),
-            emit.rows(program.kernels, name, lanes),
+            source.bodies(program.kernels, name),
+            source.rows(program.kernels, name, lanes),
             f"enum {{ MS_N = {n}, MS_P = {p}, MS_L = {lanes} }};",
             f"#define MS_RATES(k, x, y) {name}_rows{lanes}(k, x, y)",
             header("run.h"),
@@ -56,10 +53,7 @@ def system(program: Program, lanes: int) -> str:
 
 
 def weighted(weights: dict[int, Pure]) -> str:
-    """A weighted sum of the rates of stages.
-
-    weights: weights by stage. Returns text: C expression; stage j is MS_Q(j).
-    """
+    """A weighted sum of the rates of stages as C; stage j is MS_Q(j)."""
     return " + ".join(f"{value!r} * MS_Q({stage})" for stage, value in weights.items())
 
 
@@ -118,10 +112,7 @@ def _array(name: str, values: np.ndarray) -> str:
 
 
 def collocation(program: Program, lanes: int = STAGES) -> str:
-    """A file that exports `ms_collocation`, see `c/run.h` for its argument.
-
-    lanes: stages of the one run, always `STAGES`.
-    """
+    """A file that exports `ms_collocation`, see `c/run.h`. lanes: stages of the one run, always `STAGES`."""
     parts = [system(program, lanes), _collocation_numbers(lanes), _structure(program)]
     return "\n".join([*parts, header("collocation.h"), header("collocation_run.h")])
 

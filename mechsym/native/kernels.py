@@ -17,8 +17,7 @@ import dataclasses
 
 import numpy as np
 
-from mechsym.native.dialects import literal
-from mechsym.native.tape import CHEAP, Node, Tape, prune
+from mechsym.native.tape import CHEAP, Node, Tape, literal, prune
 from mechsym.quantities import record
 
 # a loop is worth its index tables only when it saves this many operations and assignments
@@ -50,10 +49,7 @@ class _Part:
 
 
 def kernels(tape: Tape) -> tuple[Kernel, ...]:
-    """The program as kernels.
-
-    Returns kernels: one with one instance where nothing repeats; every output is written by exactly one instance.
-    """
+    """The program as kernels, one where nothing repeats; every output is written by exactly one instance."""
     families: dict[tuple[tuple[Node, ...], tuple[int, ...]], list[_Part]] = {}
     for group in _groups(tape):
         part = _part(tape, group)
@@ -167,10 +163,7 @@ def _kernel(parts: list[_Part]) -> Kernel:
 
 
 def constant_table(kernels: tuple[Kernel, ...]) -> np.ndarray:
-    """The constants of all kernels in the order in which the C code reads them.
-
-    Returns table: instance after instance, kernel after kernel; never empty [SI].
-    """
+    """Constants in the order in which the C code reads them, instance after instance; never empty [SI]."""
     values = [v for kernel in kernels for row in kernel.constants for v in row]
     return np.array(values or [0.0])
 

@@ -8,12 +8,11 @@ import casadi
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.native import cache, emit, fallback
+from mechsym.native import cache, fallback, source
 from mechsym.native.compiler import NoCompiler
-from mechsym.native.dialects import NUMPY
 from mechsym.native.kernels import constant_table, cut, whole
 from mechsym.native.source import header, preamble, program
-from mechsym.native.tape import CHEAP, Tape
+from mechsym.native.tape import CHEAP, NUMPY, Tape
 
 _LOG = logging.getLogger("mechsym.native")
 # gcc then puts chains that do not wait for each other side by side: of a march it takes 8 and 17 % off at 97 and 116
@@ -117,10 +116,7 @@ def _interpreted(turn: Tape) -> Callable[..., None]:
 
 
 def text(turn: Tape, sizes: tuple[int, int, int]) -> str:
-    """A file that exports `ms_march` for the step of `separated`.
-
-    sizes: numbers of states, stage values, lane values.
-    """
+    """A file that exports `ms_march` for the step of `separated`. sizes: of states, stage values, lane values."""
     name, kernel = turn.name, whole(turn)
     states, stages, _ = sizes
     lanes, records = len(turn.inputs) - states - stages, len(turn.outputs) - states
@@ -128,9 +124,9 @@ def text(turn: Tape, sizes: tuple[int, int, int]) -> str:
         [
             _SCHEDULED if len(turn.nodes) < _SHORT else "",
             preamble(),
-            emit.bodies((kernel,), name),
+            source.bodies((kernel,), name),
             "enum { MS_W = 64 };",
-            emit.stage(kernel, name, sizes),
+            source.stage(kernel, name, sizes),
             f"enum {{ MS_NS = {states}, MS_NK = {stages}, MS_NL = {lanes}, MS_NR = {records} }};",
             f"#define MS_NAME {name}",
             header("march.h"),

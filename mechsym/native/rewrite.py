@@ -32,10 +32,7 @@ def marked(tape: Tape) -> Tape:
 
 
 def cheaper(tape: Tape) -> Tape:
-    """The same program with reciprocals shared and broken powers taken apart.
-
-    Returns tape: by the rules of this module.
-    """
+    """The same program with reciprocals shared and broken powers taken apart, by the rules of this module."""
     multiplied = _multiplied(tape)
     written, place = Nodes(), {}
     put = written.put
@@ -105,10 +102,7 @@ class _Factoring(Nodes):
 
 
 def factored(tape: Tape) -> Tape:
-    """The same program with common factors of two terms taken out.
-
-    Returns tape: with as many sums and fewer products.
-    """
+    """The same program with common factors of two terms taken out: as many sums and fewer products."""
     only = _only_users(tape)
     work = _Factoring()
     for i, (op, args) in enumerate(tape.nodes):

@@ -77,10 +77,7 @@ class _Figures:
 
 
 def search(task: FigureProgramme) -> Optimum:
-    """Solve a design problem by its figures.
-
-    Returns optimum: with status and reason; where there is no feasible design, the last one that was tried.
-    """
+    """Solve a design problem by its figures; the last design tried where none is feasible, with the reason."""
     figures = _Figures(task)
     z = np.clip((task.start - figures.low) / (figures.high - figures.low), _MARGIN, 1 - _MARGIN)
     began = time.process_time()

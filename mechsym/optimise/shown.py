@@ -1,9 +1,13 @@
-"""What of a best design is worth seeing."""
+"""What of a best design is worth seeing, and of an identification: the trace and what is left over."""
 
-from mechsym.optimise.result import Optimised
+from pathlib import Path
+
+from mechsym.optimise.identify import Identified
+from mechsym.optimise.solver import Optimised
 from mechsym.page import Card, View, shows
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import SMALLEST, quantity_text
 from mechsym.quantities.results import Columns
+from mechsym.style import BLUE, INK, QUIET, RED, axis_unit, legend, panels, write_picture
 
 
 @shows(Optimised)
@@ -22,3 +26,24 @@ def optimised_view(found: Optimised) -> View:
     return View(title="Best design", cards=tuple(cards), columns=lambda: Columns({
         **{name: [p.variables[name] for p in points] for name in best.variables},
         "objective": [p.objective for p in points], "status": [p.status for p in points]}, units))  # fmt: skip
+
+
+def trace_picture(path: Path, found: Identified) -> Path:
+    """Speeds measured and fitted, and their difference, over time."""
+    figure, axes = panels(9, 3.6, 1, 2, "Measured speeds and the model through them, and what is left over")
+    factor, unit = axis_unit(found.unit, *found.measured.values())
+    for (name, measured), color in zip(found.measured.items(), (BLUE, RED, INK), strict=False):
+        axes[0].plot(found.t, measured * factor, ".", ms=2, color=color, alpha=0.4, label=f"{name} measured")
+        axes[0].plot(found.t, found.fitted[name] * factor, color=color, lw=0.8, label=f"{name} fitted")
+        axes[1].plot(found.t, (measured - found.fitted[name]) * factor, ".", ms=2, color=color, label=name)
+    largest = max(float(abs(values).max()) for values in found.measured.values())
+    if found.noise < SMALLEST * largest:  # round-off is no picture
+        axes[1].clear()
+        axes[1].set_xlim(axes[0].get_xlim())
+        axes[1].set_yticks([])
+        axes[1].text(0.5, 0.5, "0 to round-off", transform=axes[1].transAxes, ha="center", color=QUIET)
+    axes[0].set(xlabel="time [s]", ylabel=f"speed [{unit}]")
+    axes[1].set(xlabel="time [s]", ylabel=f"measured less fitted [{unit}]")
+    for axis in axes:
+        legend(axis)
+    return write_picture(path, figure)

@@ -16,6 +16,7 @@ from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
 from mechsym.cycle.closed.model import ClosedEngine, at_design
 from mechsym.optimise.problem import DesignTask, Limit, Programme
 from mechsym.optimise.solvers import Solved, ipopt
+from mechsym.page import Shown
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.results import Columns, part, quantity, result
 
@@ -68,10 +69,7 @@ class _Block(NamedTuple):
 
 
 def solve(task: Programme) -> Optimum:
-    """Solve a design problem.
-
-    Returns optimum: with status and reason; where there is no feasible design, the last one that was tried.
-    """
+    """Solve a design problem; the last design tried where none is feasible, with status and reason."""
     low, high = _bounds(task.variables)
     figures = _function(task)
     z = ca.MX.sym("z", low.size)
@@ -225,3 +223,37 @@ def _active(
                 per=per[limit.name],
             )  # fmt: skip
     return None
+
+
+@result
+class ParetoPoint:
+    """A best design for a given value of the second figure."""
+
+    status: str = part()
+    figures: Columns = part(inline=True)  #: Objective and second figure
+    variables: Columns = part()  #: The design
+
+
+@result
+class TriedWords:
+    """What one combination of words gives."""
+
+    words: Mapping[str, str] = part(inline=True)
+    status: str = part()
+    objective: float = quantity("@unit")  #: Figure that is as large or small as can be
+    variables: Columns = part()  #: The design
+    unit: str  # of the objective
+
+
+@result
+class Optimised(Shown):
+    """The best design, and the front against the second aim."""
+
+    best: Optimum = part(inline=True)
+    goal: str = part()
+    objective_name: str = part()
+    #: Best designs for values of the second aim, the best of all first
+    pareto: tuple[ParetoPoint, ...] = part(default=(), optional=True)
+    chosen: Mapping[str, str] | None = part(default=None, optional=True)  #: Words of the best design
+    choices: tuple[TriedWords, ...] = part(default=(), optional=True)  #: What each combination of words gives
+    front: tuple[Optimum, ...] = ()  # of `pareto`

@@ -16,9 +16,10 @@ import scipy
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms import listing
+from mechsym.mechanisms.projected import projected
 from mechsym.mechanisms.record import Mechanism, acceleration_function, accelerations, bind, velocities
 from mechsym.quantities import record
-from mechsym.simulate import Part, Problem
+from mechsym.simulate import Part, Problem, constrained
 from mechsym.simulate.equations import fitted
 from mechsym.simulate.problem import FormulaForce, Kinks, Periodic, Steps, Stop
 
@@ -93,9 +94,9 @@ class Block:
 
 def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> Block:
     """The block of a problem; `laws` say how its parts depend on parameters."""
-    if "constraints" in problem.mechanism.functions or problem.mechanism.dependents:
-        why = "an export takes independent coordinates"
-        raise BadInput(f"{problem.mechanism.name} is closed by constraints and {why}; simulate it with mechsym")
+    if "constraints" in problem.mechanism.functions and not problem.mechanism.dependents:
+        why = "its constraints name no dependent coordinates"
+        raise BadInput(f"{problem.mechanism.name} cannot run in time: {why}; declare them with m.dependents(..)")
     if problem.unilateral:
         why = f"{problem.unilateral[0].name} makes events, and an export has none"
         raise BadInput(f"{problem.mechanism.name}: {why}; simulate it with mechsym")
@@ -112,7 +113,8 @@ def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> 
     units |= {f"{part.name}_on_{part.input}": units[part.input] for part in problem.parts}
     arguments = [symbols[k] for k in ("t", "x", "u", "p", "w", "s")]
     q, u = problem.mechanism.coordinates, velocities(problem.mechanism)
-    starts = zip((*q, *u), (*problem.q0, *problem.u0), strict=True)
+    closed = constrained.start(problem) if problem.mechanism.dependents else (problem.q0, problem.u0)
+    starts = zip((*q, *u), (*closed[0], *closed[1]), strict=True)
     return Block(
         name=name,
         about=about,
@@ -211,11 +213,14 @@ def _expressions(
     problem: Problem, mechanism: Mechanism, own: int, laws: Sequence[Law], symbols: Mapping[str, ca.SX]
 ) -> tuple[ca.SX, dict[str, ca.SX]]:
     n = len(mechanism.coordinates)
-    x, p = ca.vertsplit(symbols["x"]), ca.vertsplit(symbols["p"])
-    q, u = x[:n], x[n:]
+    x, p = symbols["x"], ca.vertsplit(symbols["p"])
+    letters = p[:own]
+    q, u = ca.vertsplit(x[:n]), ca.vertsplit(x[n:])
+    loops = projected(mechanism, own) if mechanism.dependents else None
+    if loops is not None:
+        q, u = map(ca.vertsplit, loops[0](x[:n], x[n:], ca.vertcat(*letters)))
     totals = dict(zip(mechanism.inputs, ca.vertsplit(symbols["u"]), strict=True))
     outputs: dict[str, ca.SX] = {}
-    letters = p[:own]
     further: dict[str, ca.SX] = {}
     w, s, done = ca.vertsplit(symbols["w"]), ca.vertsplit(symbols["s"]), own
     for part, law in zip(problem.parts, laws, strict=True):
@@ -228,13 +233,19 @@ def _expressions(
         further |= law.outputs(at) if law.outputs else {}
         done, w, s = done + len(law.parameters), w[2 * len(law.curves) :], s[len(law.switches) :]
     forces = list(totals.values())
-    qdd = acceleration_function(mechanism)(*q, *u, *forces, *letters)
+    multipliers: list[ca.SX] = []
+    if loops is None:
+        qdd = acceleration_function(mechanism)(*q, *u, *forces, *letters)
+    else:
+        qdd, mu = loops[1](ca.vertcat(*q), ca.vertcat(*u), ca.vertcat(*forces), ca.vertcat(*letters))
+        multipliers = ca.vertsplit(mu)
     outputs |= dict(zip(accelerations(mechanism), ca.vertsplit(qdd), strict=True)) | further
     seen = _observed(mechanism, "kinematics", [*q, *letters])
     # a bearing or a guide may put a coordinate out, which is a state by its name
     outputs |= {name: value for name, value in seen.items() if name not in mechanism.coordinates}
-    if "reactions" in mechanism.functions:
-        outputs |= _observed(mechanism, "reactions", [*q, *u, *ca.vertsplit(qdd), *forces, *letters])
+    group = "joints" if multipliers else "reactions"
+    if group in mechanism.functions:
+        outputs |= _observed(mechanism, group, [*q, *u, *ca.vertsplit(qdd), *forces, *multipliers, *letters])
     return ca.vertcat(*u, qdd), outputs
 
 

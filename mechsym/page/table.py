@@ -10,8 +10,7 @@ import numpy as np
 
 from mechsym.errors import MissingExtra
 from mechsym.quantities import record
-from mechsym.quantities.display import column_text, heading, shown_in, stem_and_unit, without_unit
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import column_text, heading, key_words, shown_in, stem_and_unit, without_unit
 
 if TYPE_CHECKING:
     import pandas

@@ -5,8 +5,7 @@ import re
 from typing import TYPE_CHECKING
 
 import mechsym
-from mechsym.quantities.display import figure, quantity_text, ratio_text
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text
 from mechsym.style import significant
 
 if TYPE_CHECKING:

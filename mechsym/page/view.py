@@ -106,10 +106,7 @@ class Shown:
         return _VIEWS[kind](self)
 
     def plot(self, name: str = "") -> "Figure":
-        """One of its figures, the first without a name.
-
-        Returns figure: matplotlib.figure.Figure, a notebook shows it; `figure.savefig("name.svg")` keeps it.
-        """
+        """One of its figures, the first without a name, of matplotlib: `figure.savefig("name.svg")` keeps it."""
         pictures = {picture.name: picture for picture in self.view.pictures}
         if not pictures:
             raise BadInput(f"{type(self).__name__} has no picture")

@@ -133,7 +133,6 @@ def fit(
     once. breaks: angles where the function is not smooth, any real numbers. tol: largest error, as a share of the
     largest value of all parts. Returns poly: breaks from 0 to `period`; values of shape (n,), or (n, parts). Raises
     BadInput: the function is not finite, jumps at an angle that is not among the breaks, or is noisy beyond 1e-9.
-
     Degree 9 through Chebyshev nodes; none lies on a break, so a jump at a break does no harm. The error is measured at
     other points than the nodes. Where the function is rounded more coarsely than `tol`, halving stops at its noise.
     """
@@ -151,10 +150,7 @@ def mean(poly: "scipy.interpolate.PPoly") -> float:
 
 
 def antiderivative(poly: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
-    """Exact integral from the first break, without the drift that a mean would bring.
-
-    Returns integral: periodic: integral of f - mean(f), 0 at the first break.
-    """
+    """Periodic integral of f - mean(f), exact, 0 at the first break: without the drift of a mean."""
     level = scipy.interpolate.PPoly(poly.c.copy(), poly.x, extrapolate="periodic")
     level.c[-1] -= mean(poly)
     integral = _integral(level)
@@ -197,10 +193,7 @@ def extremes(poly: "scipy.interpolate.PPoly") -> tuple[float, float, float, floa
 
 
 def piece_points(poly: "scipy.interpolate.PPoly", count: int = 17) -> Radian[Array]:
-    """Angles on every piece, both of its ends included, denser towards the ends.
-
-    Returns phi: angles, shape (pieces, count).
-    """
+    """Angles on every piece with both of its ends, denser towards them, shape (pieces, count)."""
     u = (1 - np.cos(np.linspace(0, math.pi, count))) / 2
     return poly.x[:-1, None] + np.diff(poly.x)[:, None] * u
 

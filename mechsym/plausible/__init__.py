@@ -1,15 +1,19 @@
 """What is possible and what is usual: nonsense is refused, the unusual is a doubt.
 
-    ranges    hard and usual range of each kind of value, with its reason, and of what several make: sizes by bore
-    judge     numbers by name against those ranges, and together: piston speed, rod ratio, masses by the piston's area;
-              acceptance of a doubt up to a value
+`ranges.csv` has the hard and the usual range of each kind of value, with its reason, and of what several make: sizes by
+bore. `judge` holds numbers by name against them, and together: piston speed, rod ratio, masses by the piston's area;
+it takes the acceptance of a doubt up to a value.
 
 Takes numbers and names, so that case files and results are judged alike.
 """
 
 from mechsym.plausible.judge import (
+    INPUTS,
+    PROPORTIONS,
+    RESULTS,
     Acceptance,
     Doubt,
+    Usual,
     inputs,
     letters,
     moving_mass,
@@ -19,7 +23,6 @@ from mechsym.plausible.judge import (
     results,
     sifted,
 )
-from mechsym.plausible.ranges import INPUTS, PROPORTIONS, RESULTS, Usual
 
 __all__ = [
     "INPUTS",

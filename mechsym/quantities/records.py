@@ -50,10 +50,7 @@ def quantity(
 
 
 def choice(*options: str, default: object = dataclasses.MISSING, about: str = "") -> Any:
-    """A field of a record that is one of several names.
-
-    Returns field: dataclasses.Field, to be assigned in the class body.
-    """
+    """A field of a record, to be assigned in the class body, that is one of several names."""
     return dataclasses.field(default=default, metadata={"options": options, "about": about})
 
 

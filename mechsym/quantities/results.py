@@ -26,9 +26,11 @@ units_of    the units of a class or a result by name, for the heads of a table
 The meaning is the comment `#:` or the first line of the docstring. A unit `@name` stands in the field of that name.
 """
 
+import ast
 import dataclasses
 import functools
 import inspect
+import textwrap
 import types
 import typing
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
@@ -290,7 +292,6 @@ def declared(kind: type, path: str = "") -> Iterator[Declared]:
 
 def _about(kind: type, name: str) -> str:
     """The comment beside a field, in the class that declares it."""
-    from mechsym.quantities.comments import comments  # reads source
 
     return next((told[name] for parent in kind.__mro__ if name in (told := comments(parent))), "")
 
@@ -338,3 +339,24 @@ def units_of(value: object) -> dict[str, str]:
         return dict(value.units)
     units = _units(value) if isinstance(value, type) else _resolved(value)
     return {name: unit for name, unit in units.items() if unit and unit != _INLINE}
+
+
+@functools.lru_cache(maxsize=256)
+def comments(cls: type) -> Mapping[str, str]:
+    """What a `#:` comment says of each field of a record, beside it or above it."""
+    try:
+        source = textwrap.dedent(inspect.getsource(cls))
+    except (OSError, TypeError):  # a record that was made at run time
+        return {}
+    lines, said, above, beside = source.splitlines(), {}, "", False
+    fields = {node.lineno: node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.AnnAssign)}
+    for number, line in enumerate(lines, 1):
+        text = line.partition("#:")[2].strip()
+        if number in fields:
+            name = fields[number].target
+            said[getattr(name, "id", "")] = text or above
+            above = above if not text and above else ""
+            beside = False
+        elif line.strip().startswith("#:"):
+            above, beside = f"{above} {text}" if beside else text, True
+    return {name: text for name, text in said.items() if text}

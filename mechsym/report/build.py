@@ -8,7 +8,7 @@ from mechsym import cases, inputs
 from mechsym.cases import Case
 from mechsym.cases.provenance import SourcedValue, sourced
 from mechsym.files import Json
-from mechsym.jobs.drawing import turning, with_gas
+from mechsym.jobs.export import turning, with_gas
 from mechsym.jobs.measured import MeasuredDiagram
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import listing

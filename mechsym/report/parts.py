@@ -12,18 +12,17 @@ from mechsym.cases import Case
 from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import in_words, lacking
 from mechsym.cases.outcomes import of_cycle, of_forces, of_gas
-from mechsym.cycle.columns import AFTER_FRICTION, WORDS, CycleColumns
-from mechsym.cycle.figures import CycleFigures
+from mechsym.cycle.columns import AFTER_FRICTION, WORDS, CycleColumns, CycleFigures
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.measured.shown import bars
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.friction import AUXILIARIES, NO_PLACE
-from mechsym.forces.report import borne
 from mechsym.forces.result import Forces
+from mechsym.forces.shown import borne
 from mechsym.forces.summary import half
-from mechsym.hinge.moving import scenes
 from mechsym.hinge.result import complete
+from mechsym.hinge.shown import scenes
 from mechsym.hinge.summary import HingeNumbers
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.forces import forces, told
@@ -37,14 +36,12 @@ from mechsym.mechanisms import roles_of
 from mechsym.page import Card, Finding, Grid, card, grid, ranked
 from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
-from mechsym.quantities.display import figure, quantity_text, ratio_text, shown_in
+from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text, shown_in
 from mechsym.quantities.results import tell, units_of
-from mechsym.quantities.words import key_words
 from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
 from mechsym.sizing.shown import tightest
 from mechsym.torsion import train
-from mechsym.torsion.findings import criticals
-from mechsym.torsion.shown import span
+from mechsym.torsion.shown import criticals, span
 
 _GIVES = "The engine gives"  # with which a sentence on the power at the shaft begins: it stands first
 _LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "F b": "gas force F_b"}

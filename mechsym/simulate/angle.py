@@ -50,10 +50,7 @@ class Panels:
 
 @lru_cache(maxsize=1)
 def gauss() -> tuple[Pure[Array], Pure[Array], Pure[Array]]:
-    """Gauss points of a panel.
-
-    Returns x, weights, matrix: on [-1, 1], and what integrates from -1 to each point.
-    """
+    """Gauss points of a panel. Returns x, weights, matrix: on [-1, 1], and what integrates from -1 to each point."""
     x, weights = legendre.leggauss(_POINTS)
     to_coefficients = np.linalg.inv(legendre.legvander(x, _POINTS - 1))
     integrals = np.array([legendre.legval(x, legendre.legint(row, lbnd=-1)) for row in np.eye(_POINTS)])
@@ -61,10 +58,7 @@ def gauss() -> tuple[Pure[Array], Pure[Array], Pure[Array]]:
 
 
 def tabulate(machine: ReducedMachine, phi_start: Radian = 0.0) -> Panels:
-    """Evaluate a machine at the Gauss points of one period.
-
-    phi_start: where the period begins. Returns panels: values for `turn` and what builds on it.
-    """
+    """Values of a machine at the Gauss points of one period, for `turn`. phi_start: where the period begins."""
     kinks = [phi_start + (k - phi_start) % machine.period for k in machine.kinks]
     ends = np.unique([phi_start, *kinks, phi_start + machine.period])
     ends = ends[np.append(True, np.diff(ends) > 1e-12)]
@@ -224,18 +218,12 @@ def _peak(at: np.ndarray, row: np.ndarray) -> float:
 
 
 def lowest_energy(turn: AngleTurn) -> Joule:
-    """Smallest kinetic energy of a turn.
-
-    Returns energy: not positive when the shaft stops.
-    """
+    """Smallest kinetic energy of a turn. Returns energy: not positive when the shaft stops."""
     return float(min(turn.energy.min(), turn.energy_edges.min()))
 
 
 def stop_angle(panels: Panels, turn: AngleTurn) -> Radian | None:
-    """Where a turn stops.
-
-    Returns phi: first angle without kinetic energy, between two points by a straight line; None if it does not stop.
-    """
+    """First angle without kinetic energy, between two points by a straight line; None if a turn does not stop."""
     phi = np.append(np.column_stack([panels.edges[:-1], panels.phi]).ravel(), panels.edges[-1])
     energy = np.append(np.column_stack([turn.energy_edges[:-1], turn.energy]).ravel(), turn.energy_edges[-1])
     stopped = np.flatnonzero(energy <= 0)

@@ -62,10 +62,9 @@ def _along(curve: Periodic, columns: Mapping[str, np.ndarray]) -> np.ndarray:
 def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray], heats: tuple[str, ...] = ()) -> Energy:
     """Balance of work, dissipation and energy over a run.
 
-    Where the energy in stores is known, it and the heat that leaves them stand in the balance for their work.
-
-    roles: side of the balance of each part by its name, `drive` counts as work in; columns: its columns, first entry at
-    the start, last at the end; heats: columns of heat that has left a store [J].
+    Where the energy in stores is known, it and the heat that leaves them stand in the balance for their work. roles:
+    side of the balance of each part by its name, `drive` counts as work in; columns: its columns, first entry at the
+    start, last at the end; heats: columns of heat that has left a store [J].
     """
     work = {name: float(columns[f"work_{name}"][-1]) for name in roles}
     work_in = sum(work[name] for name, role in roles.items() if role == "drive")

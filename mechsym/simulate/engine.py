@@ -15,7 +15,7 @@ from mechsym.errors import BadInput
 from mechsym.machine.loads import Load, TableLoad, load_torque
 from mechsym.machine.record import AngleForce, Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.record import evaluate, velocities
-from mechsym.mechanisms.shaft_inertia import is_damped
+from mechsym.mechanisms.shaft import is_damped
 from mechsym.quantities.units import Pure, Radian, RadPerSecond
 from mechsym.simulate.angle import ReducedMachine
 from mechsym.simulate.problem import FormulaForce, Kinks, Part, Periodic, Problem, Stop

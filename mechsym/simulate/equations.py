@@ -45,9 +45,7 @@ def system(problem: Problem, letters: Sequence[ca.SX] = ()) -> System:
               \dot D = -\sum_i u_i \Big(Q_i(q, u, 0) + \frac{\partial V}{\partial q_i}\Big)
 
     letters: sequence of casadi.SX, parameters that the mechanism leaves open; they become the last inputs of the
-    function.
-
-    Raises BadInput: the mechanism has constraints, which need multipliers.
+    function. Raises BadInput: the mechanism has constraints, which need multipliers.
     """
     mechanism = problem.mechanism
     if "constraints" in mechanism.functions:
@@ -81,10 +79,7 @@ def system(problem: Problem, letters: Sequence[ca.SX] = ()) -> System:
 
 
 def start_of(problem: Problem, equations: System) -> np.ndarray:
-    """The state at the start, no work done yet.
-
-    Returns y: in the order of the columns [SI], shape (m,).
-    """
+    """The state at the start, no work done yet. Returns y: in the order of the columns [SI], shape (m,)."""
     states = [s.start for s in problem.states]
     none = np.zeros(len(equations.columns) - 2 * equations.size - len(states))
     return np.concatenate([problem.q0, problem.u0, none, states])
@@ -132,10 +127,7 @@ def _carrying(problem: Problem, q: Sequence[Scalar], u: Sequence[Scalar], w: Sca
 def power(
     mechanism: Mechanism, q: Sequence[Scalar], u: Sequence[Scalar], letters: Sequence[ca.SX] = ()
 ) -> tuple[dict[str, ca.SX], ca.SX]:
-    """The speed conjugate to each input [m/s or rad/s], and the power that is lost inside the mechanism [W].
-
-    q, u: coordinates and velocities [SI].
-    """
+    """Speed conjugate to each input [m/s or rad/s], and power lost inside [W]. q, u: coordinates, velocities [SI]."""
     inputs = ca.SX.sym("inputs", len(mechanism.inputs))
     force = mechanism.functions["dynamics"](*q, *u, *ca.vertsplit(inputs), *letters)[2]
     speeds = ca.jacobian(force, inputs).T @ ca.vertcat(*u)
@@ -148,10 +140,7 @@ def power(
 
 
 def held(system: System, t: Second) -> np.ndarray:
-    """The values w at a time, right of any jump; a callable's place stays 0.
-
-    t: start of a phase. Returns w: in the units of the inputs [N*m or N], shape (k,).
-    """
+    """Values of the inputs [N*m or N], shape (k,), at a time right of any jump; a callable's place stays 0."""
     now = [0.0] * len(system.values)
     for i, value in enumerate(system.values):
         if isinstance(value, Steps):

@@ -25,6 +25,7 @@ from mechsym.simulate.result import Happened, RunEvent
 from mechsym.simulate.settings import Settings
 
 _ABOVE = 1e-300  # a guard that leaves zero: above it, so that a return within the first step is seen
+_LEAVING = 1e-14  # of a gap that opens without speed: below it rounding could close it at once [m] or [rad]
 _CHATTER = 1e-7  # of the run: a bounce that ends within this is over [-]
 _MOST, _STUCK = 100_000, 60
 _CLOSED = 1e-9  # a gap at the start, beyond which a stop is passed [m] or [rad]
@@ -90,10 +91,12 @@ def integrate(
 
 
 def _missed(known: Model, leg: Raw) -> Second:
-    """When a gap that a step has jumped over is deepest; infinity where none is."""
+    """When a gap that a step has jumped over is deepest, or a force least; infinity where none is below 0."""
     kind, _, number = leg.end.partition(" ")
-    deep = kind == "turn" and leg.y[-1, known.base + known.places[int(number)]] < -ZERO
-    return float(leg.t[-1]) if deep else np.inf
+    if kind not in ("turn", "dip"):
+        return np.inf
+    value = leg.y[-1, known.base + known.places[int(number)] + (0 if kind == "turn" else 2)]
+    return float(leg.t[-1]) if value < (-ZERO if kind == "turn" else 0.0) else np.inf
 
 
 def _require_contraction(known: Model, now: Now, leg: Raw) -> None:
@@ -187,6 +190,8 @@ def _levels(known: Model, now: Now) -> dict[str, Level]:
         if isinstance(one.role, StopRole):
             if sticks:
                 watch("release", i, place + 2, -1)
+                if known.dips:
+                    watch("dip", i, place + 3, 1)
             elif way:
                 watch("release", i, place, 1)
             else:
@@ -214,9 +219,11 @@ def _guarded(known: Model, now: Now) -> np.ndarray:
         if isinstance(one.role, StopRole):
             if now.mode[i]:
                 guards[place + 2] = max(guards[place + 2], _ABOVE)
-            elif "stiffness" not in one.sizes and abs(guards[place]) <= ZERO:
-                guards[place] = max(guards[place], _ABOVE)
-            if i in now.turned:
+                if i in now.turned:
+                    guards[place + 3] = max(guards[place + 3], _ABOVE)
+            elif "stiffness" not in one.sizes and -_CLOSED < guards[place] <= ZERO:
+                guards[place] = max(guards[place], _LEAVING if i in now.opened else _ABOVE)
+            if i in now.turned and not now.mode[i]:
                 guards[place + 1] = np.copysign(_ABOVE, seen.v_rate[i])
         elif one.role.law != "smooth":
             guards[place + 1 : place + 3] = np.maximum(guards[place + 1 : place + 3], _ABOVE)
@@ -230,13 +237,17 @@ def _guarded(known: Model, now: Now) -> np.ndarray:
 def _pass(known: Model, now: Now, met: str, problem: Problem) -> None:
     """Go through an event: the time made exact, blows, and the mode behind it."""
     kind, _, number = met.partition(" ")
-    i, m = int(number or 0), len(known.elements)
+    i, m, n = int(number or 0), len(known.elements), known.system.size
     if met:
         _polish(known, now, kind, i)
-    now.turned, now.still = {i} if kind == "turn" else set(), {k for k in range(m) if now.mode[k]} & frictions(known)
+    now.turned, now.still = (
+        {i} if kind in ("turn", "dip") else set(),
+        {k for k in range(m) if now.mode[k]} & frictions(known),
+    )
+    now.opened = {i} if kind == "release" else set()
     now.touching = {k for k in range(m) if now.mode[k]} - frictions(known)
     banned = i if kind in ("release", "slip+", "slip-") and not now.mode[-1] else -1
-    if kind == "turn":
+    if kind in ("turn", "dip"):
         return
     if now.mode[-1]:
         now.still |= frictions(known)
@@ -256,6 +267,9 @@ def _pass(known: Model, now: Now, met: str, problem: Problem) -> None:
             return
         _chatter(known, now, problem)
     elif kind in ("release", "slip+", "slip-"):
+        if kind == "release":  # what integration has left of its speed would close it again at once
+            mass, W = (np.asarray(o) for o in known.blow.call([now.y[:n]]))
+            now.y[n : 2 * n] = blows.stay(mass, W[:, [i]], now.y[n : 2 * n])
         now.events.append(RunEvent(name=one.role.name, kind=kind.rstrip("+-"), t=now.t))
     settle(known, now, banned, kind if now.mode[-1] and kind.startswith("slip") else "")
     if kind == "stick":
@@ -270,7 +284,7 @@ def _polish(known: Model, now: Now, kind: str, i: int) -> None:
     if now.mode[-1] and kind in ("slip+", "slip-"):
         place = len(seen.guards) - (2 if kind == "slip+" else 1)
     elif stop:
-        place += {"turn": 1, "release": 2 if now.mode[i] else 0}.get(kind, 0)
+        place += {"turn": 1, "dip": 3, "release": 2 if now.mode[i] else 0}.get(kind, 0)
     else:
         place += {"slip-": 1, "slip+": 2}.get(kind, 0)
     rate = seen.rates[known.base + place]

@@ -62,10 +62,7 @@ def integrate(
 
 
 def runs(problem: Problem, equations: System, settings: Settings, times: np.ndarray, ends: Sequence[float]) -> Runs:
-    """A problem as the native integrator takes it.
-
-    problem, equations, settings, times, ends: see `integrate` [s].
-    """
+    """A problem as the native integrator takes it. problem, equations, settings, times, ends: see `integrate` [s]."""
     place = equations.columns.index
     tables, kinks = [], []
     for i, value in enumerate(equations.values):

@@ -46,6 +46,7 @@ class Model:
     elements: tuple[Numbers, ...]
     base: int  #: Columns before the guards
     places: tuple[int, ...]  #: Of each element's first guard, behind the base
+    dips: bool  #: Whether the last guard of a stop that gives way to none is the rate of its force
     holds: bool  #: Whether all friction acts on one freedom, which it may hold at rest
     #: (t, y, w) to p, v, dv/dt, limit of each, guards, rate of each column, derivative of friction by p
     look: ca.Function
@@ -191,9 +192,10 @@ def model(problem: Problem) -> Model:
     condition = s.K * s.stand[:m] + (1 - s.K) * (s.p - moving)
     p = _solved(s, condition)
     residual, moving_, limits = (ca.substitute(e, s.stand, s.linear) for e in (condition, moving, limits))
-    holds, places, seen, needed = _guards(problem, elements, s, gaps, limits)
     slope = ca.jacobian(residual, s.p)
     p_rate = -ca.solve(slope, ca.jtimes(residual, s.x, s.x_rate))
+    dips = all(isinstance(e.role, StopRole) for e in elements)  # beside friction such a rate is too long a formula
+    holds, places, seen, needed = _guards(problem, elements, s, gaps, limits, p_rate if dips else None)
     seen_rate = ca.jtimes(seen, s.x, s.x_rate) + ca.mtimes(ca.jacobian(seen, s.p), p_rate)
     at = ca.Function("at", s.all, [s.a * (1 - s.rest), s.v, s.v_rate, limits, seen, seen_rate * needed,
                                    ca.jacobian(moving_, s.p)])  # fmt: skip
@@ -221,12 +223,17 @@ def model(problem: Problem) -> Model:
     p_, v_, v_rate_, limit_, seen_, gain_ = others
     look = ca.Function("look", [s.t, y, s.w], [p_, v_, v_rate_, limit_, seen_, ydot, gain_])
     blow = ca.Function("blow", [s.q], [s.mass, s.W])
-    return Model(system=system, elements=elements, base=len(columns), places=places, holds=holds, look=look,
+    return Model(system=system, elements=elements, base=len(columns), places=places, dips=dips, holds=holds, look=look,
                  blow=blow)  # fmt: skip
 
 
 def _guards(
-    problem: Problem, elements: tuple[Numbers, ...], s: _Letters, gaps: ca.SX, limits: ca.SX
+    problem: Problem,
+    elements: tuple[Numbers, ...],
+    s: _Letters,
+    gaps: ca.SX,
+    limits: ca.SX,
+    p_rate: ca.SX | None,
 ) -> tuple[bool, tuple[int, ...], ca.SX, ca.SX]:
     """Whether friction may hold the only freedom, each element's first guard, guards, and whether a mode needs them."""
     sticking = [e for e in elements if isinstance(e.role, FrictionRole) and e.role.law != "smooth"]
@@ -238,8 +245,9 @@ def _guards(
         places.append(len(guards))
         if isinstance(e.role, StopRole):
             rigid = "stiffness" not in e.sizes
-            guards += [gaps[i], s.v[i], *([s.p[i]] if rigid else [])]
-            needed += [ca.SX(1), ca.SX(1), *([s.K[i]] if rigid else [])]
+            pressed = [s.p[i], *([] if p_rate is None else [p_rate[i]])] if rigid else []
+            guards += [gaps[i], s.v[i], *pressed]
+            needed += [ca.SX(1), ca.SX(1), *([s.K[i]] * len(pressed))]
         elif e.role.law != "smooth":
             guards += [s.v[i] - e.sizes.get("speed", 0.0), limits[i] - s.p[i], limits[i] + s.p[i]]
             # held friction has guards of its own

@@ -33,10 +33,7 @@ from mechsym.simulate.settings import NATIVE, Settings
 
 
 def simulate_many(problems: Sequence[Problem], settings: Settings | None = None) -> list[Result]:
-    """Integrate problems, side by side where that is possible.
-
-    Returns results: in the same order; `wall_s` is the share of each in the time of its group.
-    """
+    """Integrate problems in order, side by side where possible; `wall_s` is the share of each in its group's time."""
     settings = settings or Settings()
     results: dict[int, Result] = {}
     for group in _groups(problems, settings):

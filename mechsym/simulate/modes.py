@@ -23,7 +23,8 @@ class Now:
     mode: np.ndarray
     touching: set[int] = field(default_factory=set)  # stops without gap and speed
     still: set[int] = field(default_factory=set)  # friction without speed
-    turned: set[int] = field(default_factory=set)  # stops whose speed has just passed zero
+    turned: set[int] = field(default_factory=set)  # stops whose speed, or rate of force, has just passed zero
+    opened: set[int] = field(default_factory=set)  # the stop that has just let go: it leaves as slowly as can be
     events: list[RunEvent] = field(default_factory=list)
     contraction: float = 0.0  # largest rate of the fixed point of normal forces
 

@@ -81,10 +81,7 @@ class Watch:
 
 
 def watch(problem: Problem, columns: tuple[str, ...], y: np.ndarray) -> Watch:
-    """What to watch for from a state on.
-
-    y: state [SI, by column], shape (m,). Returns watch: surfaces, their meanings, and the intervals between kinks.
-    """
+    """Surfaces to watch from a state y [SI, by column], shape (m,), their meanings, intervals between kinks."""
     always = ends_watched(problem, columns)
     surfaces, ends, spans = list(always.surfaces), list(always.ends), []
     for kinks in (k for k in problem.kinks if k.angles):

@@ -151,10 +151,7 @@ class Problem:
 
 
 def times_of(output: tuple[Second, ...]) -> Second[Array]:
-    """Wanted times as an array that is made once for runs that share them.
-
-    output: ascending. Returns times: not to be written into.
-    """
+    """Ascending wanted times as an array made once for runs that share it, and not to be written into."""
     entry = _KEPT.get(id(output))
     if entry is None:
         if len(_KEPT) > 8:

@@ -98,10 +98,7 @@ def write_series(result: Result, path: Path) -> Path:
 
 
 def write_netcdf(result: Result, path: Path) -> Path:
-    """Write the time series as netCDF, each variable with its unit.
-
-    Raises MissingExtra: xarray or h5netcdf is not installed.
-    """
+    """Write the time series as netCDF with units. Raises MissingExtra: xarray or h5netcdf is not installed."""
     return files.write_netcdf(path, dataset(result))
 
 
@@ -229,10 +226,7 @@ def speeds_over(result: Result, coordinates: tuple[str, ...], since: Second) -> 
 
 
 def last_period(result: Result, coordinate: str, period: Radian = 2 * np.pi) -> Second:
-    """When the last period of a coordinate began.
-
-    period: a turn, or two for a four-stroke engine. Returns t: the start of a run shorter than that.
-    """
+    """When the last period of a coordinate began: a turn, two for a four-stroke engine, or a shorter run."""
     q, rate = result.columns[coordinate], f"{coordinate}d"
     i = before_last_period(q, period)
     if i is None or result.dense is None:

@@ -57,7 +57,7 @@ def _raw(problem: Problem, settings: Settings, equations: System | None = None) 
     if problem.unilateral:
         return event_runs.integrate(problem, settings, wanted_times(problem), ends_of(problem))
     if problem.mechanism.dependents:
-        return *constrained.integrate(problem, settings, wanted_times(problem), ends_of(problem)), Happened()
+        return constrained.integrate(problem, settings, wanted_times(problem), ends_of(problem))
     equations = equations or system(problem)
     return equations, integrate(problem, equations, settings, wanted_times(problem), ends_of(problem)), Happened()
 

@@ -17,10 +17,7 @@ _CLOSE = 0.02  # a kink nearer than this share of a usual step is met by the nex
 
 
 def advance(phase: Phase, method: str) -> Leg:
-    """Integrate a phase with a class of scipy.integrate.
-
-    method: name of the class, for example `DOP853`.
-    """
+    """Integrate a phase with a class of scipy.integrate. method: name of the class, for example `DOP853`."""
     f = right_side(phase.system, phase.w, phase.t_end, phase.spans)
     solver = _solver(phase, method, f, (phase.t_start, phase.y), phase.t_end, phase.first_step)
     wanted, samples, steps, step, met, failure = phase.times, [phase.y[None][:0]], 0, phase.first_step, None, ""

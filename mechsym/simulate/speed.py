@@ -40,10 +40,7 @@ class Speed:
 
 
 def speeds(dense: Dense, t: Second[Array]) -> list[Speed]:
-    """Speed of each coordinate over the times of a grid.
-
-    t: from the start of the stretch to its end, as fine as the motion is smooth.
-    """
+    """Speed of each coordinate at times t over a whole stretch, as fine as the motion is smooth."""
     q, u = dense(t)
     end = q.shape[1] - 1
     mean = (q[:, end] - q[:, 0]) / (t[end] - t[0])

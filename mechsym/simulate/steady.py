@@ -5,7 +5,7 @@ repeats when the torques balance (the motion is neutral), so the wanted mean spe
 with speed there is one steady motion, found by Newton's method on the map of one turn.
 
 This is the machine as built, under any load law. While a guide is being designed only the work that it leaves over is
-known; the closed forms of `mechsym.hinge.ripple` give the speed then, for constant and propeller load.
+known; the closed forms of `mechsym.hinge.balance` give the speed then, for constant and propeller load.
 """
 
 from dataclasses import replace
@@ -146,10 +146,7 @@ def _free(panels: Panels) -> np.ndarray:
 
 
 def flywheel_for_ripple(panels: Panels, speed: RadPerSecond, target: Pure = 1 / 50) -> Flywheel:
-    """The flywheel with which the steady motion has a wanted ripple.
-
-    speed: mean speed, see `steady_state`; target: wanted (max - min) / mean.
-    """
+    """Flywheel with which the steady motion at a mean speed has a wanted ripple (max - min) / mean."""
 
     def excess(inertia: float) -> float:
         ripple = steady_state(panels, speed, inertia).speed_ripple

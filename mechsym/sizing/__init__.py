@@ -5,7 +5,7 @@ rules/            one rule a function: gears, bearings, shafts, ..
 *_design.py       one part each: sizes and checks
 pressures.py      the cycle over the speeds
 loads.py          from forces to gears and bearings
-hypocycloid/      an engine as a whole: its forces, masses, checks; design.py sizes it to a fixed point
+hypocycloid/      an engine as a whole: its forces, masses, checks, and sizes to a fixed point
 slider_crank.py   the same for a slider crank
 crosshead.py      a crosshead drive held against its rules
 checks.py         a part beside its limit
@@ -26,7 +26,7 @@ _NAMES = {
     "Wants": "mechsym.sizing.wants:Wants",
     "hypocycloid_forces": "mechsym.sizing.hypocycloid.masses:hypocycloid_forces",
     "pressures_over": "mechsym.sizing.pressures:pressures_over",
-    "size_hypocycloid": "mechsym.sizing.hypocycloid.design:size_hypocycloid",
+    "size_hypocycloid": "mechsym.sizing.hypocycloid.checks:size_hypocycloid",
     "size_slider_crank": "mechsym.sizing.slider_crank:size_slider_crank",
     "slider_crank_forces": "mechsym.sizing.slider_crank:slider_crank_forces",
     "unsafe": "mechsym.sizing.checks:unsafe",

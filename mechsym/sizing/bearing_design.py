@@ -91,10 +91,7 @@ def check_bearing(choice: Choice, seat: Seat, wants: Wants) -> list[Check]:
 
 
 def choices(catalogue: Iterable[Bearing], shaft: tuple[Metre, Metre], outside: Metre, most: int = 3) -> list[Choice]:
-    """Bearings that fit a shaft and a bore, the lightest first.
-
-    shaft: smallest and largest shaft diameter; outside: largest outside diameter.
-    """
+    """Bearings that fit, the lightest first. shaft: smallest and largest diameter; outside: largest diameter."""
     fitting = []
     for bearing in catalogue:
         for ring_off in (False, True) if bearing.raceway and bearing.raceway > bearing.bore else (False,):

@@ -110,10 +110,7 @@ def at_least(
 
 
 def holds(check: Check) -> bool:
-    """Whether a part reaches the wanted factor.
-
-    Returns holds: True when the factor is at least the wanted one, up to rounding in the last digits of a float.
-    """
+    """Whether a part reaches the wanted factor, up to rounding in the last digits of a float."""
     return check.safety_factor >= check.wanted * (1 - 1e-9)
 
 

@@ -12,7 +12,7 @@ from mechsym.sizing.rules.bearings import Bearing
 from mechsym.sizing.slider_crank import SliderForces, SliderParts
 from mechsym.sizing.wants import CrankPart
 from mechsym.style import INK, PAPER, RED, axis_unit, legend, panels, write_picture
-from mechsym.style.palette import BEARING, CARRIER, CRANK, CYLINDER, GEAR, PISTON, SHAFT
+from mechsym.style.panels import BEARING, CARRIER, CRANK, CYLINDER, GEAR, PISTON, SHAFT
 
 _COLOURS = {"piston and rod": PISTON, "cylinder": CYLINDER, "crankshaft": CRANK, "gears": GEAR, "bearings": BEARING,
             "carrier": CARRIER, "output shaft": SHAFT, "bore": PAPER}  # fmt: skip

@@ -18,7 +18,7 @@ from mechsym.quantities import record
 from mechsym.quantities.units import Metre, Radian
 from mechsym.sizing.checks import Check, at_least, at_most, at_speed
 from mechsym.sizing.loads import reversed_tooth_load
-from mechsym.sizing.rules import gear_factors, gears
+from mechsym.sizing.rules import gears
 from mechsym.sizing.rules.gear_bending import bending_geometry_factor
 from mechsym.sizing.rules.gear_geometry import (
     Pair,
@@ -55,10 +55,7 @@ class Rating:
 
 
 def pair_of(part: GearPart, kind: str = "internal") -> Pair:
-    """The pair's geometry.
-
-    kind: `internal`, or `external` for the source's stand-in. Returns pair: geometry in the tool form of the source.
-    """
+    """Geometry in the tool form of the source. kind: `internal`, or `external` for the source's stand-in."""
     return Pair(kind=kind, module=part.module, teeth_1=part.teeth_pinion, teeth_2=part.teeth_ring,
                 pressure_angle=part.pressure_angle, shift=part.shift)  # fmt: skip
 
@@ -69,19 +66,19 @@ def rating(part: GearPart, loads: ToothLoads, wants: Wants, material: Material, 
     part: sizes; its face width enters the load distribution factor. kind: basis of I: `internal` or `external`.
     """
     pair, d = pair_of(part, kind), part.module * part.teeth_pinion
-    K_v = gear_factors.dynamic_factor(gears.mesh_speed(d, loads.omega), wants.accuracy)
-    K_m = gear_factors.load_distribution_factor(part.face, d, wants.C_pm, wants.enclosure, wants.C_e)
-    K_R = gear_factors.reliability_factor(wants.gear_reliability)
+    K_v = gears.dynamic_factor(gears.mesh_speed(d, loads.omega), wants.accuracy)
+    K_m = gears.load_distribution_factor(part.face, d, wants.C_pm, wants.enclosure, wants.C_e)
+    K_R = gears.reliability_factor(wants.gear_reliability)
     times = np.clip(cycles(wants.life, loads.omega, 0.5), 1e4, 1e10)
-    Y_N = np.array([gear_factors.life_factor_bending(n) for n in times])
-    Z_N = np.array([gear_factors.life_factor_contact(n) for n in times])
+    Y_N = np.array([gears.life_factor_bending(n) for n in times])
+    Z_N = np.array([gears.life_factor_contact(n) for n in times])
     bears = gears.bending_limit(need(material, "gear_bending"), K_R=K_R)
     widths = []
     for member, returns in ((1, 4), (2, 2)):
         factors = gears.LoadFactors(K_m=K_m, K_B=_rim_factor(part, member))
         per_load = gears.face_width_bending(1.0, part.module, _bending_factor(pair, member), bears, factors)
         widths.append(per_load * reversed_tooth_load(loads.tooth, returns) * K_v / Y_N)
-    Z_E = gear_factors.elastic_coefficient(*(material.youngs_modulus, material.poisson) * 2)
+    Z_E = gears.elastic_coefficient(*(material.youngs_modulus, material.poisson) * 2)
     bears = gears.contact_limit(need(material, "gear_contact"), K_R=K_R)
     I = pitting_geometry_factor(pair)
     per_load = gears.face_width_contact(1.0, d, I, Z_E, bears, gears.LoadFactors(K_m=K_m))
@@ -90,10 +87,7 @@ def rating(part: GearPart, loads: ToothLoads, wants: Wants, material: Material, 
 
 
 def face_width(part: GearPart, loads: ToothLoads, wants: Wants, material: Material, kind: str = "internal") -> Metre:
-    """Face width that satisfies every limit with the load distribution of that width.
-
-    part: sizes; its own face width does not matter.
-    """
+    """Face width that satisfies every limit with its own load distribution; that of `part` does not matter."""
     most = 2 * part.module * part.teeth_pinion
 
     def short(b: float) -> float:
@@ -153,7 +147,7 @@ def _rim_factor(part: GearPart, member: int) -> float:
     else:
         depth = pair.whole_depth - (1 - part.shift)
         rim = part.ring_outside / 2 - (part.teeth_ring / 2 + depth) * part.module
-    return gear_factors.rim_factor(rim, pair.whole_depth * part.module)
+    return gears.rim_factor(rim, pair.whole_depth * part.module)
 
 
 @cache
@@ -187,7 +181,7 @@ def check_gears(
 
 def _proportions(part: GearPart, loads: ToothLoads, wants: Wants) -> list[Check]:
     pair, d = pair_of(part), part.module * part.teeth_pinion
-    B = gear_factors.accuracy_exponent(wants.accuracy)
+    B = gears.accuracy_exponent(wants.accuracy)
     fastest = (50.0 + 56.0 * (1.0 - B) + 14.0 - wants.accuracy) ** 2 / 200.0
     speed = float(gears.mesh_speed(d, loads.omega).max())
     margin = min(interference_margins(pair).values())

@@ -100,8 +100,7 @@ def side_vectors(
     tangential tooth load (positive in the crank's sense) and separating force of both sides together, shape (k, n);
     spin: centrifugal force m_2 e omega^2 of both sides' shafts and pinions, shape (k,); theta: crank angle from top
     dead centre. Returns force, teeth, centrifugal: on the crankpin, at the gear from the teeth, at the gear from the
-    masses, shape (2, k, n).
-    Source: balance of the planet; x towards the head as in derivations/hypocycloid.py.
+    masses, shape (2, k, n). Source: balance of the planet; x towards the head as in derivations/hypocycloid.py.
 
     >>> one = np.ones((1, 1))
     >>> force, teeth, _ = side_vectors(2 * one, 2 * one, 0 * one, np.zeros(1), np.array([np.pi / 2]))
@@ -181,10 +180,9 @@ def reversed_tooth_load(W: Newton[Array], returns: int) -> Newton[Array]:
 
     W: tooth load over the period; n divisible by `returns`, shape (k, n). returns: how often the same tooth comes into
     mesh in a period: 4 for the planet, 2 for the ring. Returns W_eq: equivalent one-sided load; A is the larger load on
-    one tooth in one sense, B the largest in the other, shape (k,).
-    Source: Y_M = 1/(1 - 3/7 F_min/F_max), 0.7 for fully reversed load: AGMA 2001-D04, clause 16.2; the line between:
-    ISO 6336-3, annex B with M = 0.4; solved for the load. The teeth numbers are in a whole ratio, so each tooth always
-    meets the same crank angles.
+    one tooth in one sense, B the largest in the other, shape (k,). Source: Y_M = 1/(1 - 3/7 F_min/F_max), 0.7 for fully
+    reversed load: AGMA 2001-D04, clause 16.2; the line between: ISO 6336-3, annex B with M = 0.4; solved for the load.
+    The teeth numbers are in a whole ratio, so each tooth always meets the same crank angles.
 
     >>> float(reversed_tooth_load(np.array([[9.0, 1.0, -7.0, 0.0]]), 2)[0])
     12.0

@@ -11,8 +11,7 @@ from mechsym.cycle.engine import over_speeds
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Pure, RadPerSecond
 from mechsym.sizing.loads import over_period
-from mechsym.sizing.rules.cylinder import tdc_gap
-from mechsym.sizing.rules.piston import head_heat
+from mechsym.sizing.rules.piston import head_heat, tdc_gap
 
 _STEPS = 720  # angles over a period of 4 pi; divisible by 4 for the teeth's returns
 

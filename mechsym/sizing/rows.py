@@ -1,11 +1,16 @@
-"""Sizes, checks and headline figures as the rows that the command line prints and writes."""
+"""What sizing an engine gave: sizes, checks and headline figures as the rows that people and files see."""
 
 import dataclasses
+import functools
+from typing import Any
 
-from mechsym.quantities import results
+from mechsym.files import Json
+from mechsym.page import Shown
+from mechsym.quantities import record, results
 from mechsym.quantities.records import Record
-from mechsym.quantities.results import part, result
+from mechsym.quantities.results import part, result, tell
 from mechsym.sizing.checks import Check, holds
+from mechsym.sizing.hypocycloid.engine import Stock
 
 
 @result
@@ -50,3 +55,21 @@ def check_rows(checks: list[Check]) -> list[SizeRow]:
     """One row for each check."""
     names = [name for name in COLUMNS if name != "holds"]
     return [SizeRow(**{name: getattr(check, name) for name in names}, holds=holds(check)) for check in checks]
+
+
+@record
+class Sizing(Shown):
+    """What sizing an engine gave."""
+
+    told: list[SizeRow]
+    failing: list[Check]
+    converged: bool
+    rounds: int
+    parts: Any
+    forces: Any
+    stock: Stock | None  #: None where no stock part belongs to it
+
+    @functools.cached_property
+    def rows(self) -> list[Json]:
+        """The rows as JSON shows them."""
+        return [tell(row) for row in self.told]

@@ -5,10 +5,8 @@ from typing import Any
 from mechsym.files import Json
 from mechsym.page import Card, Finding, Picture, View, shows
 from mechsym.page.finding import NOT_MET
-from mechsym.quantities.display import figure
-from mechsym.quantities.words import key_words
-from mechsym.sizing.result import Sizing
-from mechsym.sizing.rows import COLUMNS
+from mechsym.quantities.display import figure, key_words
+from mechsym.sizing.rows import COLUMNS, Sizing
 
 
 @shows(Sizing)

@@ -18,15 +18,24 @@ from mechsym.quantities import record
 from mechsym.quantities.units import Kilogram
 from mechsym.sizing.bearing_design import Choice, Seat, check_bearing, choices, mass, seat_diameter
 from mechsym.sizing.checks import Check, at_most, at_speed, round_up, unsafe, weakest
-from mechsym.sizing.crank_design import CrankLoads, check_crank, check_output, size_output
+from mechsym.sizing.crank_design import (
+    CrankLoads,
+    CylinderLoads,
+    check_crank,
+    check_cylinder,
+    check_output,
+    check_piston,
+    size_cylinder,
+    size_output,
+    size_piston,
+)
 from mechsym.sizing.hypocycloid.engine import Stock
-from mechsym.sizing.piston_design import CylinderLoads, check_cylinder, check_piston, size_cylinder, size_piston
 from mechsym.sizing.pressures import Pressures
 from mechsym.sizing.rules.crankshaft import slider_crank_chain
-from mechsym.sizing.rules.fatigue import endurance_limit, goodman_factor, stress_cycle
 from mechsym.sizing.rules.masses import cylinder_mass
 from mechsym.sizing.rules.materials import Material
 from mechsym.sizing.rules.piston import rod_buckling_load
+from mechsym.sizing.rules.turning_shaft import endurance_limit, goodman_factor, stress_cycle
 from mechsym.sizing.wants import CrankPart, CylinderPart, PistonPart, Wants
 
 _ROUNDS = 40
@@ -120,10 +129,7 @@ def size_slider_crank(
 
 
 def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
-    """One round: every part for the forces.
-
-    Returns parts: sizes; of the bearings the lightest that hold, or the strongest there are.
-    """
+    """One round: sizes of every part for the forces; bearings the lightest that hold, or the strongest there are."""
     loads = _cylinder_loads(forces)
     material = {key: stock.material(getattr(wants, key)) for key in ("piston", "cylinder", "shaft")}
     steel = stock.material(wants.crankshaft)

@@ -1,14 +1,13 @@
 """What pictures of every room share: one palette for light and dark, panels, legends, units on axes, SVG.
 
-palette    colours on light and on dark paper, their contrast
-panels     figures with quiet panels, legends above them, axes in the units that were chosen, labels that keep clear
-           of each other, curves that are equal named once, significant digits
+panels     colours on light and on dark paper; figures with quiet panels, legends above them, axes in the units that
+           were chosen, labels that keep clear of each other, equal curves named once, significant digits
 picture    a figure as SVG: text as text, title and description, ids of its own, dark where the reader wants it
 
 matplotlib is imported inside functions, so that whoever only needs a colour or a number does not load it.
 """
 
-from mechsym.style.palette import (
+from mechsym.style.panels import (
     BLUE,
     DARK,
     GREEN,
@@ -23,8 +22,6 @@ from mechsym.style.palette import (
     SERIES,
     TEAL,
     VIOLET,
-)
-from mechsym.style.panels import (
     angle_axis,
     axis_unit,
     bare,

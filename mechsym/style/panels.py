@@ -1,4 +1,4 @@
-"""Figures with quiet panels, legends above them, axes in the units that were chosen.
+"""One palette for light and dark, contrast 4.5; figures with quiet panels, legends above them, chosen units.
 
 Labels keep clear of each other, and curves that are equal are named once.
 """
@@ -11,7 +11,6 @@ import numpy as np
 
 from mechsym.quantities.display import chosen, unit_for
 from mechsym.quantities.units import Array, Pure, Radian, scale
-from mechsym.style.palette import GREY, GRID, INK, QUIET
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -126,10 +125,7 @@ def axis_unit(unit: str, *values: object) -> tuple[Pure, str]:
 def angle_axis(
     axis: "Axes", degrees: Annotated[float, "deg"], start: Annotated[float, "deg"] = 0.0, steps: int = 8
 ) -> None:
-    """An angle in degrees along an axis, in eighths; in fewer parts where it is narrow.
-
-    degrees, start: last and first angle.
-    """
+    """An angle in degrees along an axis, in eighths or fewer parts. degrees, start: last and first angle."""
     axis.set_xlim(start, degrees)
     axis.set_xticks(np.arange(start, degrees + 1, (degrees - start) / steps))
 
@@ -193,10 +189,7 @@ def events(axis: "Axes", marks: Mapping[str, Pure], width: Annotated[float, "inc
 
 
 def envelope(axis: "Axes", t: Pure[Array], y: Pure[Array], color: str, label: str | None = None) -> None:
-    """A curve over time; one that swings more often than can be seen as the band that it fills.
-
-    t, y: time and values, in the units of the panel.
-    """
+    """A curve over time in a panel's units; one that swings too often to be seen as the band that it fills."""
     swings = np.abs(np.diff(y)).sum() / (np.ptp(y) or 1.0)  # through all of its range, so that ripples do not count
     if swings <= MOST_SWINGS:
         axis.plot(t, y, color=color, linewidth=0.9, label=label)
@@ -289,3 +282,23 @@ def significant(value: Pure | None, digits: int = 4) -> str:
         return f"{value:.{digits - 1}e}"
     text = f"{value:.{digits}g}"
     return f"{float(text):.0f}" if "e" in text else text
+
+
+PAPER, INK = "#ffffff", "#1b2a41"
+BLUE, RED, GREEN, ORANGE, VIOLET = "#1f5fa8", "#b5342b", "#2a744a", "#866a00", "#7a4fa3"
+TEAL, PINK, GREY, QUIET = "#0f727d", "#ab2f7a", "#667080", "#5b6675"  # grey and quiet: lines and text that explain
+GRID = "#e3e6ea"
+SERIES = (BLUE, RED, GREEN, ORANGE, VIOLET, TEAL, PINK, INK)  # curves of one kind, in this order
+
+# what parts are filled with
+PISTON, CYLINDER, CRANK, GEAR, BEARING = "#a9c7e3", "#cdd3dc", "#d3c0a0", "#e2c46c", "#b2c3a6"
+CARRIER, SHAFT, WHEEL, GAS, ROLLER, NOTHING = "#e6dff0", "#bfb0d6", "#f1f3f6", "#d5e6f7", "#f3dcb8", "#eef0f3"
+_FILLED = {
+    PISTON: "#35597c", CYLINDER: "#46505d", CRANK: "#66563a", GEAR: "#7a6420", BEARING: "#4c5d41", CARRIER: "#4a4260",
+    SHAFT: "#5d4f78", WHEEL: "#222a33", GAS: "#233c56", ROLLER: "#6b5020", NOTHING: "#1d242c",
+}  # fmt: skip
+#: What a colour becomes on dark paper
+DARK = {
+    PAPER: "#14191f", INK: "#e6eaf0", BLUE: "#7db4f0", RED: "#f2877d", GREEN: "#6cc590", ORANGE: "#e3b341",
+    VIOLET: "#c3a0e8", TEAL: "#5cc6d0", PINK: "#ee8fc4", GREY: "#9aa5b3", QUIET: "#a9b3c0", GRID: "#2b333d", **_FILLED,
+}  # fmt: skip

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from mechsym.files import write_text
 from mechsym.style.live import CURVE, live_panels, number_curves
-from mechsym.style.palette import DARK, INK
+from mechsym.style.panels import DARK, INK
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

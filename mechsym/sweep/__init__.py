@@ -7,8 +7,7 @@ What runs is what the case is for: a driven machine is simulated (side by side i
 spring gets its hinge designed, an engine without one runs its cycle (as one map). A point that cannot be computed is a
 gap with a reason, not the end of the sweep.
 
-axes.py      what to run over: ranges, lists, distributions
-ties.py      values that follow from these
+axes.py      what to run over: ranges, lists, distributions, values that follow from these
 run.py       the points in chunks, from the store or computed
 work.py      chunks on processes; a worker that dies takes one point with it
 cluster.py   chunks on a dask cluster

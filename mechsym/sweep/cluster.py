@@ -24,10 +24,7 @@ _ALONE = threading.Lock()  # a worker with several threads computes with one
 def on_cluster(
     order: work.SweepOrder, chunks: Sequence[work.Chunk], address: str, asked: threading.Event
 ) -> Generator[work.Done, None, None]:
-    """Chunks on the workers of a scheduler, as they are finished.
-
-    Raises BadInput: Nobody answers at the address, or a worker runs another program.
-    """
+    """Chunks on workers of a scheduler as they finish. Raises BadInput: none answers, or runs another program."""
     client = _client(address)
     try:
         waiting, program = list(reversed(chunks)), store.program()

@@ -24,10 +24,7 @@ _SECTIONS = ("parameters", "chamber", "cycle", "gas", "heat_transfer", "friction
 
 
 def mapped(case: Case) -> bool:
-    """Whether the cycles of a case come as maps.
-
-    case: with section `[cycle]`. Returns mapped: False for cycles that are solved one by one.
-    """
+    """Whether the cycles of a case with `[cycle]` come as maps; False for those solved one by one."""
     return kind_of(case.need("cycle")).closed
 
 

@@ -33,18 +33,12 @@ def failures(result: Sweep) -> dict[int, str]:
 
 
 def columns(result: Sweep) -> dict[str, np.ndarray]:
-    """Results by name, one for each point.
-
-    Returns columns: not a number in a gap, an empty text for words [SI, or as the name says].
-    """
+    """Results by name over the points; not a number in a gap, empty for words [SI, or as the name says]."""
     return dict(result.by_name)
 
 
 def main_results(result: Sweep) -> dict[str, np.ndarray]:
-    """The few numbers that are looked at first: those asked for, or the main ones of the analysis.
-
-    Returns columns: those that there are [SI, or as the name says].
-    """
+    """The few numbers looked at first, asked for or the analysis' main ones [SI, or as the name says]."""
     found = columns(result)
     wanted = MAIN[result.analysis] if not result.show or "all" in result.show else result.show
     numbers = {n: found[n] for w in wanted for n in found if asked(n, w) and found[n].dtype.kind == "f"}

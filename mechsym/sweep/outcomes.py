@@ -38,10 +38,7 @@ def known(error: Exception) -> Gap:
 
 
 def guarded(one: Callable[[Any], Any], case: object) -> Any:
-    """What a function gives, or the gap that its error leaves.
-
-    one: callable, of the case, or of whatever stands for it.
-    """
+    """What a function of the case, or of what stands for it, gives, or the gap that its error leaves."""
     try:
         return one(case)
     except ARITHMETIC as error:

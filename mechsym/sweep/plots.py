@@ -9,10 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from mechsym.cycle.columns import WORDS
-from mechsym.quantities.display import without_unit
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import key_words, without_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
-from mechsym.style.palette import NOTHING
+from mechsym.style.panels import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
 from mechsym.sweep.sensitivity import indices
 
@@ -25,10 +24,7 @@ _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
 
 def picture(result: Sweep) -> Figure | None:
-    """The main results of a sweep, see `mechsym.sweep.main_results`.
-
-    Returns figure: None when there is nothing to draw: a single point, or gaps only.
-    """
+    """The main results of a sweep, see `mechsym.sweep.main_results`; None for a single point, or gaps only."""
     shown = _worth_drawing(result)
     if not shown or len(result.points) == 1:
         return None

@@ -33,7 +33,7 @@ READS = {
     "cycle": ("mechsym.cycle.closed.run", "mechsym.jobs.cycle", *_SCIPY),
     "forces": ("mechsym.forces.summary", "mechsym.jobs.forces", *_SCIPY),
     "size": ("mechsym.jobs.size", *_SCIPY),
-    "codesign": ("mechsym.codesign.summary", "mechsym.jobs.codesign", *_SCIPY),
+    "codesign": ("mechsym.codesign.result", "mechsym.jobs.codesign", *_SCIPY),
 }
 # what one point takes, roughly [s]
 _SINGLES = {"forces": (singles.forces, 0.5), "size": (singles.size, 2.0), "codesign": (singles.codesign, 10.0)}
@@ -157,7 +157,7 @@ def _verdict(case: Case, problem: "Problem", result: "Result") -> Outcome:
 
 
 def _told(case: Case, result: "Result", numbers: "RunNumbers") -> Outcome:
-    from mechsym.sweep.swept_run import swept
+    from mechsym.sweep.singles import swept
 
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")

@@ -18,10 +18,9 @@ from mechsym.quantities import record
 from mechsym.quantities.ranges import MOST
 from mechsym.quantities.units import Second
 from mechsym.sweep import cluster, store, work
-from mechsym.sweep.axes import Axis, Value, override, parse_axis, points, saltelli, split
+from mechsym.sweep.axes import Axis, Ties, Value, override, parse_axis, points, saltelli, split, ties
 from mechsym.sweep.outcomes import WORDS, Gap, Outcome, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
-from mechsym.sweep.ties import Ties, ties
 
 Progress = Callable[[int], object]
 INTERRUPTED = Gap(reason="interrupted")
@@ -112,10 +111,7 @@ class Layout:
 
 
 def layout(plan: Plan) -> Layout:
-    """The points of a plan, every key and unit checked against the case.
-
-    Raises BadInput: an axis is wrong, or a value is named twice.
-    """
+    """The points of a plan, keys and units checked. Raises BadInput: an axis is wrong, or a value named twice."""
     taken = {}
     for key in plan.overrides:
         found = cases.locate(plan.case, key, plan.overrides)

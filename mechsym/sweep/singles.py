@@ -1,4 +1,4 @@
-"""What the other commands say of one case, as numbers by name: forces, size, codesign."""
+"""What a run, and the commands forces, size and codesign, say of one case, as numbers by name."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -9,6 +9,14 @@ from mechsym.quantities.results import Columns, names_of, some
 
 if TYPE_CHECKING:
     from mechsym.forces.summary import ForceNumbers
+from collections.abc import Mapping
+
+from mechsym.mechanisms.shaft import ElasticShaft
+from mechsym.quantities import results
+from mechsym.quantities.results import part, units_of
+from mechsym.simulate import Result
+from mechsym.simulate.result import RunNumbers
+from mechsym.torsion.twist import ShaftSection, sections
 
 
 def forces(case: Case) -> "ForceNumbers":
@@ -38,7 +46,7 @@ def size(case: Case) -> Json:
 
 def codesign(case: Case) -> Columns:
     """Figures of `mechsym codesign`; of a list over speeds and loads the smallest and the largest value."""
-    from mechsym.codesign.summary import CoDesignNumbers, numbers_of
+    from mechsym.codesign.result import CoDesignNumbers, numbers_of
     from mechsym.jobs.codesign import codesign as design
     from mechsym.jobs.codesign import settings_of
 
@@ -51,3 +59,26 @@ def _ends(value: object, unit: str) -> object:
     if len(numbers) < 2 or isinstance(value, str):
         return value
     return Columns({"min": min(numbers), "max": max(numbers)}, {"min": unit, "max": unit})
+
+
+_PEAKS = ("twist_peak", "torque_peak")
+
+
+@results.result
+class SweptRun:
+    """A run at a point of a sweep."""
+
+    numbers: RunNumbers = part(inline=True)
+    peaks: Columns = part(inline=True)  #: Largest of all sections of an elastic shaft
+    twist: Mapping[str, ShaftSection] = part()
+
+
+def swept(shaft: ElasticShaft | None, result: Result, numbers: RunNumbers) -> SweptRun:
+    """A finished run with its numbers and the twist of its shaft."""
+    twists = () if shaft is None else sections(shaft, result, result.t[-1] - numbers.window)
+    peaks = {name: max(getattr(section, name) for section in twists) for name in (_PEAKS if twists else ())}
+    return SweptRun(
+        numbers=numbers,
+        peaks=Columns(peaks, units_of(ShaftSection)),
+        twist={section.section: section for section in twists},
+    )

@@ -24,10 +24,9 @@ from multiprocessing.process import BaseProcess
 from mechsym import cases, inputs
 from mechsym.errors import BadInput
 from mechsym.quantities import record
-from mechsym.sweep.axes import Value
+from mechsym.sweep.axes import Value, ties
 from mechsym.sweep.outcomes import Gap, Outcome, flat, known
 from mechsym.sweep.points import READS, Route, route
-from mechsym.sweep.ties import ties
 
 Here = Mapping[str, Value]  # values of the axes at a point, as `--set` takes them
 _PAUSE = 0.2  # between two looks at a request to end [s]

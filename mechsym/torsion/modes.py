@@ -68,10 +68,7 @@ class Critical:
 
 
 def matrices(mechanism: Mechanism) -> Matrices:
-    """Linear model of a mechanism whose coordinates turn together.
-
-    mechanism: all coordinates are angles that advance alike.
-    """
+    """Linear model of a mechanism all of whose coordinates are angles that advance alike."""
     if "energy" not in mechanism.functions:
         raise BadInput(f"{mechanism.name} has no energies; use the derived mechanism for torsional analysis")
     n = len(mechanism.coordinates)

@@ -1,14 +1,27 @@
-"""What of a run in time, and of a start-up in it, is worth seeing."""
+"""What of a run in time, and of a start-up in it, is worth seeing, and what has to be known first."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import cycle
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from mechsym.page import Card, Picture, View, card, shows
+from mechsym.page.finding import LOOK_AT, NOT_MET, Finding
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 from mechsym.quantities.results import Columns
+from mechsym.quantities.units import RadPerSecond
+from mechsym.simulate import Result
+from mechsym.simulate.result import period_means
 from mechsym.simulate.speed import Speed
-from mechsym.torsion import plots
-from mechsym.torsion.findings import drift, of_run
-from mechsym.torsion.finished import FinishedRun
-from mechsym.torsion.startup import StartUp
-from mechsym.torsion.twist import ShaftSection, section_words
+from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
+from mechsym.torsion.startup import FinishedRun, StartUp
+from mechsym.torsion.train import TrainVibration, critical_words
+from mechsym.torsion.twist import ShaftSection, pairs, section_words
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _ENDS = {"turns": "all turns", "t_end": "to its end", "stall": "the shaft stops"}
 
@@ -32,9 +45,9 @@ def startup_view(start: StartUp) -> View:
     )
     drawn = (
         Picture(name="startup", see="Mean speed and twist over time, beside a rigid shaft.",
-                draw=lambda: plots.start_up([start], start.claim.claim_speed)),
+                draw=lambda: start_up([start], start.claim.claim_speed)),
         Picture(name="campbell", see="Where an order meets the natural frequency the shaft may be held.",
-                draw=lambda: plots.campbell(start)),
+                draw=lambda: campbell(start)),
     )  # fmt: skip
     return View(title="Start-up", cards=cards, pictures=drawn, columns=lambda: _columns(start))
 
@@ -86,10 +99,136 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
             result, engine.coordinate, engine.period, engine.wanted, engine.words)))  # fmt: skip
     if run.twist:
         see = "Twist of each shaft section: the peak decides on the shaft."
-        found.append(Picture(name="twist", see=see, draw=lambda: plots.twist(result, len(run.twist))))
+        found.append(Picture(name="twist", see=see, draw=lambda: twist(result, len(run.twist))))
     if starts:
         see = "Where an order of the drive meets a natural frequency the start-up may be held."
-        found.append(Picture(name="campbell", see=see, draw=lambda: plots.campbell(starts[0])))
+        found.append(Picture(name="campbell", see=see, draw=lambda: campbell(starts[0])))
         see = "The start-up with its dampers: held below a critical speed, or through it."
-        found.append(Picture(name="startup", see=see, draw=lambda: plots.start_up(starts, starts[0].claim.claim_speed)))
+        found.append(Picture(name="startup", see=see, draw=lambda: start_up(starts, starts[0].claim.claim_speed)))
     return tuple(found)
+
+
+NEAR = 0.1  #: A critical speed so close to the speed of operation is told before any figure [-]
+ON = 0.02  #: One so close to it is run at [-]
+DRIFT = 1e-4  #: Change of the mean speed from one period to the next beyond which a run has not settled [-]
+_PLANNED = ("turns", "t_end")
+
+
+def criticals(train: TrainVibration | None) -> Iterator[Finding]:
+    """Orders critical near the speed of operation; one at it, or beyond the rigid shaft's torque, is not met."""
+    for one in train.criticals if train else ():
+        if abs(one.away) <= NEAR:
+            worse = abs(one.away) <= ON or (train is not None and one.torque > train.torque_rigid)
+            yield Finding(rank=NOT_MET if worse else LOOK_AT, words=critical_words(one), value=one.away)
+
+
+def drift(run: FinishedRun) -> Finding | None:
+    """A run of an engine whose mean speed has not settled, or that is too short to tell."""
+    if run.engine is None or run.result.end not in _PLANNED:
+        return None
+    means = period_means(run.result, run.engine.coordinate, run.engine.period)
+    if len(means) < 3:
+        return Finding(rank=LOOK_AT, words="the run is too short to have settled: its ripple is a transient's")
+    last = float(means[-1] / means[-2] - 1)
+    if abs(last) <= DRIFT:
+        return None
+    ends = " to ".join(quantity_text(float(speed), "rad/s", 5) for speed in (means[0], means[-1]))
+    way = "rises" if last > 0 else "falls"
+    words = f"the run has not settled: its mean speed still {way}, {ends}, and its ripple is a transient's"
+    return Finding(rank=LOOK_AT, words=words, value=last)
+
+
+def of_run(run: FinishedRun) -> Iterator[Finding]:
+    """What of a run in time has to be known first."""
+    if run.result.status in ("failed", "not converged", "chaotic"):
+        yield Finding(rank=NOT_MET, words=run.summary.reason or f"the run is {run.result.status}")
+    if run.result.end == "stall":
+        yield Finding(rank=NOT_MET, words="the shaft stops", value=float(run.result.t[-1]), unit="s")
+    yield from criticals(run.vibration)
+    if settling := drift(run):
+        yield settling
+
+
+_MOST_ORDERS = 4
+
+
+def campbell(start: StartUp) -> "Figure":
+    """Natural frequency and orders of excitation over the speed; dots mark critical speeds that held the shaft."""
+    figure, (axes,) = panels(7.5, 4.8, title="Orders of excitation and natural frequency over the crank speed")
+    factor, unit = axis_unit("rad/s", start.natural)
+    top = 1.1 * max(c.speed for c in start.criticals)
+    shown = [c for c in start.criticals if c.order <= _MOST_ORDERS]
+    natural, held = start.natural * factor, {c.critical.order for c in start.captures}
+    high = 1.45 * natural
+    axes.axhline(natural, color=INK, lw=1.5, label=f"natural frequency {natural:.4g} {unit}")
+    ends = [min(top, 1.3 * c.speed) for c in shown]
+    heights = spread([min(c.order * e * factor / high, 1.0) for c, e in zip(shown, ends, strict=True)], 0.06, 0.0, 1.0)
+    for critical, end, height in zip(shown, ends, heights, strict=True):
+        speed = critical.speed * factor
+        axes.plot([0, end * factor], [0, critical.order * end * factor], color=GREY, lw=1.0)
+        words, at = f"order {critical.order:g}: {speed:.4g} {unit}", (end * factor, critical.order * end * factor)
+        axes.annotate(words, at, (1.02, height), textcoords="axes fraction", va="center", fontsize=8, color=INK,
+                      arrowprops={"arrowstyle": "-", "color": GREY, "lw": 0.5})  # fmt: skip
+        color = RED if critical.order in held else PAPER
+        axes.plot(speed, natural, "o", mec=INK, mfc=color, ms=7)
+    axes.set(
+        xlim=(0, 1.08 * top * factor), ylim=(0, high), xlabel=f"crank speed [{unit}]", ylabel=f"frequency [{unit}]"
+    )
+    for color, words in ((PAPER, "critical speed"), (RED, "critical speed that held the shaft")):
+        axes.plot([], [], "o", mec=INK, mfc=color, ms=7, label=words)
+    legend(axes)
+    return figure
+
+
+def start_up(runs: Sequence[StartUp], claim_speed: RadPerSecond | None = None) -> "Figure":
+    """Mean speed and twist of start-ups with several dampers, and the rigid shaft. claim_speed: the source's."""
+    figure, (speed, twist) = panels(7.5, 6.5, 2, 1, "Start-up: mean speed and twist over time", sharex=True)
+    first = runs[0]
+    factor, unit = axis_unit("rad/s", first.natural)
+    angle, angle_unit = axis_unit("rad", 1.0)
+    onset, end = first.drive.time, float(first.result.t[-1])
+    speed.plot([onset, end], [0, first.rigid_rate * (end - onset) * factor], "--", color=GREY, label="rigid shaft")
+    for run, color in zip(runs, SERIES[1:], strict=False):
+        speed.plot(run.t, run.speed_mean * factor, color=color, lw=1.6, label=f"c1 = {run.c1:g} N m s/rad")
+        twist.semilogy(run.t, np.maximum(run.twist_amplitude, 1e-5) * angle, color=color, lw=1.2)
+    marks = {f"order {c.order:g}": c.speed * factor for c in first.criticals if c.order <= _MOST_ORDERS}
+    if claim_speed is not None:
+        marks["printed"] = claim_speed * factor
+        speed.set_ylim(top=1.12 * claim_speed * factor)
+    _levels(speed, marks)
+    speed.set(ylabel=f"mean crank speed [{unit}]")
+    legend(speed)
+    twist.set(xlabel="time [s]", ylabel=f"twist amplitude [{angle_unit}]")
+    return figure
+
+
+def _levels(axis: "Axes", marks: Mapping[str, float]) -> None:
+    """Lines across a panel with their names at its right."""
+    low, high = axis.get_ylim()
+    shown = {name: at for name, at in marks.items() if low <= at <= high}
+    places = spread([(at - low) / (high - low) for at in shown.values()], 0.07, 0.0, 1.0)
+    for (name, at), place in zip(shown.items(), places, strict=True):
+        axis.axhline(at, color=GREY, lw=0.7, ls=":")
+        axis.text(1.01, place, name, transform=axis.transAxes, va="center", color=INK, fontsize=8)
+
+
+def twist(result: Result, shafts: int) -> "Figure":
+    """Speed of the ends of an elastic shaft, twist of its sections over time, and the last two turns."""
+    name = "Speed of both ends of the shaft and its twist, over time and in the last two turns"
+    figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
+    ends_of = pairs(result, shafts)
+    ends = {"free end": result.columns[f"{ends_of[0][0]}d"], "flywheel": result.columns[f"{ends_of[-1][1]}d"]}
+    twists = {section_words(k, len(ends_of)): result.columns[a] - result.columns[b] for k, (a, b) in enumerate(ends_of)}
+    last = result.columns[ends_of[0][0]] >= result.columns[ends_of[0][0]][-1] - 4 * np.pi
+    for row, (curves, si, label) in enumerate(((ends, "rad/s", "speed"), (twists, "rad", "twist"))):
+        whole, zoomed = axes[2 * row : 2 * row + 2]
+        factor, unit = axis_unit(si, *curves.values())
+        for (curve, values), color in zip(curves.items(), cycle(SERIES[1:]), strict=False):
+            envelope(whole, result.t, values * factor, color, curve)
+            zoomed.plot(result.t[last], values[last] * factor, color=color, lw=0.9)
+        whole.set(ylabel=f"{label} [{unit}]")
+        legend(whole, width=5.0)
+    for axis in axes[2:]:
+        axis.set(xlabel="time [s]")
+    heading(axes[1], "last two turns")
+    return figure

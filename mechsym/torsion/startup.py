@@ -17,15 +17,18 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.mechanisms.shaft import elastic as shaft_of
 from mechsym.page import Shown
-from mechsym.quantities import quantity, record
+from mechsym.plausible import Doubt
+from mechsym.quantities import record
 from mechsym.quantities.display import figure, quantity_text
 from mechsym.quantities.records import Record
-from mechsym.quantities.results import part, result
+from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.simulate import Result
+from mechsym.simulate.result import RunNumbers
 from mechsym.simulate.settings import StepTorque
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.modes import Critical
-from mechsym.torsion.twist import pairs, sections
+from mechsym.torsion.train import TrainVibration
+from mechsym.torsion.twist import Settling, ShaftSection, pairs, sections
 
 _BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
 _LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would
@@ -81,10 +84,7 @@ class StartUp(Shown):
 
 
 def start_up(mechanism: str, parameters: Record, drive: StepTorque, claim: StartUpClaim, result: Result) -> StartUp:
-    """Explain the finished run of a start-up.
-
-    mechanism: its name; of its shaft two discs are declared, with a letter for the damping between them.
-    """
+    """Explain a finished start-up. mechanism: declares two discs, with a letter for the damping between them."""
     (role,) = mechanisms.roles_of(mechanism).shafts
 
     def linear_with(**letters: float) -> torsion.Matrices:
@@ -305,3 +305,40 @@ def _claim(start: StartUp) -> list[str]:
             f"{_speed(start.speed_max)} in the whole run"
         )
     return [line]
+
+
+@record
+class EngineSpeed:
+    """What an engine's speed is looked at by."""
+
+    coordinate: str  #: Its shaft
+    words: str  #: Its name for people, empty where there is one shaft only
+    period: float  #: A turn, or two of a four-stroke engine [rad]
+    wanted: float  #: Speed of operation [rad/s]
+
+
+@result
+class FinishedRun(Shown):
+    """A finished run and what is said of it."""
+
+    case: str = part()
+    backend: str = part()
+    tolerance: float = quantity("-")  #: Of a step of the integrator
+    summary: RunNumbers = part(inline=True)
+    final_state: Columns = part()  #: Coordinates and velocities at the end, under the names of `[start]`
+    natural_frequencies: tuple[float, ...] = quantity("rad/s")  #: Of an elastic shaft
+    twist: tuple[ShaftSection, ...] = part()
+    vibration: TrainVibration | None = part()  #: Criticals of a crank train
+    findings: tuple[str, ...] = part()
+    start_up: tuple[StartUpNumbers, ...] = part()  #: That of the run first, then one for each further damper
+    settling: Settling | None = part()  #: Where an engine settles after a start against a load
+    result: Result  # its columns
+    start_ups: tuple[StartUp, ...]
+    engine: EngineSpeed | None  # of an engine
+    doubts: tuple[Doubt, ...] = part(default=())  #: Of gas and window, that no number of the summary tells
+
+    @property
+    def speed(self) -> Columns:
+        """Mean, least and greatest speed at the end, of the engine's shaft or of the first coordinate [its unit]."""
+        speeds = self.summary.speeds
+        return speeds[self.engine.coordinate if self.engine else next(iter(speeds))]

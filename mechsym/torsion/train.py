@@ -109,10 +109,7 @@ def vibration(
 def operating_range(
     omega: RadPerSecond, start: RadPerSecond | None, named: tuple[RadPerSecond, RadPerSecond] | None
 ) -> tuple[float, float, float]:
-    """Speed of operation with its range: as named, else a fifth either way, from the start of the run on [rad/s].
-
-    named: lowest and highest speed.
-    """
+    """Speed of operation with its range [rad/s]: as named, lowest and highest, else a fifth either way."""
     if named is not None:
         return omega, *named
     low = (1 - _RANGE) * omega

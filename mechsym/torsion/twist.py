@@ -36,10 +36,7 @@ class ShaftSection:
 
 
 def sections(shaft: ElasticShaft, result: Result, since: Second) -> tuple[ShaftSection, ...]:
-    """Twist of every section of the shaft in a run.
-
-    since: where the window begins. Returns sections: from the free end to the flywheel.
-    """
+    """Twist of the shaft's sections in a run, free end to flywheel. since: where the window begins."""
     return tuple(
         _section(result, pair, k, c, result.t >= since)
         for pair, k, c in zip(pairs(result, len(shaft.k)), shaft.k, shaft.c, strict=True)
@@ -47,10 +44,7 @@ def sections(shaft: ElasticShaft, result: Result, since: Second) -> tuple[ShaftS
 
 
 def pairs(result: Result, count: int) -> list[tuple[str, str]]:
-    """The coordinates at the ends of each section.
-
-    result: a run, whose first columns are the coordinates. Returns pairs: from the free end to the flywheel.
-    """
+    """Coordinates at the ends of each section from the free end on. result: its first columns are coordinates."""
     names = list(result.columns)[: count + 1]
     return list(zip(names, names[1:], strict=False))
 
@@ -86,10 +80,7 @@ def _mean(t: np.ndarray, values: np.ndarray) -> float:
 
 
 def natural_frequencies(mechanism: str, parameters: Record) -> tuple[RadPerSecond, ...]:
-    """Natural frequencies of a shaft, with the mean reciprocating inertia.
-
-    Returns frequencies: ascending, without that of turning as a whole; none for a rigid shaft.
-    """
+    """Natural frequencies with the mean reciprocating inertia, without turning as a whole; none if rigid."""
     if elastic(mechanism, parameters) is None:
         return ()
     linear = matrices(mechanism, parameters)

@@ -53,6 +53,7 @@ BAD = [
     ((*X, "--letters", "R=r, R=l"), "two meanings"),
     ((*X, "--assume", "phid = 0, phid = 5"), "assumed already"),
     ((*X, "--assume", "r > l"), "no values of the letters keep it"),
+    ((*X, "--assume", "r = -1"), "lies between 0 and inf"),
     ((*X, "--assume", "l < r/2, l > r"), "contradicts itself"),
     ((*X, "--claim", "within 1"), "is 100 %"),
     (("--against", "crosshead.x"), "belong to --formula"),
@@ -79,7 +80,8 @@ def test_what_is_not_read_is_told(run, option, idle):
 
 @pytest.mark.parametrize("assume", ["r < l", "l > 2*r, l < 9*r", "r < l/3", "phid = 0, phidd = 0"])
 def test_assumptions_that_machines_keep_are_taken(run, assume):
-    assert run(*X, "--assume", assume, "--claim", "within 99 %", "--json").returncode == 0
+    done = run(*X, "--assume", assume, "--claim", "within 99 %", "--json")
+    assert done.returncode == 0 and "not read" not in json.loads(done.stdout)["note"]
 
 
 def test_file_of_formulas(run, tmp_path):

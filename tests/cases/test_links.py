@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from mechsym import cases
+from mechsym.cases.laws import by_links
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 #: case, letter, value: code of the doubt
@@ -119,3 +120,43 @@ def test_a_force_that_no_bar_of_the_links_mass_holds_is_told(tmp_path, force, to
 @pytest.mark.parametrize(("mass", "told"), [(0.12, False), (80.0, True)])
 def test_pistons_without_links_are_held_against_the_letters_of_their_mechanism(mass, told):
     assert ("link_density" in doubts("swash-plate", {"parameters.m_p": mass})) == told
+
+
+ARM = {"name": "arm", "mass": "m", "inertia": "I", "centre": ["l/2", "0"], "points": [["0", "0"], ["l", "0"]],
+       "pivot": ["0", "0"], "turns": "q"}  # fmt: skip
+ROD = {"name": "rod", "mass": "0", "inertia": "0", "centre": ["0", "0"], "points": [["0", "0"], ["L", "0"]],
+       "pivot": None, "turns": ""}  # fmt: skip
+SIZES = {"m": 4.0, "I": 0.05, "l": 0.35, "L": 0.3}
+SECTION = 4.0 / 7850 / 0.35  # of a bar of steel of that mass and length [m^2]
+
+
+@pytest.mark.parametrize(
+    ("values", "changes", "torque", "code"),
+    [
+        ({}, {}, 0.0, None),
+        ({"I": 9.0 * 4 * 0.35**2}, {}, 0.0, None),  # with a motor behind its gear
+        ({"I": 11.0 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
+        ({"I": 1.1e-5 * 4 * 0.35**2}, {}, 0.0, None),  # its mass at one end
+        ({"I": 0.9e-5 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
+        ({"I": 4 * 0.1**2 / 2, "l": 0.02, "L": 0.1}, {}, 0.0, None),  # a disc with a crank pin
+        ({"I": 50.0}, {"centre": ["0", "0"]}, 0.0, None),  # balanced: a wheel
+        ({"l": 0.05}, {}, 0.0, None),  # a crank whose webs are wider than its throw
+        ({"l": 0.05, "L": 0.07}, {}, 0.0, "link_density"),
+        ({}, {}, 0.9 * 5e8 * SECTION**1.5 / 6, None),
+        ({}, {}, 1.1 * 5e8 * SECTION**1.5 / 6, "link_stress"),
+        ({"I": 0.9e-5 * 4 * 0.35**2}, {"points": [["0", "0"]]}, 0.0, "link_needle"),
+        ({"I": 1.1e-5 * 4 * 0.35**2}, {"points": [["0", "0"]]}, 0.0, None),
+        ({"I": 50.0}, {"points": [["0", "0"]]}, 0.0, None),  # a disc beside its axis
+    ],
+)
+def test_a_link_that_its_drive_turns_is_held_against_its_bar(values, changes, torque, code):
+    listing = {"links": [ARM | changes, ROD], "parameters": {"m": "kg", "I": "kg*m^2", "l": "m", "L": "m"},
+               "coordinates": {"q": "rad"}, "inputs": {"M": "N*m"}}  # fmt: skip
+    assert [d.code for d in by_links(listing, SIZES | values, {"M": -torque}, {"q": 10.0})] == ([code] if code else [])
+
+
+def test_a_rotor_carries_its_flywheel():
+    listing = {"links": [ARM], "parameters": {}, "coordinates": {"q": "rad"}, "inputs": {}}
+    heavy = SIZES | {"I": 50.0}
+    assert [d.code for d in by_links(listing, heavy, {}, {})] == ["link_needle"]
+    assert by_links(listing | {"roles": {"rotor": [{"name": "arm", "angle": "q"}]}}, heavy, {}, {}) == ()

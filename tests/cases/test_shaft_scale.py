@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from mechsym.cases.scales import by_shaft
+from mechsym.cases.doubts import by_shaft
 from mechsym.mechanisms.shaft import ElasticShaft
 
 

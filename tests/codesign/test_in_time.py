@@ -5,7 +5,7 @@ import pytest
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign import in_time
+from mechsym.codesign import running
 from mechsym.codesign.hardware import Hardware, roller_inertia
 from mechsym.hinge.springs.air import AirAbsolute
 
@@ -21,10 +21,10 @@ def turning(load=(0.0, 0.0, 1.0), speed=12.0, turns=1.5, **changes):
     given = {
         "laws": (AirAbsolute,),
         "tables": (nothing, nothing, inertia, inertia.derivative(), z, z.derivative(), z.derivative(2)),
-        "held": (100.0, *load, *in_time.of_track(HARDWARE, 3e5)), "kinks": np.array([1.0]), "period": period,
+        "held": (100.0, *load, *running.of_track(HARDWARE, 3e5)), "kinks": np.array([1.0]), "period": period,
         "start": (0.0, speed), "turned": turns * period, "stalled": 1.0, "longest": 100.0,
     }  # fmt: skip
-    return in_time.Turning(**given | changes)
+    return running.Turning(**given | changes)
 
 
 def energy(machine, phi, omega):
@@ -34,7 +34,7 @@ def energy(machine, phi, omega):
     return inertia * omega**2 / 2 + h.charged(3e5).energy(z)
 
 
-@pytest.mark.parametrize("integrator", [in_time._compiled, in_time._by_scipy])
+@pytest.mark.parametrize("integrator", [running._compiled, running._by_scipy])
 def test_a_machine_without_losses_keeps_its_energy(integrator):
     machine = turning()
     t, (phi, omega, gained, taken), stalled = integrator(machine, 50)
@@ -47,7 +47,7 @@ def test_a_machine_without_losses_keeps_its_energy(integrator):
 @pytest.mark.parametrize("load", [(300.0, 0.0, 1.0), (0.0, 300.0, 12.0)])
 def test_a_load_takes_its_work_and_both_integrators_agree(load):
     machine = turning(load)
-    (t, y, _), (t_other, other, _) = in_time._compiled(machine, 30), in_time._by_scipy(machine, 30)
+    (t, y, _), (t_other, other, _) = running._compiled(machine, 30), running._by_scipy(machine, 30)
     assert t[-1] == pytest.approx(t_other[-1], rel=1e-9)
     np.testing.assert_allclose(y[:2], other[:2], rtol=1e-8)
     np.testing.assert_allclose(energy(machine, *y[:2]) + y[3] - y[2], energy(machine, 0.0, 12.0), rtol=1e-8)
@@ -57,14 +57,14 @@ def test_a_load_takes_its_work_and_both_integrators_agree(load):
 
 def test_a_machine_that_is_braked_stalls_and_without_a_compiler_too(monkeypatch):
     machine = turning((4e4, 0.0, 1.0))
-    _, y, stalled = in_time.turn(machine, 20)
+    _, y, stalled = running.turn(machine, 20)
     assert stalled and y[1, -1] == pytest.approx(1.0, rel=1e-9)
 
     def no_compiler(*_):
-        raise in_time.NoCompiler("none here")
+        raise running.NoCompiler("none here")
 
-    monkeypatch.setattr(in_time, "integrate", no_compiler)
-    _, other, stalled = in_time.turn(machine, 20)
+    monkeypatch.setattr(running, "integrate", no_compiler)
+    _, other, stalled = running.turn(machine, 20)
     assert stalled
     np.testing.assert_allclose(other, y, rtol=1e-7, atol=1e-6)
 
@@ -72,7 +72,7 @@ def test_a_machine_that_is_braked_stalls_and_without_a_compiler_too(monkeypatch)
 def test_what_is_read_of_a_motion_reaches_its_end():
     for speed in np.linspace(8.0, 16.0, 9):
         machine = turning(speed=speed)
-        t, y, _ = in_time._compiled(machine, 90)
-        phi, omega = in_time.at_times(machine, t)
+        t, y, _ = running._compiled(machine, 90)
+        phi, omega = running.at_times(machine, t)
         assert phi.shape == omega.shape == (1, 90)
         np.testing.assert_allclose([phi[0, -1], omega[0, -1]], y[:2, -1], rtol=1e-12)

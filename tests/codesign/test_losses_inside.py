@@ -9,13 +9,11 @@ from codesigns import design, task
 from hinges import small_stroke_index
 
 from mechsym.codesign import running
-from mechsym.codesign.control import hold
-from mechsym.codesign.loss import gas_turn, losses, machine_at, real
+from mechsym.codesign.loss import gas_turn, in_time, losses, machine_at, real, with_losses
+from mechsym.codesign.manoeuvres import hold
 from mechsym.codesign.programme import solve
-from mechsym.codesign.real import in_time, with_losses
 from mechsym.codesign.running import ripple_of_last_turn
-from mechsym.codesign.uncertainty import worst
-from mechsym.codesign.verify import verify
+from mechsym.codesign.verify import verify, worst
 from mechsym.hinge.losses import HingeLosses
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from codesigns import design
 
-from mechsym.codesign import changes, manoeuvres, running
+from mechsym.codesign import manoeuvres, running, scenarios
 
 
 def machine(k=2):
@@ -65,7 +65,7 @@ def test_a_stopped_shaft_rests_where_it_is_pushed_to():
 
 @pytest.mark.slow
 def test_what_else_happens_is_told():
-    found = {row.name: row for row in changes.rows(design(), 5)}
+    found = {row.name: row for row in scenarios.rows(design(), 5)}
     assert set(found) == {"leak", "controller", "start", "stop"}
     assert "turns more, stands at" in found["stop"].outcome and found["stop"].run.stalled
     assert found["start"].speed_max > 0 and not found["start"].run.stalled

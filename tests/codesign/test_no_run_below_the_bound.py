@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mechsym import cases
-from mechsym.codesign.floor import floor
+from mechsym.codesign.certificate import floor
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import rank
 from mechsym.codesign.verify import verify

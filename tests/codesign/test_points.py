@@ -7,7 +7,7 @@ import pytest
 from codesigns import bound, cut, task
 
 from mechsym.codesign.basis import basis, curve, fitted, matrices
-from mechsym.codesign.family import scavenge_pressure
+from mechsym.codesign.machines import scavenge_pressure
 from mechsym.codesign.points import bare_flywheel, bare_ripple, grid, sample
 from mechsym.codesign.rank import flywheel_estimate, rank
 from mechsym.errors import BadInput

@@ -10,7 +10,7 @@ from mechsym.codesign.front import cut_for_one
 from mechsym.codesign.points import bare_flywheel, sample
 from mechsym.codesign.programme import solve
 from mechsym.codesign.rank import flywheel_estimate, rank
-from mechsym.codesign.start import middle
+from mechsym.codesign.unknowns import middle
 from mechsym.codesign.verify import verify
 
 

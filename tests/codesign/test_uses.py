@@ -9,18 +9,15 @@ from hinges import monotone_seal_torque
 
 from mechsym import cases
 from mechsym.codesign import running, scenarios
-from mechsym.codesign.control import hold
-from mechsym.codesign.cylinders import even_firing, together
-from mechsym.codesign.family import places
-from mechsym.codesign.loss import gas_turn, losses
-from mechsym.codesign.machines import from_curve
+from mechsym.codesign.front import ripple_map
+from mechsym.codesign.loss import gas_turn, losses, with_losses
+from mechsym.codesign.machines import from_curve, places
+from mechsym.codesign.manoeuvres import hold
 from mechsym.codesign.points import bare_flywheel
-from mechsym.codesign.rank import rank
-from mechsym.codesign.real import with_losses
+from mechsym.codesign.rank import even_firing, rank, together
 from mechsym.codesign.realise import realise
-from mechsym.codesign.schedule import ripple_map
-from mechsym.codesign.uncertainty import worst
-from mechsym.cycle.unfired import unfired
+from mechsym.codesign.verify import worst
+from mechsym.cycle.gas import unfired
 from mechsym.errors import BadInput
 from mechsym.hinge.losses import HingeLosses
 from mechsym.jobs.codesign import points as points_of

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from mechsym.cycle.brake import brake_figures, mechanical_efficiency
 from mechsym.cycle.chamber import ChamberParameters
+from mechsym.cycle.friction import brake_figures, mechanical_efficiency
 from mechsym.errors import BadInput
 
 WORK, VOLUME, ANGLE, OMEGA = 500.0, 5e-4, 4 * math.pi, 400.0  # J, m^3, rad, rad/s

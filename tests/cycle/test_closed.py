@@ -14,7 +14,7 @@ from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.closed.phases import closed_function, closed_map
 from mechsym.cycle.closed.run import dense, run
 from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Woschni
-from mechsym.cycle.kinds.ideal import otto_efficiency
+from mechsym.cycle.kinds.spark_ignition import otto_efficiency
 from mechsym.cycle.mixture import NasaMixture
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine

@@ -4,8 +4,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from mechsym.cycle.chamber import volume
-from mechsym.cycle.dead_centres import chamber_over
+from mechsym.cycle.chamber import chamber_over, volume
 from mechsym.cycle.kinds import gas_in_cylinder
 from mechsym.cycle.kinds.compressor import CompressorCycle, valves
 from mechsym.errors import BadInput

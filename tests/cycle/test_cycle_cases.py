@@ -7,9 +7,9 @@ import pytest
 from click.testing import CliRunner
 
 from mechsym.cases import load
+from mechsym.cli.common import parse_speeds
 from mechsym.cli.compare import compare
 from mechsym.cli.cycle import cycle
-from mechsym.cli.speeds import parse_speeds
 from mechsym.cycle.closed.model import at_design, design_names
 from mechsym.cycle.compare import crossovers
 from mechsym.cycle.engine import curves, over_speeds

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from slider_crank import slider_crank
 
-from mechsym.cycle.chamber import dvolume_dphi, travel, volume
-from mechsym.cycle.dead_centres import chamber_over
-from mechsym.cycle.pressure import periodic, wrapped
+from mechsym.cycle.chamber import chamber_over, dvolume_dphi, travel, volume
+from mechsym.cycle.gas import periodic, wrapped
 from mechsym.errors import BadInput
 from mechsym.mechanisms import crosshead
 

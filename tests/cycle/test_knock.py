@@ -13,6 +13,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.cycle.closed.differentiable import design_function
 from mechsym.cycle.closed.model import closed_period
+from mechsym.cycle.closed.phases import steps_of
 from mechsym.cycle.closed.run import at_angles, run
 from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, knock_along, knock_of_runs, share_of_delay
 from mechsym.cycle.mixture import ConstantGamma
@@ -175,3 +176,14 @@ def test_limits_of_the_user_are_doubts_and_constraints(tmp_path):
 def test_limits_that_are_none_are_refused(value):
     done = CliRunner().invoke(mechsym, ["cycle", "nunes-hypocycloid", "--set", f"gas_limits.peak_pressure={value}"])
     assert done.exit_code != 0 and "Traceback" not in done.output
+
+
+def test_the_end_gas_starts_where_combustion_does():
+    """At one pressure it keeps the temperature of the last node before, however hot what burns is."""
+    steps, p, T, octane = 60, 40 * ATM, 850.0, 95.0
+    first = steps_of("before", steps) + 1
+    nodes = {"p": np.full((1, steps + 3), p), "t": np.where(np.arange(steps + 3) < first, T, 2500.0)[None, :]}
+    angles = {"closes": np.array([-2.1]), "starts": np.array([-0.3]), "ends": np.array([0.6])}
+    gas = ConstantGamma(gas_constant=287.0, gamma=1.35)
+    share = knock_of_runs({**nodes, **angles, "omega": np.array([OMEGA])}, gas, np.array([octane]))
+    assert share[0] == pytest.approx(2.7 / (OMEGA * ignition_delay(p, T, octane)), rel=1e-9)

@@ -14,8 +14,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.cycle.breathing.marine import scavenge
 from mechsym.cycle.breathing.scavenging import dew_point, flow_area, in_series, remaining, trapped_temperature
-from mechsym.cycle.chamber import travel
-from mechsym.cycle.dead_centres import chamber_over
+from mechsym.cycle.chamber import chamber_over, travel
 from mechsym.cycle.kinds.two_stroke import solve
 from mechsym.cycle.motion import piston_travel
 from mechsym.errors import BadInput

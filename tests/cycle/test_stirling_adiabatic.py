@@ -10,8 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from mechsym.cycle.kinds.stirling_equations import FiveSpaces
-from mechsym.cycle.kinds.stirling_spaces import GASES, StirlingCylinders, areas, five_spaces, swept
+from mechsym.cycle.kinds.stirling_spaces import GASES, FiveSpaces, StirlingCylinders, areas, five_spaces, swept
 from mechsym.cycle.kinds.stirling_turn import turn
 from mechsym.errors import BadInput
 

@@ -12,7 +12,7 @@ from shen2020 import SHEN_2020
 from slider_crank import slider_crank
 
 from mechsym.cycle.chamber import dvolume_dphi, piston_area, volume
-from mechsym.cycle.gas import Gas
+from mechsym.cycle.gas import Gas, quadrature
 from mechsym.cycle.kinds.two_stroke import (
     TwoStrokeMarine,
     back_pressure,
@@ -22,7 +22,6 @@ from mechsym.cycle.kinds.two_stroke import (
     solve,
     two_stroke_pressure,
 )
-from mechsym.cycle.pressure import quadrature
 from mechsym.cycle.wiebe import double_wiebe
 from mechsym.errors import BadInput
 

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from mechsym import mechanisms
 from mechsym.cases import load, text
 from mechsym.cli.cycle import cycle as cycle_command
-from mechsym.cycle.dead_centres import chamber_over
+from mechsym.cycle.chamber import chamber_over
 from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Woschni
 from mechsym.cycle.kinds import gas_in_cylinder
 from mechsym.cycle.kinds.two_stroke_zone import TwoStrokeZone, shares, two_stroke_zone

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from mechsym.cycle.unfired import unfired, unfired_kinks
+from mechsym.cycle.gas import unfired, unfired_kinks
 
 TURN = 2 * np.pi
 RATIO = 12.0

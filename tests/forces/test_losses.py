@@ -25,8 +25,8 @@ from mechsym.forces.friction import (
     ring_power,
 )
 from mechsym.forces.loads import loads
+from mechsym.mechanisms.closing import RodlessFaces
 from mechsym.mechanisms.crosshead import CrossheadParameters
-from mechsym.mechanisms.faces import RodlessFaces
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters
 from mechsym.quantities.results import tell

@@ -10,6 +10,7 @@ import robots
 from click.testing import CliRunner
 
 from mechsym import cases, cli
+from mechsym.cases.outcomes import of_motion
 from mechsym.errors import BadInput
 from mechsym.forces.driven import numbers
 from mechsym.forces.motion import WORDS
@@ -337,3 +338,29 @@ def test_a_motion_takes_nothing_of_a_turn(options, words):
     ran = CliRunner().invoke(cli.mechsym, ["forces", *options])
     assert words in str(ran.exception)
     assert isinstance(ran.exception, BadInput)
+
+
+BOTH = 'left_turn = "cycloid"\nright_turn = "cycloid"\n'
+
+
+@pytest.mark.parametrize("section, doubted", [
+    ('rise = 13\nduration = "60 s"', "angle"),  # degrees were meant: more than two turns
+    ('rise = "10 deg"\nduration = "0.8 ms"', "point_speed link_stress"),  # 2 * 0.1745 rad / 0.8 ms * 0.25 m = 109 m/s
+    ('rise = "10 deg"\nduration = "1 s"\nt_end = "60 s"\npoints = 100', "sampling"),
+    ('rise = "10 deg"\nduration = "1 s"\npoints = 100', ""),
+])  # fmt: skip
+def test_a_motion_is_judged_by_how_far_and_how_fast_it_goes(tmp_path, section, doubted):
+    case = written(tmp_path, "five_bar", BOTH + section)
+    found = motion(case)
+    assert {d.code for d in of_motion(case, found)} == set(doubted.split())
+    assert "points" not in section or len(found.columns["t"]) == 100
+
+
+@pytest.mark.parametrize("section, words", [
+    ('left_turn = "30 rpm"\nperiodic = true', "motion.periodic is for a file"),
+    ('left_turn = "30 rpm"\nrise = 1', "motion.rise is for 'cycloid'"),
+    (BOTH + 'rise = 1\nduration = "1 s"\npoints = 100.5', "no whole number"),
+])  # fmt: skip
+def test_what_a_motion_does_not_read_is_refused(tmp_path, section, words):
+    with pytest.raises(BadInput, match=words):
+        motion(written(tmp_path, "five_bar", section))

@@ -10,6 +10,7 @@ from mechsym import cases
 from mechsym.errors import BadInput
 from mechsym.forces.loads import loads, pin_torque, polar, power_residual, radial, tangential
 from mechsym.forces.result import columns
+from mechsym.forces.turn import faces_of
 from mechsym.jobs.machine import turn
 
 NAMES = ("moroianu", "balandin", "nunes-slider-crank", "nunes-hypocycloid", "zotov-89", "alpha-stirling",
@@ -110,3 +111,11 @@ def test_what_cannot_be_done_is_explained():
     shifted = cases.load("opposed-pistons", {"parameters.offset": "5 mm"})
     with pytest.raises(BadInput, match="offset = 0.005 m"):
         turn(shifted)
+
+
+def test_a_piston_fires_so_long_after_its_own_dead_centre(turns):
+    """Of a crosshead engine top dead centre is 0."""
+    drive = turns["zotov-89"].drive
+    piston = dataclasses.replace(drive.roles.pistons[0], fires=1.0)
+    late = dataclasses.replace(drive, roles=dataclasses.replace(drive.roles, pistons=(piston,)))
+    assert math.remainder(faces_of(late)[0].fires - 1.0, 2 * math.pi) == pytest.approx(0.0, abs=1e-9)

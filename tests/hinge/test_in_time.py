@@ -10,8 +10,8 @@ import pytest
 
 from mechsym import cases, jobs
 from mechsym.errors import BadInput
+from mechsym.hinge.balance import propeller_load_speed, ripple
 from mechsym.hinge.guide import gas_turn, path
-from mechsym.hinge.ripple import propeller_load_speed, ripple
 from mechsym.mechanisms.record import curves
 from mechsym.simulate.problem import Along, Problem, State
 

@@ -8,9 +8,8 @@ import pytest
 from hinges import monotone_seal_torque
 
 from mechsym import cases, jobs
-from mechsym.cycle.unfired import unfired
-from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import cut
+from mechsym.cycle.gas import unfired
+from mechsym.hinge.guide import cut, fitted
 from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import misfire_share, price
 from mechsym.hinge.torque import torque

@@ -5,10 +5,10 @@ import pytest
 from hinges import HIGHER, LOWER, built, engine, section, whole
 
 from mechsym.errors import BadInput
-from mechsym.hinge import guide, setting
-from mechsym.hinge.retune import CRITERIA, at_setting, retune
+from mechsym.hinge import guide
 from mechsym.hinge.springs.air import AirGauge
 from mechsym.hinge.springs.coil import Coil
+from mechsym.hinge.steady import CRITERIA, at_setting, retune
 from mechsym.periodic import even_angles
 
 PHI = even_angles(2 * np.pi)
@@ -26,14 +26,14 @@ def cut(spring):
 
 
 def missing_work(value):
-    return setting.missing_work(setting.affine(cut(SPRINGS["air_absolute"]), built(HIGHER)), value)
+    return guide.missing_work(guide.affine(cut(SPRINGS["air_absolute"]), built(HIGHER)), value)
 
 
 @LAW
 def test_torque_and_work_are_affine_in_the_setting(spring):
-    found, value = cut(spring), 1.7 * setting.setting_of(spring) + 1e4
-    parts = setting.affine(found, built(HIGHER))
-    torque = guide.crank_torque(guide.refit(found, setting.with_setting(spring, value)), PHI)
+    found, value = cut(spring), 1.7 * guide.setting_of(spring) + 1e4
+    parts = guide.affine(found, built(HIGHER))
+    torque = guide.crank_torque(guide.refit(found, guide.with_setting(spring, value)), PHI)
     assert parts.torque_0 + value * parts.torque_1 == pytest.approx(torque, abs=1e-6)
     work = np.cumsum((torque + np.roll(torque, -1)) / 2) * PHI[1]
     assert (parts.work_0 + value * parts.work_1)[1:] == pytest.approx(work[:-1], abs=1e-4 * np.max(np.abs(work)))
@@ -43,7 +43,7 @@ def test_torque_and_work_are_affine_in_the_setting(spring):
 def test_at_its_own_speed_the_setting_stays(spring):
     for criterion in CRITERIA[:2]:
         found = retune(cut(spring), built(LOWER), criterion)
-        assert found.setting == pytest.approx(setting.setting_of(spring), rel=1e-9, abs=1e-3)
+        assert found.setting == pytest.approx(guide.setting_of(spring), rel=1e-9, abs=1e-3)
         assert found.ripple_constant_load < 1e-6
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
-from mechsym.hinge.ripple import constant_load_speed, mean_speed, propeller_load_speed, ripple
+from mechsym.hinge.balance import constant_load_speed, mean_speed, propeller_load_speed, ripple
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.periodic import even_angles
 from mechsym.simulate.angle import ReducedMachine, tabulate

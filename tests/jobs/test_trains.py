@@ -13,8 +13,7 @@ from mechsym.errors import BadInput
 from mechsym.jobs.machine import turn
 from mechsym.jobs.problem import driving_of, problem_of
 from mechsym.mechanisms import crank_train
-from mechsym.mechanisms.shaft import elastic
-from mechsym.mechanisms.shaft_inertia import with_torque
+from mechsym.mechanisms.shaft import elastic, with_torque
 from mechsym.simulate import simulate
 from mechsym.torsion import twist
 

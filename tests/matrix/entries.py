@@ -83,6 +83,7 @@ PLAIN = {
     "reproduce-nunes": "reproduce nunes2017", "reproduce-chmielewski": "reproduce chmielewski2015",
     "reproduce-moroianu": "reproduce moroianu2017", "export-mechanism": "export crosshead --to c,julia --out RUN",
     "eval-state": "eval crosshead --case zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5",
+    "prove": "prove crankshaft_flywheel_printed --samples 50", "prove-fast": "prove crosshead --mode fast",
     "no-case": "hinge zotov-98", "no-key": "hinge zotov-89 --set spring.p1=3", "no-unit": "hinge zotov-89 --set m3=3mm",
 } | {
     f"new-{kind}-{count}": f"new engine --kind {kind} --bore {bore} --stroke {stroke} --cylinders {count} --out RUN"

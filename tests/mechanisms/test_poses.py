@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mechsym import cases, mechanisms
-from mechsym.jobs.drawing import turning
+from mechsym.jobs.export import turning
 from mechsym.jobs.machine import one_coordinate
 from mechsym.mechanisms.turning import FRAMES, rules
 from mechsym.page import page

@@ -16,7 +16,7 @@ from sympy.physics.mechanics import LagrangesMethod, Particle, Point, ReferenceF
 from mechsym import mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms import constraints
-from mechsym.mechanisms.faces import RodlessFaces
+from mechsym.mechanisms.closing import RodlessFaces
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters
 from mechsym.mechanisms.hypocycloid import build as build_hypocycloid
 from mechsym.mechanisms.record import curves

@@ -9,7 +9,7 @@ from native.models import functions
 
 from benchmarks.nlp import nlpsol
 from mechsym.native import cache
-from mechsym.native.external import external
+from mechsym.native.evaluate import external
 
 needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 

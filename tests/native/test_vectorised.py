@@ -12,7 +12,7 @@ from native.models import functions
 from mechsym import cases
 from mechsym.jobs.cycle import cycle
 from mechsym.native import compiler, integrate, march, source
-from mechsym.native.emit import block, bodies
+from mechsym.native.source import block, bodies
 from mechsym.sweep.run import Plan, sweep
 
 GCC = shutil.which("gcc")

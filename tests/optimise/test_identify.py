@@ -2,6 +2,7 @@
 
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,10 +11,11 @@ from scipy.integrate import solve_ivp
 
 from mechsym import cases
 from mechsym.cli import mechsym
-from mechsym.cli.identify import _told_apart
+from mechsym.cli.identify import _text, _told_apart
 from mechsym.errors import BadInput
 from mechsym.jobs.identify import identify
 from mechsym.optimise.fit import grid, unit_columns
+from mechsym.optimise.identify import Estimate
 from mechsym.optimise.trace import read_trace
 
 TRUTH = {"I2": 0.58, "k1": 400.0, "c1": 2.0, "friction.constant": 0.4}
@@ -104,6 +106,13 @@ def test_an_interval_is_printed_with_the_digits_that_it_needs():
     assert _told_apart(0.58, 0.5799991, 0.5800009) == ["0.58", "0.579999", "0.580001"]
     assert _told_apart(0.58, 0.58 - 1e-12, 0.58 + 1e-12) == ["0.58"] * 3
     assert _told_apart(6500.0, 6400.0, float("inf")) == ["6500", "6400", "no end"]
+
+
+def test_an_interval_without_ends_is_not_told_as_a_narrow_one():
+    one = Estimate(name="k", value=6500.0, error=1.0, low=-math.inf, high=math.inf, unit="N*m/rad")
+    rest = {"samples": 9, "intervals": 3, "measured": {"u": np.ones(9)}, "noise": 0.1, "durbin_watson": 2.0}
+    found = SimpleNamespace(status="found", reason="", estimates=(one,), unit="rad/s", **rest)
+    assert "k = 6500 N*m/rad, 95 %: no ends" in _text(found)
 
 
 def test_command_writes_json_picture_and_table(tmp_path, speeds):

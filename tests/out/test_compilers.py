@@ -11,7 +11,7 @@ from click.testing import CliRunner
 
 from mechsym.cli import mechsym
 from mechsym.errors import MissingExtra
-from mechsym.native import compiler, external
+from mechsym.native import compiler, evaluate
 from mechsym.out.web import build
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="a compiler in the shell")
@@ -45,7 +45,7 @@ def test_an_fmu_has_its_sources_and_tells_why_no_binary(words, tmp_path):
 def test_a_function_for_the_solver_is_interpreted(words, caplog):
     x = ca.SX.sym("x", 2)
     function = ca.Function("node", [x], [x[0] * ca.sin(x[1])])
-    assert external.external(function) is function
+    assert evaluate.external(function) is function
     assert words.replace("made no library", "made what cannot be loaded") in caplog.text
 
 

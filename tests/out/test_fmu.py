@@ -11,13 +11,13 @@ import zipfile
 from pathlib import Path
 
 import casadi as ca
+import locking
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from mechsym import cases
 from mechsym.cli import mechsym
-from mechsym.errors import BadInput
 from mechsym.jobs.export import ready
 from mechsym.out.fmi import fmu
 from mechsym.out.laws import block_of
@@ -382,11 +382,18 @@ def test_a_missing_compiler_is_one_line_and_the_sources_are_written(tmp_path, mo
         assert not any(n.startswith("binaries") for n in archive.namelist()) and "sources/fmi2.c" in archive.namelist()
 
 
-def test_constraints_are_refused_not_left_out(tmp_path, monkeypatch):
-    for name in ("watt_six_bar.py", "watt-six-bar.toml"):
-        (tmp_path / name).write_text((EXAMPLES / name).read_text())
+@pytest.mark.slow
+@pytest.mark.parametrize("held", ["constraint", "dead point", "bifurcation"])
+def test_loops_by_constraint_run_as_the_simulation(tmp_path, monkeypatch, held):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    done = CliRunner().invoke(mechsym, ["fmu", "watt-six-bar.toml", "--out", "w.fmu"])
-    assert isinstance(done.exception, BadInput) and "closed by constraints" in str(done.exception)
-    assert not (tmp_path / "w.fmu").exists()
+    if held == "constraint":
+        for name in ("watt_six_bar.py", "watt-six-bar.toml"):
+            Path(name).write_text((EXAMPLES / name).read_text())
+        case, more = "watt-six-bar.toml", ("--set", "simulation.t_end=0.4 s")
+    else:
+        case = "f.toml"
+        Path("fourbar.py").write_text(locking.FOURBAR)
+        Path(case).write_text(locking.CASE.format(speed=3, start=0.3, torque=0))
+        more = ("--set", f"b={0.4 if held == 'bifurcation' else 0.25} m")
+    done = CliRunner().invoke(mechsym, ["fmu", case, "--out", "w.fmu", "--compare", "--platforms", "linux64", *more])
+    assert done.exit_code == 0, (done.output, done.exception)

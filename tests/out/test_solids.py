@@ -15,7 +15,7 @@ from mechsym.errors import BadInput
 from mechsym.jobs.size import size
 from mechsym.out.cad.parts import bodies
 from mechsym.out.cad.solids import Plate, Turned, hull_area, tangents, tube, volume
-from mechsym.sizing.result import Sizing
+from mechsym.sizing.rows import Sizing
 
 
 def test_volumes_of_turned_bodies_are_those_of_the_books():

@@ -9,7 +9,7 @@ from keys import shown_keys
 from mechsym import cases
 from mechsym.app.told import told
 from mechsym.page.template import page
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import key_words
 from mechsym.report import case_report, html
 
 RECORDED = Path(__file__).parents[1] / "recorded"

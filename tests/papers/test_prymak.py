@@ -8,7 +8,7 @@ import pytest
 from small_machines import machine, smooth_gas, turn_of
 
 from mechsym.forces.loads import loads
-from mechsym.mechanisms.faces import RodlessFaces
+from mechsym.mechanisms.closing import RodlessFaces
 from mechsym.mechanisms.rodless import CrankFreeRadially, RodlessParameters, Stiffnesses
 from mechsym.papers.sources import sources
 

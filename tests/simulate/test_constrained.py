@@ -5,6 +5,7 @@ from pathlib import Path
 import linkages
 import numpy as np
 import pytest
+import scipy
 
 from mechsym.derive import Mechanism, derive
 from mechsym.derive.emit import module_text
@@ -104,11 +105,72 @@ def test_a_linkage_swings_through_the_dead_centres_of_its_crank():
     assert closure(mechanism, result) < 1e-12
 
 
-@pytest.mark.parametrize("backend", ["auto", "scipy-dop853"])
-def test_a_parallelogram_that_falls_flat_is_locked(backend):
-    mechanism = four_bar(0.2, 0.4, 0.2, 0.4, weight=0.0)
-    problem = Problem(mechanism=mechanism, parts=(), q0=(1.0, 0.0, 1.0), u0=(-3.0, 0.0, 0.0), t_end=20.0)
-    result = simulate(problem, Settings(backend=backend))
-    assert result.end == "locked"
-    assert result.event.t == pytest.approx(1 / 3, abs=1e-5)  # turns evenly until then: translation of the coupler
-    assert result.event.state["phi"] == pytest.approx(0.0, abs=3e-5)
+def by_multipliers(sizes, q0, u0, t):
+    """Poses over time of crank, rod and rocker from [M J'; J 0], with the weight along y; starts with closed loops."""
+    a, b, c, d, m, inertia, g = sizes
+
+    def rates(_, y):
+        (s1, s2, s3), (c1, c2, c3) = np.sin(y[:3]), np.cos(y[:3])
+        # the rod's middle is a e1 + b/2 e2, the rocker's d + c/2 e3; loop a e1 + b e2 = d + c e3
+        M = np.array([
+            [4 * inertia + m * a * a, m * a * b / 2 * np.cos(y[0] - y[1]), 0],
+            [m * a * b / 2 * np.cos(y[0] - y[1]), inertia + m * b * b / 4, 0],
+            [0, 0, inertia + m * c * c / 4],
+        ])  # fmt: skip
+        J = np.array([[-a * s1, -b * s2, c * s3], [a * c1, b * c2, -c * c3]])
+        u = y[3:]
+        gamma = np.array([-a * c1, -a * s1]) * u[0] ** 2 + np.array([-b * c2, -b * s2]) * u[1] ** 2
+        gamma += np.array([c * c3, c * s3]) * u[2] ** 2
+        turn = m * a * b / 2 * np.sin(y[0] - y[1])
+        Q = np.array([-turn * u[1] ** 2 - m * g * a * c1, turn * u[0] ** 2 - m * g * b / 2 * c2, -m * g * c / 2 * c3])
+        whole = np.block([[M, J.T], [J, np.zeros((2, 2))]])
+        return np.concatenate([u, np.linalg.solve(whole, np.concatenate([Q, -gamma]))[:3]])
+
+    run = scipy.integrate.solve_ivp(rates, (0, t), [*q0, *u0], method="DOP853", rtol=1e-13, atol=1e-14)
+    return run.y[:3, -1]
+
+
+@pytest.mark.slow
+def test_dead_points_of_the_crank_are_told_and_passed_as_by_multipliers():
+    mechanism = four_bar(0.3, 0.2, 0.28, 0.45)
+    problem = Problem(mechanism=mechanism, parts=(), q0=(0.6, -0.5, 1.8), u0=(2.0, 0.0, 0.0), t_end=14.0)
+    result = simulate(problem, Settings(tolerance=1e-13, check="none"))
+    told = [e for e in result.happened.events if e.kind == "dead_point"]
+    assert len(told) >= 20 and {e.name for e in told} == {"phi"}
+    assert abs(result.energy.residual) < 1e-10
+    first = [result.columns[n][0] for n in ("phi", "theta2", "theta3", "phid", "theta2d", "theta3d")]
+    last = [result.columns[n][-1] for n in ("phi", "theta2", "theta3")]
+    exact = by_multipliers((0.3, 0.2, 0.28, 0.45, 0.8, 0.01, 9.81), first[:3], first[3:], 14.0)
+    np.testing.assert_allclose(last, exact, rtol=0, atol=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("backend", "t_end"), [("auto", 8.0), ("scipy-dop853", 0.6)])
+def test_a_parallelogram_goes_on_through_its_flat_poses(backend, t_end):
+    mechanism = four_bar(0.2, 0.4, 0.2, 0.4)
+    problem = Problem(mechanism=mechanism, parts=(), q0=(1.0, 0.0, 1.0), u0=(-6.0, 0.0, 0.0), t_end=t_end)
+    result = simulate(problem, Settings(backend=backend, tolerance=1e-12, check="none"))
+    # the rod only moves along: a pendulum of crank, rocker and the rod's mass on the crank pin
+    inertia, arm = 4 * 0.01 + 0.8 * 0.2**2 + 0.01 + 0.8 * 0.1**2, 0.8 * 0.2 + 0.8 * 0.1
+
+    def swings(_, y):
+        return [y[1], -9.81 * arm / inertia * np.cos(y[0])]
+
+    exact = scipy.integrate.solve_ivp(
+        swings, (0, t_end), [1.0, -6.0], method="DOP853", rtol=1e-13, atol=1e-13, t_eval=result.t,
+        events=lambda t, y: np.sin(y[0]),
+    )  # fmt: skip
+    np.testing.assert_allclose(result.columns["phi"], exact.y[0], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(result.columns["theta2"], 0, atol=1e-11)
+    assert abs(result.energy.residual) < 1e-10
+    met = [e.t for e in result.happened.events if e.kind == "bifurcation"]
+    assert len(met) > (20 if t_end > 1 else 1)
+    np.testing.assert_allclose(met, exact.t_events[0], rtol=0, atol=1e-9)
+
+
+def test_where_no_motion_goes_on_the_run_is_locked():
+    # rod and rocker can only just reach the crank's pin, which no torque moves: one pose, and none beside it
+    mechanism = four_bar(0.2, 0.15, 0.1, 0.45, weight=0.0)
+    problem = Problem(mechanism=mechanism, parts=(), q0=(0.0, 0.0, np.pi), u0=(1.0, 0.0, 0.0), t_end=1.0)
+    result = simulate(problem, Settings())
+    assert (result.end, result.event.t) == ("locked", 0.0)

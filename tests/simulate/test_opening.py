@@ -1,45 +1,17 @@
 """A closed form that has no pose beyond an angle: the run ends there with the event `locked`, not as a failure."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from locking import CASE, FOURBAR
 
 from mechsym import cases
 from mechsym.cases.runs import settings_of
 from mechsym.errors import BadInput
+from mechsym.jobs import run
 from mechsym.jobs.problem import problem_of
 from mechsym.simulate import simulate
-
-FOURBAR = """from mechsym.derive import Mechanism
-
-
-def fourbar():
-    m = Mechanism("fourbar")
-    phi = m.coordinates("phi")
-    a, b, c, d = m.parameters("a b c d", "m", above=0)
-    J = m.parameters("J", "kg*m^2", above=0)
-    M = m.inputs("M", "N*m")
-    crank, rod, rocker = m.link("crank", turns=phi, inertia=J), m.link("rod", inertia=J), m.link("rocker", inertia=J)
-    m.pin("A", m.frame, crank)
-    m.pin("B", crank.at(a), rod)
-    m.pin("D", m.frame.at(d), rocker)
-    m.pin("C", rod.at(b), rocker.at(c), branch=1)
-    m.torque(M, along=phi)
-    return m
-"""
-CASE = """mechanism = "./fourbar.py"
-[parameters]
-a = 0.2
-b = 0.25
-c = 0.2
-d = 0.4
-J = 0.01
-[simulation]
-t_end = 5
-speed_start = {speed}
-phi_start = {start}
-[drive]
-torque = {torque}
-"""
 
 
 def case_of(folder, speed=0.0, start=0.0, torque=0.0, more=""):
@@ -80,3 +52,23 @@ def test_the_flywheel_of_a_case_is_on_the_shaft(tmp_path):
     assert abs(energy.residual) < 1e-6
     speed = found[1].columns["phid"]
     assert found[1].columns["kinetic_energy"][5] > 0.5 * 0.5 * speed[5] ** 2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("b", "kind"), [(0.25, "dead_point"), (0.4, "bifurcation")])
+def test_a_run_of_a_case_goes_on_where_the_closed_form_ends(tmp_path, b, kind):
+    # with b = d and a = c the links lie flat at 0 and pi, and the crank turns evenly, which no torque drives
+    case = case_of(tmp_path, 3.0, 0.3)
+    found = run(replace(case, sections={**case.sections, "parameters": replace(case.need("parameters"), b=b)})).result
+    assert (found.status, found.end) == ("converged", "t_end")
+    assert len(found.happened.events) >= 4 and {e.kind for e in found.happened.events} == {kind}
+    assert abs(found.energy.residual) < 1e-9
+    phi, rod, rocker = (found.columns[n] for n in ("phi", "theta_rod", "theta_rocker"))
+    loop = 0.2 * np.exp(1j * phi) + b * np.exp(1j * rod) - 0.4 - 0.2 * np.exp(1j * rocker)
+    assert np.abs(loop).max() < 1e-12
+    if kind == "bifurcation":
+        np.testing.assert_allclose(phi, 0.3 + 3.0 * found.t, rtol=0, atol=1e-9)
+        np.testing.assert_allclose([e.t for e in found.happened.events],
+                                   (np.pi * np.arange(1, 5) - 0.3) / 3, rtol=0, atol=1e-9)  # fmt: skip
+    else:
+        assert np.abs(phi).max() == pytest.approx(LOCKS, abs=1e-3)

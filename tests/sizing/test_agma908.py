@@ -66,9 +66,8 @@ def test_internal_pair_of_great_ring_is_a_rack_as_the_external_one():
 
 def test_contact_stress_of_agma_is_the_hertz_pressure_at_its_point():
     """Z_E and I are nothing but Hertz's line contact of the two flanks (all factors 1)."""
-    from mechsym.sizing.rules.gear_factors import elastic_coefficient
     from mechsym.sizing.rules.gear_geometry import action_line
-    from mechsym.sizing.rules.gears import LoadFactors, face_width_contact
+    from mechsym.sizing.rules.gears import LoadFactors, elastic_coefficient, face_width_contact
 
     inside = Pair(kind="internal", module=2e-3, teeth_1=26, teeth_2=52, pressure_angle=ANGLE, shift=0.25)
     _, end, pitch = action_line(inside)

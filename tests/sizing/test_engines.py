@@ -13,7 +13,7 @@ from mechsym.mechanisms.record import evaluate
 from mechsym.sizing.checks import unsafe
 from mechsym.sizing.gear_design import candidates, faults
 from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
-from mechsym.sizing.hypocycloid import design as hypocycloid_design
+from mechsym.sizing.hypocycloid import checks as hypocycloid_design
 from mechsym.sizing.hypocycloid import masses as hypocycloid_masses
 from mechsym.sizing.hypocycloid.engine import shaft_length, spans
 from mechsym.sizing.hypocycloid.masses import hypocycloid_forces

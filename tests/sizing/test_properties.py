@@ -9,7 +9,7 @@ from mechsym.errors import BadInput
 from mechsym.quantities import parse
 from mechsym.sizing import loads
 from mechsym.sizing.checks import round_up
-from mechsym.sizing.rules import bearings, crankshaft, cylinder, fatigue, gear_factors, gears, masses, piston
+from mechsym.sizing.rules import bearings, crankshaft, gears, masses, piston, turning_shaft
 from mechsym.sizing.rules.gear_geometry import Pair
 
 # part size or stress as a function of one load
@@ -17,13 +17,13 @@ GROWING = {
     "head, strength": lambda x: piston.head_thickness_strength(x * 1e6, 0.06, 60e6),
     "head, heat": lambda x: piston.head_thickness_heat(x * 100, 134.0, 75.0),
     "rod": lambda x: piston.rod_diameter(x * 1e3, 50e6),
-    "wall": lambda x: cylinder.wall_thickness(x * 1e6, 0.06, 52.5e6, 0.002),
-    "bolts": lambda x: cylinder.core_diameter(x * 1e6, 0.06, 5, 70e6),
-    "thread": lambda x: cylinder.thread_for(cylinder.core_diameter(x * 1e6, 0.06, 5, 70e6)),
+    "wall": lambda x: piston.wall_thickness(x * 1e6, 0.06, 52.5e6, 0.002),
+    "bolts": lambda x: piston.core_diameter(x * 1e6, 0.06, 5, 70e6),
+    "thread": lambda x: piston.thread_for(piston.core_diameter(x * 1e6, 0.06, 5, 70e6)),
     "crankpin": lambda x: crankshaft.crankpin_diameter(x * 1e3, 0.043, 450e6),
     "web": lambda x: crankshaft.web_stress(x * 1e3, 0.043, 0.034, 0.015, 0.04),
     "shaft": lambda x: crankshaft.shaft_diameter(x, 800e6),
-    "shaft, fatigue": lambda x: fatigue.shaft_diameter_goodman((x, x, x, x), 5e8, 2e9, 1.5),
+    "shaft, fatigue": lambda x: turning_shaft.shaft_diameter_goodman((x, x, x, x), 5e8, 2e9, 1.5),
     "gear, bending": lambda x: gears.face_width_bending(x * 1e3, 1e-3, 0.4, 450e6, gears.LoadFactors()),
     "gear, contact": lambda x: gears.face_width_contact(x * 1e3, 0.026, 0.13, 187030, 1.3e9, gears.LoadFactors()),
     "bearing": lambda x: bearings.required_rating(x * 1e3, 1e8, "roller"),
@@ -43,7 +43,7 @@ def test_more_load_never_gives_a_longer_life(F, more, kind):
 
 @given(b=st.floats(0.001, 0.05), more=st.floats(0, 0.002))
 def test_load_distribution_grows_with_the_face_width(b, more):
-    factor = [gear_factors.load_distribution_factor(x, 0.026, 1.1, "precision") for x in (b, b + more)]
+    factor = [gears.load_distribution_factor(x, 0.026, 1.1, "precision") for x in (b, b + more)]
     # AGMA's two branches meet at 25 mm with a step of 0.0002
     assert factor[1] >= factor[0] - 3e-4
 
@@ -71,22 +71,22 @@ def test_reversal_factor_and_equivalent_load_agree(F_max, share):
 REFUSED = {
     "negative pressure": lambda: piston.head_thickness_strength(-1.0, 0.06, 60e6),
     "ring outside its range": lambda: piston.ring_radial_thickness(0.06, 1e6, 100e6),
-    "thick wall": lambda: cylinder.hoop_stress(1e6, 0.06, 0.02),
-    "bolts beyond the list": lambda: cylinder.thread_for(0.1),
-    "thread not made": lambda: cylinder.root_diameter(11),
+    "thick wall": lambda: piston.hoop_stress(1e6, 0.06, 0.02),
+    "bolts beyond the list": lambda: piston.thread_for(0.1),
+    "thread not made": lambda: piston.root_diameter(11),
     "load beyond the bearings": lambda: crankshaft.bearing_reaction(1.0, 0.1, 0.086),
     "lever inside the web": lambda: crankshaft.web_stress(1.0, 0.01, 0.034, 0.015, 0.04),
-    "soft steel": lambda: fatigue.endurance_limit(50e6, 0.02, "ground"),
-    "surface not known": lambda: fatigue.endurance_limit(1e9, 0.02, "polished"),
-    "sharp fillet": lambda: fatigue.fillet_factor_bending(1e-5, 0.02, 0.03),
-    "no shoulder": lambda: fatigue.fillet_factor_torsion(1e-3, 0.02, 0.02),
-    "grade": lambda: gear_factors.dynamic_factor(5.0, 13.0),
-    "too fast for the grade": lambda: gear_factors.dynamic_factor(60.0, 6.0),
-    "wide face": lambda: gear_factors.load_distribution_factor(0.06, 0.026, 1.1, "open"),
-    "enclosure": lambda: gear_factors.mesh_alignment_factor(0.03, "closed"),
-    "few cycles": lambda: gear_factors.life_factor_bending(10.0),
-    "reliability": lambda: gear_factors.reliability_factor(0.99999),
-    "thin rim": lambda: gear_factors.rim_factor(1e-3, 2.35e-3),
+    "soft steel": lambda: turning_shaft.endurance_limit(50e6, 0.02, "ground"),
+    "surface not known": lambda: turning_shaft.endurance_limit(1e9, 0.02, "polished"),
+    "sharp fillet": lambda: turning_shaft.fillet_factor_bending(1e-5, 0.02, 0.03),
+    "no shoulder": lambda: turning_shaft.fillet_factor_torsion(1e-3, 0.02, 0.02),
+    "grade": lambda: gears.dynamic_factor(5.0, 13.0),
+    "too fast for the grade": lambda: gears.dynamic_factor(60.0, 6.0),
+    "wide face": lambda: gears.load_distribution_factor(0.06, 0.026, 1.1, "open"),
+    "enclosure": lambda: gears.mesh_alignment_factor(0.03, "closed"),
+    "few cycles": lambda: gears.life_factor_bending(10.0),
+    "reliability": lambda: gears.reliability_factor(0.99999),
+    "thin rim": lambda: gears.rim_factor(1e-3, 2.35e-3),
     "bearing kind by reliability": lambda: bearings.life_revolutions(1e4, 1e3, "ball", 0.999),
     "too many bearings": lambda: bearings.set_rating(1e4, 20, "ball"),
     "short rod": lambda: piston.rod_length(0.05, 0.013, 0.011, 0.014, 0.032),

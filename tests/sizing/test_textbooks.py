@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mechsym.sizing.rules import bearings, fatigue, gear_factors, gears
+from mechsym.sizing.rules import bearings, gears, turning_shaft
 
 LBF, INCH, PSI, HP, FPM = 4.4482216, 0.0254, 6894.757, 745.69987, 0.00508
 
@@ -16,12 +16,12 @@ class TestShigley144:
     load = 4 * HP / speed
 
     def factors(self, size):
-        align = gear_factors.mesh_alignment_factor(self.b, "commercial")
+        align = gears.mesh_alignment_factor(self.b, "commercial")
         assert align == pytest.approx(0.15, abs=0.005)
         return gears.LoadFactors(
-            K_v=float(gear_factors.dynamic_factor(self.speed, 11.0)),
+            K_v=float(gears.dynamic_factor(self.speed, 11.0)),
             K_s=size,
-            K_m=gear_factors.load_distribution_factor(self.b, self.d, 1.0, "commercial"),
+            K_m=gears.load_distribution_factor(self.b, self.d, 1.0, "commercial"),
         )
 
     def test_load_and_factors(self):
@@ -29,7 +29,7 @@ class TestShigley144:
         found = self.factors(1.043)
         assert found.K_v == pytest.approx(1.377, abs=1e-3)  # AGMA prints the exponent as 0.667, he takes 2/3
         assert round(found.K_m, 2) == 1.22
-        assert round(gear_factors.reliability_factor(0.9), 2) == pytest.approx(0.83, abs=0.03)  # he rounds it to 0.85
+        assert round(gears.reliability_factor(0.9), 2) == pytest.approx(0.83, abs=0.03)  # he rounds it to 0.85
 
     @pytest.mark.parametrize(("size", "J", "stress", "cycles", "strength", "factor"), [
         (1.043, 0.30, 6417, 1e8, 31350, 5.62), (1.052, 0.40, 4854, 1e8 * 17 / 52, 28260, 6.82),
@@ -37,7 +37,7 @@ class TestShigley144:
     def test_bending(self, size, J, stress, cycles, strength, factor):
         found = gears.face_width_bending(self.load, self.m, J, 1.0, self.factors(size)) / self.b
         assert found / PSI == pytest.approx(stress, rel=1.5e-3)  # he rounds every factor to four digits
-        limit = gears.bending_limit(strength, gear_factors.life_factor_bending(cycles, "250 HB"), K_R=0.85)
+        limit = gears.bending_limit(strength, gears.life_factor_bending(cycles, "250 HB"), K_R=0.85)
         assert limit / (found / PSI) == pytest.approx(factor, abs=0.02)
 
     def test_wear(self):
@@ -46,7 +46,7 @@ class TestShigley144:
         pinion, gear = (np.sqrt(width / self.b) for width in widths)
         assert pinion / PSI == pytest.approx(70360, rel=1.5e-3)
         assert gear / PSI == pytest.approx(70660, rel=1.5e-3)
-        limit = gears.contact_limit(106400, gear_factors.life_factor_contact(1e8, "steel"), K_R=0.85)
+        limit = gears.contact_limit(106400, gears.life_factor_contact(1e8, "steel"), K_R=0.85)
         assert limit == pytest.approx(118667, rel=1e-3)
 
     def test_exact_factor_chain_gives_the_printed_stress(self):
@@ -58,8 +58,8 @@ class TestShigley144:
 
 def test_elastic_coefficient_of_steel_on_steel():
     """Shigley, table 14-8: 2300 psi^0.5 and 191 MPa^0.5 for steel."""
-    assert gear_factors.elastic_coefficient(2e11, 0.3, 2e11, 0.3) / 1e3 == pytest.approx(187, abs=0.5)
-    assert gear_factors.elastic_coefficient(30e6, 0.3, 30e6, 0.3) == pytest.approx(2291, abs=0.5)
+    assert gears.elastic_coefficient(2e11, 0.3, 2e11, 0.3) / 1e3 == pytest.approx(187, abs=0.5)
+    assert gears.elastic_coefficient(30e6, 0.3, 30e6, 0.3) == pytest.approx(2291, abs=0.5)
 
 
 @pytest.mark.parametrize(("load", "hours", "rpm", "kind", "rating"), [
@@ -82,10 +82,10 @@ def test_equivalent_load_of_a_sinusoid():
 
 def test_shaft_after_goodman():
     """Shigley, 8th ed., problem 7-1 (d): 1.073 in."""
-    d = fatigue.shaft_diameter_goodman((600, 500, 400, 300), 30e3, 100e3, 2.0, K_f=2.2, K_fs=1.8)
+    d = turning_shaft.shaft_diameter_goodman((600, 500, 400, 300), 30e3, 100e3, 2.0, K_f=2.2, K_fs=1.8)
     assert round(float(d), 3) == 1.073
 
 
 def test_marin_factors():
     """Shigley, 8th ed., problem 7-2, first trial: 1226 MPa, 22 mm, machined: 375 MPa."""
-    assert fatigue.endurance_limit(1226e6, 0.022, "machined") / 1e6 == pytest.approx(375, abs=0.5)
+    assert turning_shaft.endurance_limit(1226e6, 0.022, "machined") / 1e6 == pytest.approx(375, abs=0.5)

@@ -20,8 +20,7 @@ from mechsym.cli import main
 from mechsym.cli.sweep import sweep as command
 from mechsym.cycle.columns import WORDS
 from mechsym.errors import MissingExtra
-from mechsym.quantities.display import choose, without_unit
-from mechsym.quantities.words import key_words
+from mechsym.quantities.display import choose, key_words, without_unit
 from mechsym.style import svg
 from mechsym.sweep import Plan, columns, dataset, failures, main_results, sweep, write_netcdf, write_table
 from mechsym.sweep import plots as plots_sweep

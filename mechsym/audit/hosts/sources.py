@@ -9,7 +9,8 @@ import numpy as np
 
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.asked import question_of as question_asked
-from mechsym.audit.judge.certificate import HEAD, script
+from mechsym.audit.judge.certificate import script
+from mechsym.audit.judge.coq import HEAD
 from mechsym.audit.judge.question import Question, peak, turn, value
 from mechsym.audit.read.reader import read, statement
 from mechsym.audit.row import Row, formula_row, plain_row

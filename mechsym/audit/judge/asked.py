@@ -1,6 +1,7 @@
 """A formula with everything that its author says and assumes of it, and the question that it raises."""
 
 import ast
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -185,6 +186,10 @@ def assumed(theory: Theory, text: str | Sequence[str], own: Mapping[str, Node]) 
         letter = _letter(theory, left, own, part)
         value = value_of(right)
         if value is not None:
+            about = theory.letters[letter]
+            low, high = about.domain or (0.0 if about.positive else -math.inf, math.inf)
+            if not low <= float(Fraction(value)) <= high:
+                raise BadInput(f"--assume {part!r}: {letter} of {theory.name} lies between {low:g} and {high:g}")
             if hold.setdefault(letter, float(Fraction(value))) != float(Fraction(value)):
                 raise BadInput(f"--assume {part!r}: {letter} = {hold[letter]:g} is assumed already; keep one of them")
         else:

@@ -1,257 +1,376 @@
-"""Coq scripts of exact verdicts: another kernel checks what the polynomial reduction found.
+r"""Coq scripts of exact verdicts: another kernel checks the printed formula itself against the declared geometry.
 
-Printed and derived formula are rational in letters, sines, cosines and roots. Their difference, cleared of divisors, is
-a combination of s^2 + c^2 - 1 and of the squared roots minus their radicands; sympy finds the cofactors, `ring` and
-`field` check them. The last theorem says it for the sine, cosine and root of real numbers.
+The theorem holds the formula as printed, node by node in its author's names, and the definitions of the theory, such as
+`beta := asin (lam * sin phi)`. Its proof takes the functions in turn, the innermost first: the sine of a sum by sines
+of its parts, a root by what it is the root of, the sine of an arcsine by its argument. What is left is rational in
+letters, sines, cosines, roots; sympy guesses the cofactors of s^2 + c^2 - 1 and D^2 - radicand, with which `ring` and
+`field` prove it.
 """
 
+import ast
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import field
+from collections.abc import Sequence
+from fractions import Fraction
 
 import sympy
-from sympy import Expr, Integer, Mul, Pow, Rational, Symbol, cos, sin
+from sympy import Expr, Integer, Symbol
 
-from mechsym.audit.judge.prover import symbolic_names
+from mechsym.audit.judge.coq import (
+    CoqTerm,
+    Script,
+    bases,
+    coq_text,
+    is_half,
+    power_text,
+    prime_factors,
+    rational,
+    symbol,
+)
 from mechsym.audit.judge.question import Question
-from mechsym.audit.read.algebra import SYMBOLS, evaluate
-from mechsym.audit.read.tree import Node
+from mechsym.audit.read.tree import Node, function_of, value_of
 from mechsym.errors import BadInput
-from mechsym.quantities import record
 
-_PI = Symbol("PI")
 _MOST = 1500  # operations, beyond which ring takes minutes
-HEAD = """Require Import Reals Lra Field.
-Open Scope R_scope.
-
-Ltac nonzero := repeat split; first
-  [ assumption
-  | let Z := fresh in intro Z; first
-    [ match goal with Z : ?f = 0, h : ?e <> 0 |- False => apply h; replace e with f by ring; exact Z end
-    | match goal with Z : ?f = 0, h : ?d <> 0, k : ?e <> 0 |- False =>
-        apply (Rmult_integral_contrapositive_currified d e h k); replace (d * e) with f by ring; exact Z end
-    | match goal with h : ?e <> 0 |- False => apply h; lra end ] ].
-Ltac product := repeat first [ assumption | apply Rmult_integral_contrapositive_currified | apply pow_nonzero | lra ].
-"""
-
-
-@record
-class Identity:
-    """Two rational expressions, and the polynomials that vanish for their letters."""
-
-    printed: Expr
-    derived: Expr
-    #: Letter of a sine or cosine to it, letter of a root to its radicand, in the order of definition
-    circular: dict[Symbol, Expr] = field(default_factory=dict)
-    roots: dict[Symbol, Expr] = field(default_factory=dict)
-
-    @property
-    def relations(self) -> list[Expr]:
-        """What vanishes: s^2 + c^2 - 1 for every angle, D^2 - radicand for every root."""
-        angles = dict.fromkeys(f.args[0] for f in self.circular.values())
-        named = {f: letter for letter, f in self.circular.items()}
-        circles = [named[sin(a)] ** 2 + named[cos(a)] ** 2 - 1 for a in angles]
-        return [*circles, *(letter**2 - square for letter, square in self.roots.items())]
+_MULTIPLE = 8  # of an angle
+_SIGNS: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 
 
 def script(question: Question, tree: Node, name: str) -> str | None:
-    """Lemma and theorem of one exact formula in Coq; None where it has no such certificate."""
+    """Lemmas and theorem of one exact formula in Coq; None where it has no such certificate."""
+    own = Script(question=question, name=name)
     try:
-        identity = _identity(question, tree)
-    except (BadInput, sympy.PolynomialError, RecursionError):
+        printed = _part(own, tree, authors=True)
+        derived = _named(own, question.quantity, authors=False)
+        if printed.value.count_ops() + derived.value.count_ops() > _MOST:
+            return None
+        last = _lemma(own, f"{name}_algebra", printed, derived)
+        theorem = _theorem(own, tree, last)
+    except (BadInput, sympy.PolynomialError, RecursionError, TypeError):
         return None
-    return None if identity is None else _written(identity, name)
+    return "\n".join([*own.lemmas, theorem])
 
 
-def _identity(question: Question, tree: Node) -> Identity | None:
-    names = symbolic_names(question)
-    pair = [_sines(sympy.sympify(e)) for e in (evaluate(tree, names, SYMBOLS), names[question.quantity])]
-    if sum(e.count_ops() for e in pair) > _MOST:
-        return None
-    letters: dict[Expr, Symbol] = {}
-    powers: dict[Expr, Symbol] = {}
-    pair = [_without_roots(e, letters, powers) for e in pair]
-    angles = sorted({f.args[0] for e in (*pair, *letters) for f in e.atoms(sin, cos)}, key=str)
-    if not all(a.is_Symbol for a in angles):
-        return None
-    plain = {f(a): Symbol(f"{f.__name__}_{a}") for a in angles for f in (sin, cos)} | {sympy.pi: _PI}
-    identity = Identity(
-        printed=pair[0].xreplace(plain),
-        derived=pair[1].xreplace(plain),
-        circular={v: k for k, v in plain.items() if k.args},
-        roots={letter: square.xreplace(plain) for square, letter in letters.items()},
+def _part(own: Script, tree: Node, authors: bool) -> CoqTerm:
+    value = value_of(tree)
+    if value is not None and not isinstance(tree, ast.BinOp):
+        return rational(value)
+    if isinstance(tree, ast.Name):
+        return _named(own, tree.id, authors)
+    if isinstance(tree, ast.UnaryOp):
+        inner = _part(own, tree.operand, authors)
+        return CoqTerm(text=f"(- {inner.text})", value=-inner.value)
+    if isinstance(tree, ast.Call):
+        return _function(own, str(function_of(tree)), _part(own, tree.args[0], authors))
+    if not isinstance(tree, ast.BinOp):
+        raise BadInput("cases have no certificate")
+    left = _part(own, tree.left, authors)
+    if isinstance(tree.op, ast.Pow):
+        return _power(own, left, _part(own, tree.right, authors))
+    right = _part(own, tree.right, authors)
+    text = f"({left.text} {_SIGNS[type(tree.op)]} {right.text})"
+    if isinstance(tree.op, ast.Add):
+        return CoqTerm(text=text, value=left.value + right.value)
+    if isinstance(tree.op, ast.Sub):
+        return CoqTerm(text=text, value=left.value - right.value)
+    if isinstance(tree.op, ast.Mult):
+        return CoqTerm(text=text, value=left.value * right.value)
+    _not_zero(own, right.value)
+    return CoqTerm(text=text, value=left.value / right.value)
+
+
+def _named(own: Script, key: str, authors: bool) -> CoqTerm:
+    theory, meant = own.question.theory, own.question.formula.letters
+    entry = meant[key] if authors and key in meant else theory.tape.get(key)
+    if authors and key in meant and isinstance(entry, ast.Name) and entry.id == key:
+        authors, entry = False, theory.tape.get(key)
+    name = _identifier(own, key, authors)
+    if name not in own.names:
+        if entry is None:
+            own.names[name] = _letter(own, key)
+        elif isinstance(entry, ast.expr):
+            part = _part(own, entry, authors=False)
+            own.definitions[name] = _raw(own, entry, authors=False)
+            own.names[name] = part
+        else:
+            raise BadInput(f"{key} has no closed form")
+    return own.names[name]
+
+
+def _letter(own: Script, key: str) -> CoqTerm:
+    if key == "pi":
+        return CoqTerm(text="PI", value=Symbol("PI", positive=True))
+    if key in own.question.hold:
+        return rational(Fraction(str(own.question.hold[key])))
+    positive = own.question.theory.letters[key].positive
+    if positive:
+        own.suppose(f"0 < {key}_")
+    return CoqTerm(text=f"{key}_", value=Symbol(f"{key}_", real=True, positive=positive or None))
+
+
+def _identifier(own: Script, key: str, authors: bool) -> str:
+    if authors and key in own.question.formula.letters:
+        meant = own.question.formula.letters[key]
+        if not (isinstance(meant, ast.Name) and meant.id == key):
+            return f"own_{key}"
+    return f"the_{key}" if key in own.question.theory.tape else f"{key}_"
+
+
+def _raw(own: Script, tree: Node, authors: bool) -> str:
+    """A tree in Coq, node by node, names by name."""
+    value = value_of(tree)
+    if value is not None and not isinstance(tree, ast.BinOp):
+        return rational(value).text
+    if isinstance(tree, ast.Name):
+        name = _identifier(own, tree.id, authors)
+        return name if name in own.definitions else own.names[name].text
+    if isinstance(tree, ast.UnaryOp):
+        return f"(- {_raw(own, tree.operand, authors)})"
+    if isinstance(tree, ast.Call):
+        return f"({function_of(tree)} {_raw(own, tree.args[0], authors)})"
+    assert isinstance(tree, ast.BinOp)
+    left = _raw(own, tree.left, authors)
+    if isinstance(tree.op, ast.Pow):
+        return power_text(left, value_of(tree.right), lambda: _raw(own, tree.right, authors))
+    return f"({left} {_SIGNS[type(tree.op)]} {_raw(own, tree.right, authors)})"
+
+
+def _power(own: Script, base: CoqTerm, power: CoqTerm) -> CoqTerm:
+    exponent = Fraction(int(power.value.p), int(power.value.q)) if power.value.is_Rational else None
+    if not is_half(exponent):
+        return _real_power(own, base, power)
+    if exponent.denominator == 2:
+        base = _function(own, "sqrt", base)
+    whole = Fraction(exponent.numerator)
+    if whole < 0:
+        _not_zero(own, base.value)
+    return CoqTerm(text=power_text(base.text, whole, str), value=base.value ** int(whole))
+
+
+def _real_power(own: Script, base: CoqTerm, power: CoqTerm) -> CoqTerm:
+    # x^(n - 1) is x^n/x, and x^n a letter; of a product, the product of powers
+    text = f"(Rpower {base.text} {power.text})"
+    if text in own.functions:
+        return own.functions[text]
+    above, below = sympy.fraction(sympy.together(base.value))
+    exponents = sympy.expand(power.value)
+    if len(exponents.free_symbols) == 1:
+        exponents = sympy.apart(sympy.together(power.value))
+    value = Integer(1)
+    for whole, sign in ((above, 1), (below, -1)):
+        for factor, count in prime_factors(whole):
+            value *= _powers_of(own, factor, exponents * sign * count)
+    plain = coq_text(sympy.factor(base.value))
+    named = "" if plain == base.text else f"replace {base.text} with {plain} by (field; nonzero); "
+    own.prove(text, coq_text(value), f"{named}logarithms")
+    own.functions[text] = CoqTerm(text=coq_text(value), value=value)
+    return own.functions[text]
+
+
+def _powers_of(own: Script, base: Expr, exponent: Expr) -> Expr:
+    if base in own.powers:
+        base, inner = own.powers[base]
+        exponent = sympy.expand(sympy.together(exponent * inner).cancel())
+    if not base.is_positive:
+        own.suppose(f"0 < {coq_text(base)}")
+    value = Integer(1)
+    for kind, count in sympy.expand(exponent).as_coefficients_dict().items():
+        if kind == 1 and count.is_Integer:
+            value *= base**count
+            continue
+        kind = kind / count.q
+        if any(not p.is_polynomial() or sympy.total_degree(p) > 1 for p in sympy.fraction(sympy.together(kind))):
+            raise BadInput("powers of powers of this kind have no certificate")
+        known = next((k for k, pair in own.powers.items() if pair == (base, kind)), None)
+        if known is None:
+            known = own.new("P", own.put(f"(Rpower {coq_text(base)} {coq_text(sympy.together(kind))})"))
+            own.powers[known] = (base, kind)
+            own.suppose(f"0 < {known}")
+        value *= known**count.p
+    return value
+
+
+def _not_zero(own: Script, value: Expr) -> None:
+    above, below = sympy.fraction(sympy.together(value))
+    for factor in bases(sympy.factor(above)):
+        if not factor.is_positive:
+            own.suppose(f"{coq_text(factor)} <> 0")
+
+
+def _function(own: Script, function: str, argument: CoqTerm) -> CoqTerm:
+    text = f"({function} {argument.text})"
+    if text not in own.functions:
+        own.functions[text] = _evaluated(own, function, argument, text)
+    return own.functions[text]
+
+
+def _evaluated(own: Script, function: str, argument: CoqTerm, text: str) -> CoqTerm:
+    if function == "tan":
+        sine, cosine = (_function(own, f, argument) for f in ("sin", "cos"))
+        _not_zero(own, cosine.value)
+        whole = CoqTerm(text=f"({sine.text} / {cosine.text})", value=sine.value / cosine.value)
+        own.prove(text, whole.text, f"unfold tan; {own.rewritten}; reflexivity")
+        return whole
+    if function in ("sin", "cos"):
+        return _circular(own, function, argument, text)
+    if function == "sqrt":
+        return _root(own, argument, text)
+    if function == "asin":
+        for value, known in own.angles:
+            if sympy.cancel(value - argument.value) == 0:
+                own.prove(text, own.terms[known.text], "f_equal; field; nonzero")
+                return known
+        own.suppose(f"-1 <= {argument.text} <= 1")
+        angle = own.new("A", own.put(text))
+        own.angles.append((argument.value, CoqTerm(text=str(angle), value=angle)))
+        own.prove(f"(sin {text})", argument.text, "apply sin_asin; assumption")
+        own.functions[f"(sin {angle})"] = argument
+        inside = CoqTerm(text=f"(1 - ({argument.text} ^ 2))", value=1 - argument.value**2)
+        own.prove(f"(cos {text})", f"(sqrt {inside.text})", "apply cos_of_asin; assumption")
+        own.functions[f"(cos {angle})"] = _function(own, "sqrt", inside)
+        return CoqTerm(text=str(angle), value=angle)
+    raise BadInput(f"{function} has no place in a certificate")
+
+
+def _circular(own: Script, function: str, argument: CoqTerm, text: str) -> CoqTerm:
+    terms = sympy.expand(argument.value).as_coefficients_dict()
+    if len(terms) == 1 and next(iter(terms.values())) == 1 and next(iter(terms)).is_Symbol:
+        return _of_letter(own, function, next(iter(terms)))
+    if any(not k.is_Symbol or not v.is_Integer for k, v in terms.items()) or sum(map(abs, terms.values())) > _MULTIPLE:
+        raise BadInput("a sine of this has no place in a certificate")
+    parts = [(k, 1 if v > 0 else -1) for k, v in sorted(terms.items(), key=str) for _ in range(abs(int(v)))]
+    added = " + ".join(f"{k}" if sign > 0 else f"(- {k})" for k, sign in parts)
+    sine, cosine = Integer(0), Integer(1)
+    for angle, sign in parts:
+        s, c = (_of_letter(own, f, angle).value for f in ("sin", "cos"))
+        sine, cosine = sine * c + cosine * sign * s, cosine * c - sine * sign * s
+    value = sympy.expand(sine if function == "sin" else cosine)
+    opened = "repeat first [ rewrite sin_plus | rewrite cos_plus | rewrite sin_neg | rewrite cos_neg ]"
+    own.prove(
+        text,
+        coq_text(value),
+        f"replace {argument.text} with ({added}) by (field; nonzero); {opened}; {own.rewritten}; field; nonzero",
     )
-    rational = all(e.is_rational_function() for e in (identity.printed, identity.derived, *identity.roots.values()))
-    return identity if rational else None
+    return CoqTerm(text=coq_text(value), value=value)
 
 
-def _sines(expression: Expr) -> Expr:
-    # sines and cosines of single angles
-    expression = expression.replace(sympy.tan, lambda x: sin(x) / cos(x)).replace(sympy.cot, lambda x: cos(x) / sin(x))
-    return sympy.expand_trig(expression)
+def _of_letter(own: Script, function: str, angle: Symbol) -> CoqTerm:
+    key = f"({function} {angle})"
+    if key not in own.functions:
+        for f in ("sin", "cos"):
+            letter = own.new(f[0], own.put(f"({f} {angle})"))
+            own.functions[f"({f} {angle})"] = CoqTerm(text=str(letter), value=letter)
+        s, c = (own.functions[f"({f} {angle})"].value for f in ("sin", "cos"))
+        own.relations.append(s**2 + c**2 - 1)
+    return own.functions[key]
 
 
-def _without_roots(expression: Expr, letters: dict[Expr, Symbol], powers: dict[Expr, Symbol]) -> Expr:
-    # innermost first: a radicand may hold roots
-    if not expression.args:
-        return expression
-    expression = expression.func(*(_without_roots(a, letters, powers) for a in expression.args))
-    if not isinstance(expression, Pow) or expression.exp.is_Integer:
-        return expression
-    base, exponent = expression.args
-    if exponent.is_Rational and exponent.q == 2:
-        return _root(base, letters) ** exponent.p
-    # any other power may be any number: x^(n - 1) is x^n/x, and x^(1/3) a letter
-    whole, rest = (Integer(0), exponent) if exponent.is_Rational else exponent.expand().as_coeff_Add()
-    count, rest = (exponent.p, Rational(1, exponent.q)) if exponent.is_Rational else rest.as_coeff_Mul()
-    if not (whole.is_Integer and sympy.sympify(count).is_Integer):
-        return expression
-    power = Pow(base, rest, evaluate=False)
-    return base**whole * powers.setdefault(power, Symbol(f"power_{len(powers) + 1}")) ** count
-
-
-def _root(base: Expr, letters: dict[Expr, Symbol]) -> Expr:
+def _root(own: Script, argument: CoqTerm, text: str) -> CoqTerm:
     # the square of what is positive is taken out, the sign stays inside
-    above, below = sympy.fraction(sympy.together(base))
+    above, below = sympy.fraction(sympy.together(argument.value))
     if not below.is_positive:
-        above, below = sympy.together(base), Integer(1)
-    square = sympy.expand(above * below).replace(
-        lambda e: isinstance(e, Pow) and isinstance(e.base, cos) and e.exp.is_Integer and e.exp > 1,
-        lambda e: (1 - sin(e.base.args[0]) ** 2) ** (e.exp // 2) * e.base ** (e.exp % 2),
-    )
-    content, factors = sympy.sqf_list(sympy.expand(square))
-    outside, inside = Integer(1), content
+        raise BadInput("a root of a fraction of either sign has no certificate")
+    content, factors = sympy.factor_list(_lowered(own, sympy.expand(above * below)))
+    outside, inside, whole = Integer(1), Integer(1), Integer(1)
+    if content > 0:
+        factors = [*factors, *((Integer(p), k) for p, k in sympy.factorint(content).items())]
+    else:
+        inside = content
     for factor, power in factors:
-        outside *= factor ** (power // 2) if factor.is_positive else 1
-        inside *= factor ** (power % 2 if factor.is_positive else power)
+        if factor.is_positive:
+            outside *= factor ** (power // 2)
+            whole *= _root_letter(own, factor) if power % 2 else 1
+        else:
+            inside *= factor**power
     inside = sympy.expand(inside)
-    if inside == 1:
-        return outside / below
-    return outside * letters.setdefault(inside, Symbol(f"root_{len(letters) + 1}")) / below
+    if inside != 1:
+        root = sympy.sqrt(inside)
+        whole *= root if root.is_rational_function() and root.is_nonnegative else _root_letter(own, inside)
+    value = outside * whole / below
+    result = CoqTerm(text=coq_text(value), value=value)
+    if own.put(text) != own.put(result.text):
+        number = len(own.steps)
+        product = CoqTerm(text=f"({result.text} * {result.text})", value=value * value)
+        lemma = _lemma(own, f"{own.name}_root{number}", product, argument)
+        own.prove(text, result.text, f"apply root_is; [ positive | {lemma} ]")
+    return result
 
 
-def _written(identity: Identity, name: str) -> str | None:
-    above, below = sympy.fraction(sympy.together(identity.printed - identity.derived))
-    relations = identity.relations
-    order = [*reversed(identity.roots), *sorted(identity.circular, key=str)]
+def _root_letter(own: Script, square: Expr) -> Expr:
+    key = f"(sqrt {coq_text(square)})"
+    if key not in own.functions:
+        own.suppose(f"0 <= {coq_text(square)}")
+        letter = own.new("D", own.put(key))
+        own.relations.append(letter**2 - square)
+        own.functions[key] = CoqTerm(text=str(letter), value=letter)
+    return own.functions[key].value
+
+
+def _lowered(own: Script, polynomial: Expr) -> Expr:
+    # c^2 as 1 - s^2
+    for relation in own.relations:
+        cosine = max(relation.free_symbols, key=lambda k: int(str(k)[1:]) if str(k)[0] == "c" else -1)
+        if str(cosine)[0] == "c" and relation.has(cosine**2):
+            polynomial = sympy.rem(polynomial, relation, cosine)
+    return sympy.expand(polynomial)
+
+
+def _lemma(own: Script, name: str, one: CoqTerm, other: CoqTerm) -> str:
+    """A lemma of two rational expressions in letters, and how it is applied."""
+    above, below = sympy.fraction(sympy.together(one.value - other.value))
+    relations = own.relations
+    order = [symbol(k) for k in reversed(own.terms)]
     free = sorted(above.free_symbols.union(*(r.free_symbols for r in relations)) - set(order), key=str)
     cofactors: Sequence[Expr] = []
     if relations and sympy.expand(above) != 0:
         quotients, rest = sympy.reduced(sympy.expand(above), relations, *order, *free, order="lex")
         if rest != 0:
-            return None
+            raise BadInput("the difference does not reduce to nothing")
         cofactors = quotients
-    rational = (identity.printed, identity.derived, *identity.roots.values())
-    factors = sorted({f for part in _below(rational) for f in _factors(part)}, key=str)
-    divisors = list(dict.fromkeys([*factors, *_factors(below)]))
-    everything = (identity.printed, identity.derived, *relations, *divisors)
-    letters = sorted(set().union(*(e.free_symbols for e in everything)), key=str)
-    lemma = _lemma(identity, name, relations, cofactors, below, divisors, letters)
-    return "\n".join([lemma, _theorem(identity, name, divisors, letters)])
+    elif sympy.expand(above) != 0:
+        raise BadInput("the difference is not nothing")
+    for factor in bases(sympy.factor(below)):
+        if not factor.is_positive:
+            own.suppose(f"{coq_text(factor)} <> 0")
+    used = [(i, q, r) for i, (q, r) in enumerate(zip(cofactors, relations, strict=False)) if q != 0]
+    combination = " + ".join(f"({coq_text(q)}) * ({coq_text(r)})" for _, q, r in used) or "0"
+    conditions = list(own.hypotheses)
+    told = " ".join([one.text, other.text, *map(coq_text, relations), *conditions])
+    letters = [k for k in dict.fromkeys(re.findall(r"\b(?:[A-Za-z]\w*_|[AscDP]\d+)\b", told))]
+    named = [f"H{i}" for i in range(len(relations))] + [f"N{i}" for i in range(len(conditions))]
+    own.lemmas.append(
+        "\n".join(
+            [
+                f"Lemma {name} : forall {' '.join(letters) or 'unused'} : R,",
+                *(f"  {coq_text(r)} = 0 ->" for r in relations),
+                *(f"  {c} ->" for c in conditions),
+                f"  {one.text} = {other.text}.",
+                f"Proof.\n  intros {' '.join([*letters, *named])}.",
+                "  apply Rminus_diag_uniq.",
+                f"  replace ({one.text} - {other.text}) with (({combination}) / ({coq_text(below)})).",
+                f"  - {''.join(f'rewrite H{i}; ' for i, _, _ in used)}unfold Rdiv; ring.\n  - field; nonzero.\nQed.",
+            ]
+        )
+    )
+    given = " ".join(own.terms.get(k, k) for k in letters)
+    return f"apply ({name} {given}); first [ assumption | circles | lra ]"
 
 
-def _products(expressions: Iterable[Expr]) -> list[str]:
-    # a divisor that is a product, written out: it is not zero because its factors are not
-    parts = {part for part in _below(expressions) if part.is_Mul}
-    return [
-        f"  assert ({_coq(sympy.expand(part))} <> 0) by (replace ({_coq(sympy.expand(part))}) with ({_coq(part)}) "
-        "by ring; product)."
-        for part in sorted(parts, key=str)
-    ]
-
-
-def _below(expressions: Iterable[Expr]) -> list[Expr]:
-    # divisors; of one that is a fraction itself field asks for both of its parts
-    powers = [p for e in expressions for p in e.atoms(Pow) if _is_below(p)]
-    return [part for p in powers for part in sympy.fraction(sympy.together(p.base))]
-
-
-def _factors(product: Expr) -> list[Expr]:
-    factors = [f.base if isinstance(f, Pow) else f for f in Mul.make_args(product)]
-    return [f for f in factors if not f.is_number]
-
-
-def _lemma(
-    identity: Identity,
-    name: str,
-    relations: list[Expr],
-    cofactors: Sequence[Expr],
-    below: Expr,
-    divisors: list[Expr],
-    letters: list[Symbol],
-) -> str:
-    terms = [f"({_coq(q)}) * ({_coq(g)})" for q, g in zip(cofactors, relations, strict=False) if q != 0]
-    used = [i for i, q in enumerate(cofactors) if q != 0]
-    hypotheses = [f"  {_coq(g)} = 0 ->" for g in relations] + [f"  {_coq(d)} <> 0 ->" for d in divisors]
-    named = [f"H{i}" for i in range(len(relations))] + [f"N{i}" for i in range(len(divisors))]
-    combination = " + ".join(terms) or "0"
-    rewritten = "".join(f"rewrite H{i}; " for i in used)
+def _theorem(own: Script, tree: Node, last: str) -> str:
+    printed = _raw(own, tree, authors=True)
+    derived = f"the_{own.question.quantity}"
+    lets = [f"  let {name} := {own_text} in" for name, own_text in own.definitions.items()]
+    conditions = [own.put(c) for c in own.hypotheses]
+    everything = " ".join([printed, *lets, *conditions])
+    letters = [k for k in dict.fromkeys(re.findall(r"\b\w+_\b", everything)) if not k.startswith(("the_", "own_"))]
+    named = " ".join(f"N{i}" for i in range(len(conditions)))
     return "\n".join(
         [
-            f"Lemma {name}_algebra : forall {' '.join(_letter(k) for k in letters if k != _PI) or 'unused'} : R,",
-            *hypotheses,
-            f"  {_coq(identity.printed)} = {_coq(identity.derived)}.",
-            f"Proof.\n  intros {' '.join([*(_letter(k) for k in letters if k != _PI), *named])}.",
-            *_products((identity.printed, identity.derived)),
-            f"  apply Rminus_diag_uniq.\n  replace ({_coq(identity.printed)} - ({_coq(identity.derived)}))",
-            f"    with (({combination}) / ({_coq(below)})).",
-            f"  - {rewritten}unfold Rdiv; ring.\n  - field; nonzero.\nQed.",
+            f"Theorem {own.name} : forall {' '.join(letters) or 'unused'} : R,",
+            *(f"  {c} ->" for c in conditions),
+            *lets,
+            f"  {printed} = {derived}.",
+            f"Proof.\n  intros {' '.join(letters) or 'unused'} {named}; cbv zeta.",
+            *(own.put(step) for step in own.steps),
+            f"  {own.put(last)}.\nQed.\n",
         ]
     )
-
-
-def _theorem(identity: Identity, name: str, divisors: list[Expr], letters: list[Symbol]) -> str:
-    put: dict[Symbol, str] = {k: f"({f.func.__name__} {_letter(f.args[0])})" for k, f in identity.circular.items()}
-    for letter, square in identity.roots.items():
-        put[letter] = f"(sqrt ({_coq(square, put)}))"
-    everything = (identity.printed, identity.derived, *identity.roots.values(), *divisors)
-    free = set().union(*(e.free_symbols for e in everything)) - {*put, _PI}
-    free |= {f.args[0] for f in identity.circular.values()}
-    squares = [f"  0 <= {_coq(square, put)} ->" for square in identity.roots.values()]
-    hypotheses = [*squares, *(f"  {_coq(d, put)} <> 0 ->" for d in divisors)]
-    angles = dict.fromkeys(f.args[0] for f in identity.circular.values())
-    facts = [f"pose proof (sin2_cos2 {_letter(a)}) as C{i}; unfold Rsqr in C{i}; " for i, a in enumerate(angles)]
-    facts += [f"pose proof (sqrt_sqrt _ Q{i}) as S{i}; " for i in range(len(squares))]
-    given = " ".join(put.get(k) or _letter(k) for k in letters if k != _PI)
-    named = [f"Q{i}" for i in range(len(squares))] + [f"N{i}" for i in range(len(divisors))]
-    return "\n".join(
-        [
-            f"Theorem {name} : forall {' '.join(sorted(map(_letter, free))) or 'unused'} : R,",
-            *hypotheses,
-            f"  {_coq(identity.printed, put)} = {_coq(identity.derived, put)}.",
-            f"Proof.\n  intros {' '.join([*sorted(map(_letter, free)), *named])}.",
-            f"  {''.join(facts)}",
-            f"  apply ({name}_algebra {given}); first [ assumption | lra ].\nQed.\n",
-        ]
-    )
-
-
-def _letter(symbol: Symbol) -> str:
-    return "PI" if symbol == _PI else re.sub(r"\W", "_", f"{symbol}_")
-
-
-def _coq(e: Expr, put: dict[Symbol, str] | None = None) -> str:
-    put = put or {}
-    if e.is_Symbol:
-        return put.get(e) or _letter(e)
-    if e.is_Rational:
-        whole = f"{abs(int(e.p))}" if e.q == 1 else f"({abs(int(e.p))} / {int(e.q)})"
-        return f"(- {whole})" if e.p < 0 else whole
-    if e.is_Add:
-        first, *rest = (_coq(a, put) for a in sorted(e.args, key=lambda a: a.could_extract_minus_sign()))
-        return "(" + first + "".join(f" - {r[3:-1]}" if r.startswith("(- ") else f" + {r}" for r in rest) + ")"
-    if e.is_Mul and e.could_extract_minus_sign():
-        return f"(- {_coq(-e, put)})"
-    if e.is_Mul:
-        above, below = ([a for a in e.args if _is_below(a) is side] for side in (False, True))
-        top = " * ".join(_coq(a, put) for a in above) or "1"
-        return f"({top} / {_coq(Mul(*(1 / a for a in below)), put)})" if below else f"({top})"
-    if _is_below(e):
-        return f"(1 / {_coq(1 / e, put)})"
-    if isinstance(e, Pow) and e.exp.is_Integer:
-        return f"({_coq(e.base, put)} ^ {int(e.exp)})"
-    raise BadInput(f"{e} has no place in a certificate")
-
-
-def _is_below(e: Expr) -> bool:
-    return isinstance(e, Pow) and bool(e.exp.is_Integer and e.exp < 0)

@@ -22,6 +22,7 @@ from mechsym.audit.judge.question import (
     used_names,
     value,
 )
+from mechsym.audit.judge.window import Window, branch, has_cases, is_same, is_wide, wide_window
 from mechsym.audit.read.algebra import DIGITS, FLOATS, SYMBOLS, evaluate
 from mechsym.audit.read.tree import Node, name
 from mechsym.audit.theory.record import complete
@@ -49,6 +50,11 @@ class Judges:
     def turn(self) -> Bench:
         """One turn at the source's data."""
         return turn(self.question)
+
+    @cached_property
+    def wide(self) -> Window | None:
+        """States over the whole domain; None where they may only lie near the data."""
+        return wide_window(self.question) if is_wide(self.question) else None
 
 
 def judges(question: Question, seed: int = 1) -> Judges:
@@ -133,9 +139,32 @@ def _errors(judged: Judges, asked: Bench, tree: Node) -> np.ndarray:
     return np.where(np.isfinite(sizes), np.where(np.isnan(errors), np.where(away == 0, 0.0, np.inf), errors), 0.0)
 
 
+@record
+class Reach:
+    """How far from the data a formula that agrees there is still the quantity."""
+
+    everywhere: bool
+    where: Node | None = None  #: What is positive wherever it is, on one branch of a root or an inverse function
+
+
+def reach(judged: Judges, tree: Node) -> Reach:
+    """Compare a formula with its quantity over the whole domain."""
+    if judged.wide is None:
+        return Reach(everywhere=True)
+    strict, told = judged.wide.strict, judged.wide.told(tree)
+    same = is_same(value(strict, tree), strict.expected, judged.angle) | (~told if told.any() else False)
+    if same.all():
+        return Reach(everywhere=True)
+    # whoever writes |x| means that x may be negative
+    return Reach(everywhere=False, where=None if has_cases(tree) else branch(judged.question, strict, same))
+
+
 def is_exact(judged: Judges, tree: Node) -> bool:
-    """Whether a formula agrees with the derived quantity to 40 digits at every random state; False is a refutation."""
-    return agrees_quickly(judged, tree) and agreement(judged, tree).exact
+    """Whether a formula agrees with the derived quantity at every random state; False is a refutation."""
+    if not agrees_quickly(judged, tree) or not agreement(judged, tree).exact:
+        return False
+    reached = reach(judged, tree)
+    return reached.everywhere or reached.where is not None
 
 
 def agrees_quickly(judged: Judges, tree: Node) -> bool:

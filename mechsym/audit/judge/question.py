@@ -265,10 +265,7 @@ _SETS, _ANGLES, _DECADES = 600, 12, 1.5  # machines that are tried, angles of ea
 
 
 def require_possible(question: Question) -> None:
-    """Refuse assumptions that no machine keeps, whatever its letters are.
-
-    Raises BadInput: the assumptions contradict one another, or what the theory takes for granted.
-    """
+    """Refuse assumptions that no machine keeps. Raises BadInput: they contradict one another, or the theory."""
     theory = question.theory
     if not question.where:
         return

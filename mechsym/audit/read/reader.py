@@ -139,6 +139,10 @@ def read(
     return Formula(tree=tree, letters=own, latex=is_latex(body), spelled=spelled, note=note)
 
 
+_KEPT = 16
+_LONG_NUMBER = re.compile(r"\d*\.\d{17,}")
+
+
 def read_expression(text: str, known: Iterable[str], more: Container[str] = ()) -> tuple[Node, dict[str, str]]:
     """Read an expression: the tree, and known letters to the LaTeX that was written for them."""
     known = list(known)
@@ -146,6 +150,9 @@ def read_expression(text: str, known: Iterable[str], more: Container[str] = ()) 
         raise BadInput(f"the formula has {len(text)} characters; at most {MAX_TEXT} are read")
     if not text.strip():
         raise BadInput("the formula is empty; write an expression such as r*sin(phi)")
+    for number in _LONG_NUMBER.findall(text):
+        if len(repr(float(number))) < _KEPT:  # 0.99999999999999999999 would be 1
+            raise BadInput(f"the number {number[:40]} has more digits than the {_KEPT} that are kept; round it")
     tree, spelled = read_latex(text) if is_latex(text) else (_read_python(text), {})
     check(tree)
     meant = {}

@@ -81,6 +81,11 @@ def repeated_edits(tree: Node) -> list[Edit]:
             changed = substitute(tree, alike.get)
             about = f"{to_python(node)} becomes {to_python(new)} in {counts[text]} places"
             edits.append(Edit(kind="everywhere", path=(), new=without_double_signs(changed), about=about))
+    # the stars of powers that became those of products
+    starred = {p.node: power for p in places(tree) if (power := _powered(p.node)) is not None}
+    if len(starred) > 1:
+        about = f"{len(starred)} products become powers"
+        edits.append(Edit(kind="everywhere", path=(), new=substitute(tree, starred.get), about=about))
     # degrees for radians is no slip of one place: whoever counts in degrees does so throughout
     inside = [a for p in places(tree) if (a := argument_of(p.node, *CIRCULAR)) is not None]
     changes: dict[str, dict[Node, Node]] = {}
@@ -92,6 +97,15 @@ def repeated_edits(tree: Node) -> list[Edit]:
             about = f"the arguments of {len(instead)} functions, {told}"
             edits.append(Edit(kind="everywhere", path=(), new=substitute(tree, instead.get), about=about))
     return edits
+
+
+def _powered(node: Node) -> Node | None:
+    # 3*a**2 for 3*a*2
+    if not is_operation(node, ast.Mult) or value_of(node.right) is None or value_of(node.left) is not None:
+        return None
+    if is_operation(node.left, ast.Mult):
+        return binary(ast.Mult, node.left.left, binary(ast.Pow, node.left.right, node.right))
+    return binary(ast.Pow, node.left, node.right)
 
 
 def confusable(question: Question, letter: str) -> list[str]:
@@ -131,10 +145,17 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
         known = names(asked, {n for edit in edits for n in letters(edit.new)})
         # below an even power, where either sign will do, what is squared tells
         goals: dict[Path, tuple[Path, Sequence[_Goal]]] = {}
+        within: set[Path] = set()
         for path, wanted in wishes.items():  # a part comes after the whole
             squared = is_squared(nodes, path)
             goals[path] = path, _goals(asked, wanted, memo[nodes[path]], squared)
             above = goals.get(path[:-1])
+            # an angle is known by its sine only up to turns
+            angled = path and (function_of(nodes[path[:-1]]) in CIRCULAR or path[:-1] in within)
+            if angled and above:
+                within.add(path)
+                goals[path] = above
+                continue
             if path and above and above[1] and above[1][0].squared and not squared:
                 goals[path] = above
         few = {k: v[..., :1] if np.ndim(v) else v for k, v in known.items()} if asked.digits else {}

@@ -15,14 +15,19 @@ from mechsym.audit.read.algebra import DIGITS, Values
 from mechsym.audit.read.tree import Node, Path, children, function_of, is_operation, value_of
 
 Required = Mapping[Path, tuple[Values, ...]]
+_INVERSE = {
+    "exp": "log", "log": "exp", "asin": "sin", "acos": "cos", "atan": "tan", "sin": "asin", "cos": "acos",
+    "tan": "atan",
+}  # fmt: skip
+CIRCULAR = ("sin", "cos", "tan")
 _MOST = 4  # values that one part is asked for
 
 
 def required(asked: Bench, tree: Node, memo: Mapping[Node, Values], both: bool = True) -> Required:
     """Required values of all parts that can be reached, the nearest to the print first.
 
-    Parts under sines, absolute values and sums over parts are not reached; `both`: an even power asks for both of its
-    roots, rather than for the one with the printed sign.
+    Parts under sums over parts and cotangents are not reached; `both`: an even power, |x|, a sine and a cosine ask for
+    both values, rather than for the one with the printed sign or in the first quadrant.
     """
     wanted: dict[Path, tuple[Values, ...]] = {(): (asked.expected,)}
     waiting: list[tuple[Path, Node]] = [((), tree)]
@@ -50,10 +55,14 @@ def _below(
     if isinstance(node, ast.Call):
         function = str(function_of(node))
         functions = asked.algebra.functions
-        inverse = {"exp": "log", "log": "exp", "asin": "sin", "acos": "cos", "atan": "tan"}
         if function == "sqrt":
             return (np.where(_floats(wish) >= 0, wish * wish, _nan(asked)),)  # no root is negative
-        return (functions[inverse[function]](wish),) if function in inverse else ()
+        if function not in _INVERSE or function in CIRCULAR and not both:
+            return (wish, -wish) if function == "abs" else ()
+        value = functions[_INVERSE[function]](wish)
+        # of a sine and a cosine either angle, the crank being in its first quadrant
+        other = {"sin": lambda: asked.algebra.pi() - value, "cos": lambda: -value}.get(function)
+        return (value, other()) if other else (value,)
     if not isinstance(node, ast.BinOp):
         return ()  # which piece counts is decided elsewhere
     operations = asked.algebra.operations

@@ -239,13 +239,11 @@ def _left_out(known: _Known, tree: Node, spots: list[Spot], wishes: Wishes, memo
 
 
 _SAME = 1e-9
+_NOISE = 1e-12
 # an error beyond this at the source's data is no approximation, whatever its powers
 LARGEST_ERROR = 5.0
-# a truncation is off by little more than the first term that it leaves out
-_MOST = 2.0
+_MOST = 2.0  # a truncation is off by little more than the first term that it leaves out
 _NOTHING = 1e-12  # of a term, by which another one beside it is none
-# what makes a formula a truncation by taking its terms away does not repair it
-_TAKES_AWAY = {"left out"}
 _PLAIN = {"root", "sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power", "degrees"}
 
 
@@ -285,7 +283,8 @@ def truncated(exam: Examination, start: Repair) -> str | None:
         if not all(powers(more[k], start.tree).pure for k in loads):
             return None
     first = {k: p.first for k, p in zip(loads, standing, strict=True) if p.first is not None}
-    if overshoot(exam.question, start.tree, first) > _MOST:
+    # it leaves out nothing and differs all the same, or by more than the first term left out accounts for
+    if not loads or len(first) < len(loads) or overshoot(exam.question, start.tree, first) > _MOST:
         return None
     return f"leaves out {_powers({k for p in standing for k in p.missing[:1]})} and what follows"
 
@@ -325,7 +324,7 @@ def _raising(exam: Examination, start: Repair) -> tuple[list[Repair], list[Repai
 
 def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:
     # every power that the edit changes is right or left out afterwards
-    if repair.edits[-1].kind in _TAKES_AWAY or min(repair.orders.values(), default=EXACT) < 1:
+    if repair.edits[-1].kind == "left out" or min(repair.orders.values(), default=EXACT) < 1:
         return False
     if not is_plausible(exam, repair.tree):
         return False
@@ -390,7 +389,8 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
         for values in wishes.get(place.path, ()):
             wish = float(np.median(values))
             same = np.isfinite(wish) and wish and np.all(np.abs(np.asarray(values) / wish - 1) < _SAME)
-            if not same or abs(wish - printed) > half:
+            # a number that has lost no digits is not the one that is rounded
+            if not same or abs(wish - printed) > half or abs(wish - printed) <= _NOISE * abs(printed) < half:
                 continue
             mended = value(quick, replace(tree, place.path, number(Fraction(wish))))
             with np.errstate(all="ignore"):

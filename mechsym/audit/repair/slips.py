@@ -8,7 +8,7 @@ import ast
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
-from mechsym.audit.judge.dimensions import kind_of_letter
+from mechsym.audit.judge.dimensions import ANGLE, kind_of_letter
 from mechsym.audit.judge.question import Question
 from mechsym.audit.read.tree import (
     Node,
@@ -62,6 +62,11 @@ def node_edits(place: Spot, siblings: Callable[[str], Sequence[str]]) -> Iterato
         one_over = binary(ast.Div, number(1), node.right) if isinstance(node.op, ast.Div) else node.right
         yield "left out", node.left
         yield "left out", negative(node.right) if isinstance(node.op, ast.Sub) else one_over
+    # a b for a + b, where a sign was lost, and 2 a for a^2
+    if is_operation(node, ast.Mult):
+        yield from (("operator", binary(operator, node.left, node.right)) for operator in (ast.Add, ast.Sub, ast.Pow))
+    elif is_operation(node, ast.Add, ast.Sub, ast.Pow) and not is_exponent(place):
+        yield "operator", binary(ast.Mult, node.left, node.right)
     if is_operation(node, ast.Div):
         yield "inverted", binary(ast.Mult, node.left, node.right)
         yield "inverted", binary(ast.Div, node.right, node.left)
@@ -241,7 +246,10 @@ def wider_edits(question: Question, tree: Node, siblings: Siblings) -> list[Edit
             for other in siblings(one):
                 edits.append(_renamed(tree, {one: other}, f"{one} becomes {other} wherever it stands"))
     needed = dependencies(question.theory, [question.quantity])
+    needed |= {k for k in question.theory.tape if needed & {f"sin_{k}", f"cos_{k}"}}
     usable = dict.fromkeys([*question.formula.letters, *(k for k in question.theory.letters if k in needed)])
+    known = dict.fromkeys([*question.formula.letters, *question.theory.letters, *question.theory.tape])
+    angles = [k for k in known if (k in needed or k in used) and kind_of_letter(question, k) == ANGLE]
     for place in places(tree):
         node, path = place.node, place.path
         if is_operation(node, ast.Add, ast.Sub) and is_term(place):
@@ -251,9 +259,10 @@ def wider_edits(question: Question, tree: Node, siblings: Siblings) -> list[Edit
         # x for 1 - x
         if value_of(node) is None and not isinstance(node, ast.UnaryOp) and not is_exponent(place):
             edits.append(Edit(kind="put back", path=path, new=binary(ast.Sub, number(1), node)))
-        # sin(2*pi*phi) for sin(2*pi*phi/duration)
+        # sin(phi) for sin(phi + beta), sin(2*pi*phi) for sin(2*pi*phi/duration)
         if place.parent is not None and function_of(place.parent) in CIRCULAR:
-            more = [binary(operator, node, name(k)) for k in usable for operator in (ast.Mult, ast.Div)]
+            more = [binary(operator, node, name(k)) for k in angles for operator in (ast.Add, ast.Sub)]
+            more += [binary(operator, node, name(k)) for k in usable for operator in (ast.Mult, ast.Div)]
             edits += [Edit(kind="argument", path=path, new=new) for new in more]
     return edits
 
@@ -288,6 +297,10 @@ def _of_sum(path: Path, terms: Run) -> Iterator[Edit]:
 def _of_product(path: Path, factors: Run) -> Iterator[Edit]:
     # a*b/c for a/(b/c), a*sqrt(b*c), a*(1 - b*c)
     for before, inside, after in _cuts(factors):
+        if bool(before) != bool(after) and all(above for above, _ in factors):
+            # a b c for a + b c
+            sums = [_joined(run, _FACTOR) for run in (before, inside, after) if run]
+            yield Edit(kind="operator", path=path, new=binary(ast.Add, *sums))
         upright = [(above == inside[0][0], factor) for above, factor in inside]
         turned = [(not above, factor) for above, factor in inside]
         yield Edit(kind="inverted", path=path, new=_joined([*before, *turned, *after], _FACTOR))

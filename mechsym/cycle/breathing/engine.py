@@ -17,20 +17,17 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from mechsym.cycle.brake import brake_figures
 from mechsym.cycle.breathing.equations import Cylinder
-from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, HeatSink, Surroundings
+from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, GasExchange, HeatSink, Surroundings, charge
 from mechsym.cycle.breathing.run import breathe
 from mechsym.cycle.breathing.turbocharger import Boost, Boosted, atmosphere, boosted
 from mechsym.cycle.chamber import Chamber, ChamberParameters, Motion, chamber, piston_force, travel, volume
 from mechsym.cycle.cylinder import ENGINE_PAGE, otto_bound
-from mechsym.cycle.friction import Friction, NoFriction, friction_pressure
-from mechsym.cycle.gas import Gas
+from mechsym.cycle.friction import Friction, NoFriction, brake_figures, friction_pressure
+from mechsym.cycle.gas import Gas, Pressure, peak, periodic, pressure_over
 from mechsym.cycle.heat import Adiabatic, Law
-from mechsym.cycle.kinds.gas_exchange import GasExchange, charge
 from mechsym.cycle.knock import knock_along
 from mechsym.cycle.plots import breathing_picture
-from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
 from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
 from mechsym.cycle.wiebe import BURNT, burnt_at
 from mechsym.errors import BadInput

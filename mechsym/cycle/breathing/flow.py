@@ -44,9 +44,8 @@ def orifice_flow(
 
     area: effective area, discharge coefficient included; up, down: pressure and temperature of the first and the second
     volume [Pa, K]; gamma: ratio of the heat capacities; R: gas constant. Returns flow: from the first to the second
-    volume; the volume of the higher pressure gives p_0 and T_0.
-    Source: Heywood (1988), eqs. (C.8), (C.9). Valid: quasi-steady; within 1e-3 of equal pressures a straight line
-    stands for the root.
+    volume; the volume of the higher pressure gives p_0 and T_0. Source: Heywood (1988), eqs. (C.8), (C.9). Valid:
+    quasi-steady; within 1e-3 of equal pressures a straight line stands for the root.
 
     >>> round(float(orifice_flow(1e-4, (2e5, 300.0), (1e5, 300.0), 1.4, 287.0)), 5)  # choked
     0.04667

@@ -20,9 +20,9 @@ import scipy
 from mechsym.cycle.breathing.flow import orifice_flow
 from mechsym.cycle.breathing.scavenging import Scavenging, dew_point, flow_area, remaining, trapped_temperature
 from mechsym.cycle.breathing.turbocharger import atmosphere, compressor_temperature
-from mechsym.cycle.chamber import Chamber, volume
+from mechsym.cycle.chamber import Chamber, chamber_over, volume
 from mechsym.cycle.cylinder import CylinderGas
-from mechsym.cycle.dead_centres import chamber_over
+from mechsym.cycle.gas import Pressure, mean_indicated_pressure
 from mechsym.cycle.kinds.two_stroke import (
     TwoStrokeMarine,
     absolute_pressure,
@@ -33,7 +33,6 @@ from mechsym.cycle.kinds.two_stroke import (
     solve,
     two_stroke_pressure,
 )
-from mechsym.cycle.pressure import Pressure, mean_indicated_pressure
 from mechsym.cycle.source import EngineParts
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -275,10 +274,7 @@ class MarineGas(CylinderGas):
     """Gas of the two-stroke marine cycle; where `[scavenging]` has a turbocharger, at the charge that it gives."""
 
     def charged(self, omega: float) -> tuple[TwoStrokeMarine, ScavengeState | None]:
-        """The cycle with p_s and T_evc from its turbocharger at a speed [rad/s], and how that runs; None without.
-
-        Raises BadInput: there is no balance.
-        """
+        """The cycle with p_s and T_evc from its turbocharger at a speed [rad/s]. Raises BadInput: no balance."""
         section: Scavenging | None = self.parts.section("scavenging")
         if section is None or section.source != "turbocharger":
             return self.cycle, None

@@ -1,26 +1,32 @@
-"""Whole cycles of a cylinder that breathes, one after the other until one repeats, at all speeds side by side.
+r"""Whole cycles of a cylinder that breathes, one after the other until one repeats, at all speeds side by side.
 
 Where volumes are so large that none repeats for long, Newton looks for the one that does.
 
 A cycle runs from one closing of the inlet to the next. Crank angles count from firing top dead centre, so gas exchange
 lies around 2 pi.
+
+The cycle that repeats, by Newton, where volumes are so large that following cycle after cycle takes too long.
+
+.. math:: F(x) = g(x) - x = 0, \qquad x \leftarrow x - (g' - 1)^{-1} F
+
+g takes the state over one cycle; its slopes come from cycles of neighbours that run side by side. A cycle whose
+neighbours run away from it, so that |eigenvalue of g'| > 1, is none that an engine shows, and none is returned.
 """
 
 import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import casadi as ca
 import numpy as np
 
 from mechsym.cycle.breathing.equations import GIVEN, STATES, VOLUMES, Cylinder, rate
 from mechsym.cycle.breathing.flow import orifice_flow
-from mechsym.cycle.breathing.newton import repeating
 from mechsym.cycle.breathing.records import PERIOD, Breath, Surroundings
 from mechsym.cycle.closed.runge_kutta import METHOD
 from mechsym.errors import BadInput
 from mechsym.native.fold import Fold, folder
-from mechsym.quantities.units import RadPerSecond, Scalar
+from mechsym.quantities.units import Pure, RadPerSecond, Scalar
 
 _STEPS, _CYCLES, _SETTLED = 1440, 40, 1e-10
 _FINER = (1, 4)  # times as many steps, where small volumes behind wide throats ask for it
@@ -174,3 +180,39 @@ def _start(cylinder: Cylinder, outside: np.ndarray, closed: float) -> np.ndarray
         mass = p * V / (c.R * T)
         rows += [mass, p * V / (c.gamma - 1), burnt * mass]
     return np.vstack([*rows, np.zeros((_SUMS, outside.shape[1]))])
+
+
+_ROUNDS, _BESIDE, _WORTH = 12, 1e-6, 0.5
+
+
+def repeating(
+    cycle: Callable[[np.ndarray, np.ndarray], np.ndarray], state: np.ndarray, sizes: list[int], settled: Pure
+) -> np.ndarray | None:
+    """States that repeat, lane by lane, or None where Newton finds none or none that is stable [kg, J].
+
+    cycle: states, shape (n, k), and the lane of each, shape (k,), to the states one cycle later; state: where to start
+    [kg, J], shape (n, lanes); sizes: for each state the one by which it is measured; settled: relative change over a
+    cycle that is none.
+    """
+    n, lanes = state.shape
+    lane = np.tile(np.arange(lanes), n + 1)
+    for _ in range(_ROUNDS):
+        scale = np.abs(state[sizes])
+        steps = np.eye(n)[:, :, None] * (_BESIDE * scale)[:, None, :]  # state, neighbour, lane
+        tried = np.concatenate([state[:, None], state[:, None] + steps], axis=1).reshape(n, -1)
+        gain = (cycle(tried, lane) - tried).reshape(n, n + 1, lanes)
+        if not np.isfinite(gain).all():
+            return None
+        rest = gain[:, 0] / scale
+        slopes = (gain[:, 1:] - gain[:, :1]) / scale[:, None, :] / _BESIDE
+        if np.abs(rest).max() < settled:
+            stable = all(np.abs(np.linalg.eigvals(slopes[:, :, k] + np.eye(n))).max() < 1 for k in range(lanes))
+            return state if stable else None
+        try:
+            move = np.stack([np.linalg.solve(slopes[:, :, k], -rest[:, k]) for k in range(lanes)], axis=1)
+        except np.linalg.LinAlgError:  # a state that no longer answers, as in a plenum of next to nothing
+            return None
+        # no mass or energy may fall, or rise, by more than its half at once
+        share = np.minimum(1.0, _WORTH / np.maximum(np.abs(move).max(axis=0), 1e-300))
+        state = state + share * move * scale
+    return None

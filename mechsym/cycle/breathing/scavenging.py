@@ -53,11 +53,9 @@ def flow_area(s: Scavenging, opened: tuple[Radian, Radian, Radian], room: Chambe
     .. math:: A = \frac{1}{2\pi}\oint \left(A_{port}^{-2} + A_{valve}^{-2}\right)^{-1/2} d\varphi
 
     opened: exhaust opens and closes, ports open; from top dead centre, exhaust closing negative. Returns area:
-    discharge coefficient included.
-    Source: two throats in series without recovery between them, small pressure differences. Valid: quasi-steady, box
-    and receiver at one pressure each; the ports close at the mirror angle of their opening.
-
-    Throats of 3 and 4 cm^2 in series let through what one of 2.4 cm^2 does:
+    discharge coefficient included. Source: two throats in series without recovery between them, small pressure
+    differences. Valid: quasi-steady, box and receiver at one pressure each; the ports close at the mirror angle of
+    their opening. Throats of 3 and 4 cm^2 in series let through what one of 2.4 cm^2 does:
 
     >>> round(float(in_series(3e-4, 4e-4)) * 1e4, 12)
     2.4
@@ -118,9 +116,8 @@ def dew_point(p: Pascal, ambient: tuple[float, float], humidity: Pure) -> Kelvin
               e_s = 611.2\,\mathrm{Pa}\,\exp\frac{17.62\,\vartheta}{243.12 + \vartheta}
 
     p: absolute pressure after compression; ambient: pressure [Pa] and temperature [K] of the ambient air; humidity:
-    relative humidity, above 0. Returns T: dew point.
-    Source: Magnus formula over water, WMO-No. 8 (2008), annex 4.B; theta in degrees Celsius. Valid: -45 to 60 degrees,
-    used above as well.
+    relative humidity, above 0. Returns T: dew point. Source: Magnus formula over water, WMO-No. 8 (2008), annex 4.B;
+    theta in degrees Celsius. Valid: -45 to 60 degrees, used above as well.
 
     >>> round(dew_point(3.6e5, (1e5, 303.15), 0.6), 1)
     317.3

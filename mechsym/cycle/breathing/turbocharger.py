@@ -127,8 +127,7 @@ def compressor_temperature(
     .. math:: T_2 = T_1\left(1 + \frac{\pi^{(\gamma - 1)/\gamma} - 1}{\eta_c}\right)
 
     T: temperature before it; ratio: pressure ratio, at least 1; efficiency: isentropic efficiency; gamma: ratio of the
-    heat capacities.
-    Source: Heywood (1988), eq. (6.42). Valid: constant heat capacities, no heat to the surroundings.
+    heat capacities. Source: Heywood (1988), eq. (6.42). Valid: constant heat capacities, no heat to the surroundings.
 
     >>> round(compressor_temperature(288.15, 2.0, 0.72), 1)
     375.8
@@ -146,9 +145,8 @@ def turbine_ratio(
 
     T_1: temperature before the compressor; T_3: temperature before the turbine; ratio: pressure ratio of the
     compressor; efficiency: isentropic efficiency of the compressor, else that of the record. Returns ratio: pressure
-    before the turbine by that behind it.
-    Source: balance of the shaft's powers, Heywood (1988), eq. (6.50). Valid: whole flow through the turbine, steady
-    flow, cp 1005 and 1130 J/(kg K), gamma 1.4 and 1.34.
+    before the turbine by that behind it. Source: balance of the shaft's powers, Heywood (1988), eq. (6.50). Valid:
+    whole flow through the turbine, steady flow, cp 1005 and 1130 J/(kg K), gamma 1.4 and 1.34.
 
     >>> round(turbine_ratio(Boost(), 288.15, 1000.0, 2.0), 3)
     1.589

@@ -117,10 +117,7 @@ def rates(
 
 
 def scalars(closed: Closed, t_end: Kelvin[Scalar]) -> tuple[Scalar, ...]:
-    """Energies, masses and angles of the closed period.
-
-    t_end: temperature when the exhaust opens. Returns values: in the order and the units of `SCALARS` [-].
-    """
+    """Values of the closed period in order and units of `SCALARS` [-]. t_end: temperature when the exhaust opens."""
     first, last = contents(closed, "before", closed.closes), contents(closed, "after", closed.opens)
     v_closes, v_opens = (volume(closed.chamber, angle) for angle in (closed.closes, closed.opens))
     values = {

@@ -86,10 +86,7 @@ def design_names(engine: ClosedEngine) -> list[str]:
 
 
 def closed_period(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Closed:
-    """The closed period of the engine at a design.
-
-    design: mapping of str to value, must hold `omega` [rad/s]; the other names replace values of the engine.
-    """
+    """The closed period at a design of `omega` [rad/s] and of names that replace values of the engine."""
     engine, omega = at_design(engine, design), design["omega"]
     cycle, room = engine.cycle, chamber(engine.chamber, engine.motion)
     held = charge(room, cycle, properties(engine.gas, cycle.intake_temperature, 0.0).gas_constant)

@@ -85,10 +85,7 @@ def steps_needed(build: Build, design: Mapping[str, Scalar]) -> tuple[Pure[Array
 
 
 def check_phases(scalars: Mapping[str, np.ndarray]) -> None:
-    """Refuse points at which combustion does not fit into the closed period.
-
-    scalars: `omega` [rad/s], `closes`, `starts`, `ends`, `opens` [rad].
-    """
+    """Refuse points at which combustion does not fit. scalars: `omega` [rad/s], `closes`, `starts`, `ends`, `opens`."""
     for reason in _phase_faults(scalars).values():
         raise BadInput(reason)
 

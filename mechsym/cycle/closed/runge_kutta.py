@@ -50,10 +50,7 @@ def step(rate: Callable[[Scalar, Scalar], Scalar], s: Pure[Scalar], y: Scalar, d
 
 
 def fold(rate: ca.Function, steps: int) -> ca.Function:
-    """Integrate over s from 0 to 1 in equal steps.
-
-    Returns function: (y at 0, z) -> y at the ends of all steps, shape (states, steps).
-    """
+    """Integration over s from 0 to 1: (y at 0, z) -> y at the ends of equal steps, shape (states, steps)."""
     s, y, z = (ca.SX.sym(name, rate.numel_in(i)) for i, name in enumerate("syz"))
     one = ca.Function("step", [y, s, z], [step(lambda s, y: rate(s, y, z), s, y, 1 / steps)])
     start, data = ca.MX.sym("y", rate.numel_in(1)), ca.MX.sym("z", rate.numel_in(2))

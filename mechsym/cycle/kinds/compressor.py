@@ -16,7 +16,7 @@ import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.cylinder import CylinderGas
-from mechsym.cycle.pressure import Pressure, pressure_over
+from mechsym.cycle.gas import Pressure, pressure_over
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Pascal, Radian, Scalar

@@ -2,6 +2,15 @@ r"""The data of a four-stroke spark-ignition cycle with ideal gas exchange: char
 
 Crank angles count from firing top dead centre, so that the thesis's 180, 360 and 540 degrees are -180, 0 and 180.
 Start and duration of combustion are straight lines over the speed (Nunes 2017, eqs. (3.1) and (3.2)).
+
+Ideal air-standard cycles: what the cycle models come to when combustion is instant and nothing is lost.
+
+p |  2'--3          Seiliger (dual): heat at constant volume 2-2', then at constant pressure 2'-3
+  |  |    \         Otto: only 2-2'     Diesel: only 2-3
+  |  2     \        compression 1-2 and expansion 3-4 isentropic, heat rejected at constant volume 4-1
+  |   `-._  4
+  |       `-1
+  +----------- V
 """
 
 from typing import Annotated, NamedTuple
@@ -114,10 +123,7 @@ def charge(chamber: Chamber, cycle: SparkIgnition, gas_constant: Annotated[Scala
 
 
 def latent_heat(cycle: SparkIgnition) -> Annotated[Scalar, "J/kg"]:
-    """Latent heat that the cycle charges for a kilogram of fuel.
-
-    Returns heat: latent heat, 0 for a charge that is vapour from the start.
-    """
+    """Latent heat that the cycle charges for a kilogram of fuel; 0 for a charge that is vapour from the start."""
     return 0.0 if cycle.vaporisation == "none" else cycle.latent_heat
 
 
@@ -139,3 +145,13 @@ def timing(cycle: SparkIgnition, omega: RadPerSecond[Scalar]) -> tuple[Radian[Sc
     cycle: its values may be CasADi expressions. Returns start: from firing top dead centre.
     """
     return cycle.ignition + cycle.ignition_slope * omega, cycle.duration + cycle.duration_slope * omega
+
+
+def otto_efficiency(compression_ratio: Pure[Scalar], gamma: Pure[Scalar]) -> Pure[Scalar]:
+    r"""Efficiency of the Otto cycle.
+
+    .. math:: \eta = 1 - CR^{1-\gamma}
+
+    compression_ratio: largest over smallest volume; gamma: ratio of heat capacities. Source: Nunes (2017), eq. (2.3).
+    """
+    return 1 - compression_ratio ** (1 - gamma)

@@ -9,15 +9,21 @@ import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym.cycle.chamber import Chamber, piston_area
-from mechsym.cycle.dead_centres import motion_over
-from mechsym.cycle.gas import Gas
-from mechsym.cycle.kinds.stirling_equations import FiveSpaces, evaluated, exchanger_capacity
+from mechsym.cycle.chamber import Chamber, motion_over, piston_area
+from mechsym.cycle.gas import Gas, Pressure, periodic
 from mechsym.cycle.kinds.stirling_second_order import SecondOrder, second_order
-from mechsym.cycle.kinds.stirling_spaces import StirlingCylinders, Volumes, areas, five_spaces, swept
+from mechsym.cycle.kinds.stirling_spaces import (
+    FiveSpaces,
+    StirlingCylinders,
+    Volumes,
+    areas,
+    evaluated,
+    exchanger_capacity,
+    five_spaces,
+    swept,
+)
 from mechsym.cycle.kinds.stirling_turn import StirlingTurn, turn
 from mechsym.cycle.plots import stirling_picture
-from mechsym.cycle.pressure import Pressure, periodic
 from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
 from mechsym.files import Json
 from mechsym.quantities import RPM, record

@@ -23,9 +23,8 @@ def viscosity(mu_0: Viscosity, T_0: Kelvin, sutherland: Kelvin, T: Kelvin[Scalar
 
     .. math:: \mu = \mu_0 \frac{T_0 + S}{T + S} \left(\frac{T}{T_0}\right)^{3/2}
 
-    T_0, sutherland: temperature of reference, and constant S.
-    Source: W. Sutherland, Phil. Mag. 36 (1893); constants as in Urieli and Berchowitz (1984), appendix A. Valid: dilute
-    gas, 200 K to 1200 K.
+    T_0, sutherland: temperature of reference, and constant S. Source: W. Sutherland, Phil. Mag. 36 (1893); constants as
+    in Urieli and Berchowitz (1984), appendix A. Valid: dilute gas, 200 K to 1200 K.
 
     >>> round(viscosity(17.08e-6, 273.0, 112.0, 300.0) * 1e6, 2)  # air at 300 K; tables have 18.5
     18.39
@@ -38,9 +37,8 @@ def valensi(omega: RadPerSecond, d: Metre, rho: Density, mu: Viscosity) -> Pure:
 
     .. math:: Va = \frac{\omega\, d^2 \rho}{4\mu}
 
-    d: hydraulic diameter; rho, mu: density and viscosity of the gas.
-    Source: T. W. Simon, J. R. Seume, A Survey of Oscillating Flow in Stirling Engine Heat Exchangers, NASA CR-182108
-    (1988). Valid: any flow that swings once a turn.
+    d: hydraulic diameter; rho, mu: density and viscosity of the gas. Source: T. W. Simon, J. R. Seume, A Survey of
+    Oscillating Flow in Stirling Engine Heat Exchangers, NASA CR-182108 (1988). Valid: any flow that swings once a turn.
 
     >>> round(valensi(262.0, 0.00302, 2.2, 4.3e-5), 1)
     30.6
@@ -75,10 +73,9 @@ def turbulent_share(Re_max: Pure, Va: Pure = 0.0) -> Pure:
     .. math:: Re_{crit} = \max(2300,\; 882\sqrt{Va})
 
     Re_max: largest Reynolds number of the turn; Va: number of Valensi, 0 for a steady flow. Returns share: 1 from 1.74
-    Re_crit on, which is 4000 in a steady flow.
-    Source: M. Ohmi, M. Iguchi, Bull. JSME 25 (1982) 165, as in Simon and Seume, NASA CR-182108 (1988), not held against
-    the print: a public program has 2300 sqrt(Va/10), 727 in place of 882. Valid: smooth tubes; the width of the
-    transition is that of steady flow.
+    Re_crit on, which is 4000 in a steady flow. Source: M. Ohmi, M. Iguchi, Bull. JSME 25 (1982) 165, as in Simon and
+    Seume, NASA CR-182108 (1988), not held against the print: a public program has 2300 sqrt(Va/10), 727 in place of
+    882. Valid: smooth tubes; the width of the transition is that of steady flow.
 
     >>> [round(turbulent_share(Re, 30.0), 3) for Re in (4000.0, 6000.0, 9000.0)]
     [0.0, 0.392, 1.0]
@@ -135,9 +132,8 @@ def bend_heads(angle: Radian, radius: Pure) -> Pure:
               A = 0.7 + 0.35\,\alpha/90° \ (\alpha \ge 90°)
 
     angle: by which the flow turns, up to pi; radius: of the bend's middle line, by the diameter, from 1 on. Returns
-    heads: straight between 70 and 90 degrees, of which the law speaks as 1.05.
-    Source: I. E. Idelchik, Handbook of Hydraulic Resistance, diagram 6-1. Valid: round tubes, Re > 2e5; below it the
-    handbook has more, up to twice.
+    heads: straight between 70 and 90 degrees, of which the law speaks as 1.05. Source: I. E. Idelchik, Handbook of
+    Hydraulic Resistance, diagram 6-1. Valid: round tubes, Re > 2e5; below it the handbook has more, up to twice.
 
     >>> [round(bend_heads(angle, 4.0), 4) for angle in (0.0, math.pi / 2, math.pi)]
     [0.0, 0.1102, 0.147]
@@ -231,9 +227,8 @@ def regenerator_effectiveness(ntu: Pure) -> Pure:
     .. math:: \varepsilon = \frac{NTU}{1 + NTU}, \qquad NTU = \tfrac12\,St\,A_w/A
 
     ntu: transfer units of matrix to matrix, half of those of one blow. Returns effectiveness: share of the heat that
-    comes back.
-    Source: Kays and London (1964), balanced counter flow; Urieli and Berchowitz (1984), section 5.2. Valid: heat
-    capacity of the matrix large against that of the gas of a blow.
+    comes back. Source: Kays and London (1964), balanced counter flow; Urieli and Berchowitz (1984), section 5.2. Valid:
+    heat capacity of the matrix large against that of the gas of a blow.
 
     >>> regenerator_effectiveness(99.0)
     0.99

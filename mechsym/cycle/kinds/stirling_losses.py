@@ -19,10 +19,9 @@ def shuttle_loss(
     .. math:: \dot Q = \frac{\pi}{8}\,\frac{s^2\,k\,D}{\delta\,L}\,\Delta T
 
     stroke, gap, length, bore: stroke s, radial gap, length of the part with the fall of temperature, diameter D; k:
-    conductivity of the gas in the gap; dT: difference of temperature of the ends.
-    Source: W. R. Martini, Stirling Engine Design Manual, 2nd ed., NASA CR-168088 (1983), section 5.4, after Zimmerman
-    and Longsworth (factor 0.4 there; pi/8 for a sinusoidal stroke). Valid: walls that keep their temperature, gap small
-    against the bore.
+    conductivity of the gas in the gap; dT: difference of temperature of the ends. Source: W. R. Martini, Stirling
+    Engine Design Manual, 2nd ed., NASA CR-168088 (1983), section 5.4, after Zimmerman and Longsworth (factor 0.4 there;
+    pi/8 for a sinusoidal stroke). Valid: walls that keep their temperature, gap small against the bore.
 
     >>> round(shuttle_loss(0.031, 0.00028, 0.043, 0.07, 0.2, 600.0), 1)
     263.3
@@ -132,9 +131,8 @@ def seal_reynolds(dp: Pascal, gap: Metre, length: Metre, rho: Annotated[float, "
     .. math:: Re = \frac{\rho\,\delta^3\,\Delta p}{12\,\mu^2 L}
 
     dp: difference of pressure; gap, length: radial gap and length of the seal; rho: density of the gas; mu: viscosity.
-    Returns Re: with the gap and the mean speed in it.
-    Source: laminar flow between plates (Poiseuille), mean speed dp gap^2/(12 mu L). Valid: up to about 1000, beyond
-    which less flows than the laminar law says.
+    Returns Re: with the gap and the mean speed in it. Source: laminar flow between plates (Poiseuille), mean speed dp
+    gap^2/(12 mu L). Valid: up to about 1000, beyond which less flows than the laminar law says.
 
     >>> round(seal_reynolds(1e6, 10e-6, 0.02, 5.0, 2e-5), 1)
     52.1

@@ -28,7 +28,7 @@ from typing import Any
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
-from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, periodic, pressure_over, wrapped
+from mechsym.cycle.gas import ATMOSPHERE, Pressure, mean_indicated_pressure, periodic, pressure_over, wrapped
 from mechsym.cycle.wiebe import BURNT, double_burnt_at, double_wiebe
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
@@ -100,10 +100,7 @@ def back_pressure(cycle: TwoStrokeMarine) -> Pascal:
 
 
 def events(cycle: TwoStrokeMarine) -> dict[str, Radian]:
-    """Names and angles of the cycle's events.
-
-    Returns angles: in the order of the turn, from exhaust closing, in [evc, evc + 2 pi).
-    """
+    """Names and angles of the cycle's events, in the order of the turn from exhaust closing, below evc + 2 pi."""
     return {
         "exhaust closes": cycle.evc,
         "combustion starts": cycle.soc,
@@ -248,10 +245,7 @@ def _state(cycle: TwoStrokeMarine, cylinder: Chamber, ratio: float) -> TwoStroke
 
 
 def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
-    """Pressure of the two-stroke marine cycle.
-
-    Returns pressure: evaluated by formulas in every phase, so to round-off.
-    """
+    """Pressure of the two-stroke marine cycle, by formulas in every phase, so to round-off."""
     state = solve(cycle, cylinder)
     absolute = absolute_pressure(cycle, cylinder, state.p_ref / state.p_comp)
     closed = np.linspace(cycle.evc, cycle.evo, _CLOSED_POINTS)

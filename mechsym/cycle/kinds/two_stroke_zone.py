@@ -21,10 +21,10 @@ from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.run import ClosedRun, run
 from mechsym.cycle.cylinder import CylinderGas
+from mechsym.cycle.gas import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.cycle.heat import Law, Woschni
 from mechsym.cycle.kinds.two_stroke import burnt_angles, scavenging_pressure
 from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
-from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Pure, Scalar
@@ -135,10 +135,7 @@ def _pressure(cycle: TwoStrokeZone, zone: Zone) -> Pressure:
 
 
 def closed_period(cycle: TwoStrokeZone, cylinder: Chamber, walls: Law, design: Mapping[str, Scalar]) -> Closed:
-    """The closed period at a speed and an amount of fuel.
-
-    design: `omega` [rad/s] and `fuel` [kg], numbers or CasADi symbols.
-    """
+    """The closed period at `omega` [rad/s] and `fuel` [kg] of the design, numbers or CasADi symbols."""
     gas = NasaMixture() if cycle.properties == "nasa" else ConstantGamma(gamma=1.35)
     pressure, fuel = scavenging_pressure(cycle.p_s), design["fuel"]
     gas_constant = properties(gas, cycle.T_evc, 0.0).gas_constant
@@ -179,10 +176,7 @@ def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Scalar], Sca
 
 
 def shares(cycle: TwoStrokeZone, zone: Zone) -> dict[str, Pure]:
-    """Where the fuel's energy goes.
-
-    Returns shares: heat (walls), work (of the turn), exhaust (what is left), unburnt; of the fuel's heating value.
-    """
+    """Where the fuel's heating value goes: heat (walls), work (of the turn), exhaust (what is left), unburnt."""
     heat, scalars = zone.fuel * cycle.lhv, zone.result.scalars
     work = zone.mean_indicated * zone.cylinder.displacement / heat
     lost, unburnt = float(scalars["wall_heat"][0]) / heat, 1 - float(scalars["heat_released"][0]) / heat

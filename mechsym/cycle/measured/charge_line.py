@@ -39,10 +39,8 @@ def log_pressure(cylinder: Chamber, phi: Radian[Array], shape: ChargeShape) -> t
 
     phi: crank angle from firing TDC, within half a turn of it. Returns slopes: derivatives by a later dead centre
     [1/rad], n0, n1 [-], loss [rad], sharpness [-], shape (n, 5).
-
     Source: first law of a trapped ideal gas, (dp/p)/dphi = -gamma V'/V - (gamma - 1) Q'/(p V) - gamma m'/m, with the
-    last two terms as one power of the volume.
-    Valid: nothing burns, valves closed, k small against n V''/V.
+    last two terms as one power of the volume. Valid: nothing burns, valves closed, k small against n V''/V.
     """
     v, v_ref, v_c = volume(cylinder, phi), float(volume(cylinder, REFERENCE)), float(volume(cylinder, 0.0))
     level = np.log(v / v_ref)
@@ -63,7 +61,6 @@ def by_clearance(cylinder: Chamber, phi: Radian[Array], shape: ChargeShape) -> P
         - k q \int_{\varphi_r}^{\varphi} \left(\frac{V_c}{V}\right)^q \left(1 - \frac{V_c}{V}\right) d\varphi
 
     phi: crank angle from firing TDC, within half a turn of it. Returns slope: shape (n,).
-
     Source: derivative of `log_pressure`. A rod that is not the engine's bends the line in the same way.
     """
     v, v_ref, v_c = volume(cylinder, phi), float(volume(cylinder, REFERENCE)), float(volume(cylinder, 0.0))

@@ -41,10 +41,7 @@ _BENT, _SHEET = 2.25, 0.03  # standard deviations; of the clearance: what data s
 def diagram_doubts(
     diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles, phi_p_max: Radian
 ) -> tuple[Doubt, ...]:
-    """What is possible and not usual in a measured diagram; empty where all checks agree.
-
-    phi_p_max: crank angle of the highest pressure, from firing TDC.
-    """
+    """What is unusual in a measured diagram. phi_p_max: angle of the highest pressure, from firing TDC."""
     found = [
         _scale(diagram, measured),
         _floor(measured),
@@ -239,11 +236,9 @@ def exponent_doubts(compression: Pure, expansion: Pure | None, told: Sequence[Do
     A gas that only loses heat to its walls compresses with less than its gamma and expands with more. Air and mixture
     have a gamma of 1.3 to 1.4 and compress with 1.3 +- 0.05 (Heywood 1988, section 9.2.2), less where fuel evaporates
     or walls are cold. Burnt gas has 1.18 to 1.3, the least hot and rich: an expansion below that of the gas takes heat
-    in all along, and one near 1 as much as its work; none does but a gas that still burns. Heat and mass that
-    are lost raise it, in a small engine by up to 0.2.
-
-    compression, expansion: no expansion of a motored record, which expands with more the more it has lost; told: doubts
-    of the same record so far.
+    in all along, and one near 1 as much as its work; none does but a gas that still burns. Heat and mass that are lost
+    raise it, in a small engine by up to 0.2. compression, expansion: no expansion of a motored record, which expands
+    with more the more it has lost; told: doubts of the same record so far.
     """
     why = "dead centre, offset or compression ratio is wrong"
     burning = "it still burns there, or the dead centre, the offset or the scale is wrong, or the sensor drifts"
@@ -257,10 +252,7 @@ def exponent_doubts(compression: Pure, expansion: Pure | None, told: Sequence[Do
 
 
 def speed_doubt(read: RadPerSecond, wanted: RadPerSecond) -> Doubt | None:
-    """Whether the times of a record give a speed that its engine runs at.
-
-    read, wanted: mean speed by `time_s`, and the speed of operation of the case.
-    """
+    """Whether a record has the speed of its engine. read, wanted: mean speed by `time_s`, and of operation."""
     why = "another unit of time_s, other angles than those of the crank, or a record of another engine"
     return _doubt("speed", "speed by time_s / operation.speed [-]", read / wanted, _SPEED, why)
 

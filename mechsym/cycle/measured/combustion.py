@@ -88,10 +88,7 @@ class DiagramCombustion(Shown):
 def diagram_combustion(
     measured: MeasuredCycles, cylinder: Chamber, analysis: Analysis, omega: RadPerSecond
 ) -> DiagramCombustion:
-    """Take the measured cycles apart.
-
-    omega: speed of the record. Returns found: cycle by cycle and for the mean.
-    """
+    """Take the measured cycles apart. omega: speed of the record. Returns found: cycle by cycle and for the mean."""
     phi, cycles = around_compression(measured.phi, measured.cycles, measured.period)
     ends = (analysis.inlet_closes, analysis.exhaust_opens)
     burns = not measured.alignment.motored
@@ -166,10 +163,7 @@ def _line(measured: MeasuredCycles, cylinder: Chamber, closed: float) -> Fit:
 
 
 def sensitivity(phi: Radian[Array], p: Pascal[Array], cylinder: Chamber, analysis: Analysis) -> DeadCentreShift:
-    """What a dead centre that lies one degree later changes, by central differences.
-
-    p: absolute pressure.
-    """
+    """What a dead centre that lies one degree later changes, by central differences. p: absolute pressure."""
     ends = (analysis.inlet_closes, analysis.exhaust_opens)
     earlier, here, later = (
         combustion(phi + shift, p, cylinder, analysis.gamma, ends) for shift in (_DEGREE / 2, 0.0, -_DEGREE / 2)

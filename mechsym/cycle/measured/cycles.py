@@ -25,10 +25,9 @@ def cut_cycles(recording: Recording, period: Radian) -> tuple[Radian[Array], Pas
     """Cut a recording into whole cycles.
 
     period: 2 pi or 4 pi. Returns angle: evenly spaced angles of the first cycle, zero as in the file; cycles: pressure
-    of each cycle, shape (k, n).
-
-    An even record whose step divides the period is taken sample by sample; another one is interpolated with a monotone
-    cubic (PCHIP) to steps no wider than its own. A record of a single cycle is continued periodically.
+    of each cycle, shape (k, n). An even record whose step divides the period is taken sample by sample; another one is
+    interpolated with a monotone cubic (PCHIP) to steps no wider than its own. A record of a single cycle is continued
+    periodically.
     """
     start = float(recording.angle[0])
     angle, cycles = _cut(recording.angle, recording.pressure, start, period)

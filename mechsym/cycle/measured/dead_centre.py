@@ -42,10 +42,7 @@ class DeadCentre:
 
 
 def given(angle: Radian) -> DeadCentre:
-    """A dead centre that the case says.
-
-    angle: angle of the file at firing TDC.
-    """
+    """A dead centre that the case says. angle: angle of the file at firing TDC."""
     return DeadCentre(angle=angle, low=angle, high=angle, method="given", prior_share=None)
 
 
@@ -120,10 +117,7 @@ def carried(found: DeadCentre, angle: Radian[Array], mean: Pascal[Array]) -> Dea
 
 
 def widened(found: DeadCentre, by: Radian) -> DeadCentre:
-    """The same dead centre in an interval that is wider.
-
-    by: on both sides.
-    """
+    """The same dead centre in an interval that is wider. by: on both sides."""
     return dataclasses.replace(found, low=found.low - by, high=found.high + by)
 
 
@@ -145,10 +139,7 @@ def peak_angle(angle: Radian[Array], mean: Pascal[Array]) -> Radian:
 def interval(
     angle: Radian, spread: Radian, method: str, prior_share: Pure | None = None, loss_angle: Radian | None = None
 ) -> DeadCentre:
-    """A dead centre with its 95 % interval.
-
-    spread: standard deviation; the others as in `DeadCentre`.
-    """
+    """A dead centre with its 95 % interval. spread: standard deviation; the others as in `DeadCentre`."""
     low, high = angle - _Z * spread, angle + _Z * spread
     return DeadCentre(
         angle=angle, low=low, high=high, method=method, prior_share=prior_share, loss_angle=loss_angle

@@ -8,8 +8,8 @@ The steps stand in `file`, `cycles`, `alignment`, `measure` and `pressure`.
 import dataclasses
 import math
 
+from mechsym.cycle.gas import ATMOSPHERE
 from mechsym.cycle.measured.joint_fit import Prior
-from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Radian
@@ -105,8 +105,5 @@ def line_prior(diagram: Diagram) -> Prior:
 
 
 def period_of(diagram: Diagram) -> Radian:
-    """Period of the diagram.
-
-    Returns period: 2 pi or 4 pi.
-    """
+    """Period of the diagram. Returns period: 2 pi or 4 pi."""
     return 2 * math.pi if diagram.working_cycle == "two-stroke" else 4 * math.pi

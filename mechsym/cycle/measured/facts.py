@@ -46,10 +46,7 @@ def work_per_angle(measured: MeasuredCycles, cylinder: Chamber) -> Annotated[flo
 
 
 def weak_cycles(p_mi: Pascal[Array]) -> tuple[int, ...]:
-    """Cycles that do less than 0.7 times the median work: misfires, near-misfires and late burns.
-
-    p_mi: mean indicated pressure of every cycle, shape (k,).
-    """
+    """Cycles below 0.7 times the median work: misfires, near-misfires, late burns. p_mi: of every cycle, shape (k,)."""
     return tuple(int(k) for k in np.flatnonzero(p_mi < _WEAK * np.median(p_mi)))
 
 

@@ -75,9 +75,8 @@ def variation(values: Array) -> tuple[Pure, list[Pure]] | None:
 
     values: one a cycle [any unit]. Returns cov, interval: None with fewer than two values, or a mean that is not
     positive.
-
-    Source: distribution of the variance of normal values; the mean's own error is left out (small beside it).
-    Valid: values about normally distributed; a misfire among them widens it.
+    Source: distribution of the variance of normal values; the mean's own error is left out (small beside it). Valid:
+    values about normally distributed; a misfire among them widens it.
 
     >>> cov, (low, high) = variation(np.arange(11.0))
     >>> print(f"{low / cov:.2f} {high / cov:.2f}")

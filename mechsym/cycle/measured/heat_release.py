@@ -142,18 +142,12 @@ def combustion(
 
 
 def cumulative(phi: Radian[Array], rate: Annotated[Array, "J/rad"]) -> Joule[Array]:
-    """Running integral by the trapezoidal rule.
-
-    phi: ascending crank angles; rate: rate by angle. Returns total: 0 at phi[0].
-    """
+    """Running integral, 0 at phi[0], by the trapezoidal rule. phi: ascending crank angles; rate: by angle."""
     return np.concatenate([[0.0], np.cumsum(np.diff(phi) * (rate[1:] + rate[:-1]) / 2)])
 
 
 def wall_heat(phi: Radian[Array], p: Pascal[Array], cylinder: Chamber, walls: Walls) -> Joule:
-    """Heat that the walls take over the angles given.
-
-    phi: ascending crank angles from firing TDC; p: absolute pressure.
-    """
+    """Heat to the walls over angles. phi: ascending, from firing TDC; p: absolute pressure."""
     return float(cumulative(phi, _wall_rate(phi, p, cylinder, walls))[-1])
 
 

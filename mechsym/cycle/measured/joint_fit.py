@@ -134,10 +134,9 @@ def clearance_asked(
         c_\perp = c - A (A^T A)^{-1} A^T c
 
     fit: of these samples under the prior; phi: ascending crank angles on the scale of its dead centre. Returns change,
-    spread: of the logarithm of the clearance, which is minus that of the compression ratio less 1.
-
-    A: residuals of samples and priors by the values of the fit, b what they leave, c by the clearance: all that the
-    dead centre, exponents, losses and the sensor can explain is taken out. One step of Gauss and Newton.
+    spread: of the logarithm of the clearance, which is minus that of the compression ratio less 1. A: residuals of
+    samples and priors by the values of the fit, b what they leave, c by the clearance: all that the dead centre,
+    exponents, losses and the sensor can explain is taken out. One step of Gauss and Newton.
     """
     noise, shape = fit.sigma / fit.swing, fit.shape
     x = np.array([fit.tdc, shape.n0, shape.n1, shape.loss, shape.sharpness])

@@ -87,14 +87,12 @@ def sensor_lag(fits: Sequence[JointFit], speeds: RadPerSecond[Array], prior: Pri
         h^2 = t_{K-2}^2 s^2 + 1.96^2 \sum_j \left(\sum_k b_k g_{kj} c_j \ln\frac{\omega_k}{\bar\omega}\right)^2
 
     fits: line of every cycle, of one or several records of one sensor and encoder, on one scale of angles; speeds:
-    their speeds, shape (k,). Returns lag: None with fewer than four cycles or a single speed.
-
-    Weights w are one over the variance that the noise leaves of each dead centre; s is the deviation of tau by the
-    scatter about the straight line. What is assumed of the charge (pull g on the dead centre) is in all cycles alike
-    and goes out with phi_0, but for c_j, by which it may change with speed.
-    Source: least squares; c of the losses from the exponents of speed of Woschni, Annand and Eichelberg, else assumed.
-    Valid: a lag that is short beside compression (tau omega below about 3 degrees), on an encoder that follows the
-    shaft inside a turn.
+    their speeds, shape (k,). Returns lag: None with fewer than four cycles or a single speed. Weights w are one over
+    the variance that the noise leaves of each dead centre; s is the deviation of tau by the scatter about the straight
+    line. What is assumed of the charge (pull g on the dead centre) is in all cycles alike and goes out with phi_0, but
+    for c_j, by which it may change with speed. Source: least squares; c of the losses from the exponents of speed of
+    Woschni, Annand and Eichelberg, else assumed. Valid: a lag that is short beside compression (tau omega below about 3
+    degrees), on an encoder that follows the shaft inside a turn.
 
     >>> sensor_lag([], np.array([]), Prior()) is None
     True

@@ -9,19 +9,16 @@ import numpy as np
 
 from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.cylinder import CylinderGas
+from mechsym.cycle.gas import Pressure, mean_indicated_pressure, peak, periodic
 from mechsym.cycle.measured.checks import diagram_doubts
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.measured.facts import diagram_facts
 from mechsym.cycle.measured.measure import measured_cycles
 from mechsym.cycle.measured.smoothing import smooth
-from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak, periodic
 
 
 def diagram_pressure(diagram: Diagram, cylinder: Chamber) -> Pressure:
-    """Pressure of a measured diagram.
-
-    Returns pressure: mean cycle, smooth and periodic: no kinks.
-    """
+    """Pressure of a measured diagram. Returns pressure: mean cycle, smooth and periodic: no kinks."""
     measured = measured_cycles(diagram, cylinder)
     mean = measured.cycles.mean(axis=0)
     spline = smooth(measured.phi, mean, measured.period, diagram.smoothing)

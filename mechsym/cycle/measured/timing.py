@@ -35,10 +35,7 @@ def cycle_speeds(recording: Recording, start: Radian, period: Radian, count: int
 
 
 def recorded_speed(recording: Recording) -> RadPerSecond | None:
-    """Mean speed of a whole record.
-
-    Returns omega: None without times.
-    """
+    """Mean speed of a whole record. Returns omega: None without times."""
     if recording.time is None:
         return None
     return float((recording.angle[-1] - recording.angle[0]) / (recording.time[-1] - recording.time[0]))

@@ -2,5 +2,5 @@
 
 A limit is an object of `face.GuideLimit`, in a file of its own or beside its likes, and a field of a case's `[limits]`
 (`mechsym.hinge.choices`). Verdicts on one guide and on many, compiled maps, co-design, reports and sliders ask it, for
-numbers, arrays and symbols alike: `spring` what its column bears, `track` what rollers and tracks do.
+numbers, arrays and symbols alike.
 """

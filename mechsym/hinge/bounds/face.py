@@ -1,4 +1,4 @@
-"""What every limit of a guide answers, and what a guide is and bears at an angle of its track."""
+"""What every limit of a guide answers, what a guide is and bears along its track, and the limits that there are."""
 
 import dataclasses
 import functools
@@ -121,3 +121,95 @@ def asked(limits: Record, *others: GuideLimit) -> Iterator[tuple[str, GuideLimit
             yield field.name, field.metadata["limit"], getattr(limits, field.name)
     for limit in others:
         yield limit.name, limit, None
+
+
+SPRING_PRESSURE = GuideLimit(
+    name="spring_pressure", words="spring pressure", shown="MPa",
+    unit="Pa", about="excess pressure in the air spring", allowed={"above": 0},
+    value=lambda at, setting: at.pressure, holds=lambda spring, count: spring.gas, by_closing=True,
+)  # fmt: skip
+
+CLOSING = GuideLimit(
+    name="closing", words="closing z/H", shown="",
+    unit="-", about="closing over free height, z / H", allowed={"above": 0, "high": 1},
+    value=lambda at, setting: at.z / at.spring.H, by_closing=True,
+)  # fmt: skip
+
+
+def _room(radius: float, room: float, setting: object, at: Station) -> str:
+    rho0, H = at.rho0, at.spring.H
+    if room > 0:
+        return f"roller radius beside the gas column {1e3 * radius:.4g} of at most {1e3 * room:.4g} mm"
+    return (
+        f"between the rollers is no room for the gas column: 2 rho0 = {2 * rho0:.4g} m, it is H = {H:.4g} m "
+        f"long; with rollers of {radius:.4g} m radius rho0 must be at least {H / 2 + radius:.4g} m"
+    )
+
+
+# between the roller centres lie 2 rho = H - z + (2 rho0 - H); the rest beside the gas must hold both rollers
+ROOM = GuideLimit(
+    name="room", words="roller radius beside the gas column", shown="mm", text=_room,
+    value=lambda at, setting: at.rollers.radius, most=lambda at, setting: at.rho0 - at.spring.H / 2,
+    holds=lambda spring, count: spring.gas and count == 2, by_closing=True,
+)  # fmt: skip
+
+
+def _slope(at: Station, setting: Scalar) -> Rows:
+    slope, steepest = at.drho / at.rho, ca.tan(setting)
+    return (slope / steepest, -math.inf, 1.0), (-slope / steepest, -math.inf, 1.0)
+
+
+PRESSURE_ANGLE = GuideLimit(
+    name="pressure_angle", words="pressure angle", shown="deg",
+    unit="rad", about="pressure angle", allowed={"above": 0, "below": math.pi / 2},
+    value=lambda at, setting: np.abs(at.pressure_angle), smooth=_slope,
+    rising=lambda at, setting: np.abs(at.drho / at.rho), of_rising=lambda top, setting: np.arctan(top) / setting,
+)  # fmt: skip
+
+
+def _bulge(bend: float, most: float, profile_radius: float, at: Station) -> str:
+    if bend <= 0:
+        return f"the path never bends inwards; a bulge may have {profile_radius * 1e3:.4g} mm"
+    radius = at.rollers.radius
+    largest = (radius + profile_radius) / bend
+    return (
+        f"the path bends inwards with a radius of {largest * 1e3:.4g} mm, which leaves the profile "
+        f"{(largest - radius) * 1e3:.4g} mm at a roller radius of {radius * 1e3:.4g} mm"
+        + (" (undercut)" if largest <= radius else "")
+        + f"; at least {profile_radius * 1e3:.4g} mm"
+    )
+
+
+UNDERCUT = GuideLimit(
+    name="undercut", words="bend inwards by what the roller allows", shown="", text=_bulge, signed=True,
+    unit="m", about="radius of the profile where it bulges towards the roller", allowed={"low": 0},
+    value=lambda at, setting: -at.curvature * (at.rollers.radius + setting), most=lambda at, setting: 1.0,
+    stricter=lambda setting, by, radius: (radius + setting) * by - radius,
+)  # fmt: skip
+
+ROLLER_REACTION = GuideLimit(
+    name="roller_reaction", words="roller reaction", shown="kN",
+    unit="N", about="contact force on a roller", allowed={"above": 0},
+    value=lambda at, setting: at.reaction,
+    smooth=lambda at, setting: ((at.reaction / setting, 0.0, 1.0),),  # the track can only push
+)  # fmt: skip
+
+
+def _pressed(at: Station, setting: Scalar) -> Rows:
+    # by 1 + r kappa on both sides, so that there is a number where the profile is undercut
+    r, modulus = at.rollers.radius, contact.contact_modulus(at.rollers)
+    pressed = at.reaction * modulus / (math.pi * at.rollers.width * r * setting**2)
+    return ((pressed - r * at.curvature, -math.inf, 1.0),)
+
+
+HERTZ_STRESS = GuideLimit(
+    name="hertz_stress", words="contact pressure", shown="MPa",
+    unit="Pa", about="contact pressure", allowed={"above": 0},
+    value=lambda at, setting: at.hertz_stress, smooth=_pressed,
+)  # fmt: skip
+
+CENTRE = GuideLimit(
+    name="centre", words="roller radius beside the path's smallest radius", shown="mm",
+    value=lambda at, setting: at.rollers.radius, most=lambda at, setting: at.rho, by_closing=True,
+    smooth=lambda at, setting: ((at.rollers.radius / at.rho, -math.inf, 1.0),),
+)  # fmt: skip

@@ -164,9 +164,8 @@ class _Task:
 def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParameters) -> TrackPath:
     """Path on which the gas gives a torque, less the mean that it keeps.
 
-    wanted: torque to give at its own speed.
-    Source: first law of a closed gas with heat flow in proportion to T - T_w, see `gas_heat`. Valid: one temperature in
-    the gas, steady running at the speed of the design.
+    wanted: torque to give at its own speed. Source: first law of a closed gas with heat flow in proportion to T - T_w,
+    see `gas_heat`. Valid: one temperature in the gas, steady running at the speed of the design.
     """
     if not can_be_given(wanted):
         return TrackPath(status="takes_work", reason=takes_work(wanted))

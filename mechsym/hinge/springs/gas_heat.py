@@ -29,8 +29,7 @@ def thermal_pressure(
     .. math:: p = (p_0 + p_a) \frac{H}{H - z} \frac{T}{T_w} - p_a
 
     z, H: closing and free height; p0, pa: excess pressure of the full column at the wall's temperature, and the
-    pressure outside.
-    Source: ideal gas of constant mass.
+    pressure outside. Source: ideal gas of constant mass.
 
     >>> thermal_pressure(0.5, 1.0, 5e6, 1e5, 1.0)
     10100000.0
@@ -47,9 +46,8 @@ def gas_temperature(
 
     with V^(gamma - 1) a straight line over each step: exact in the limits of slow and fast exchange. volume: V over one
     period without its end, in any unit. step: angle from each to the next; the last one closes the period. x: omega
-    tau. gamma: ratio of specific heats.
-    Source: first law of a closed gas with heat flow in proportion to T - T_w. Valid: one temperature in the gas, wall
-    of constant temperature, ideal gas.
+    tau. gamma: ratio of specific heats. Source: first law of a closed gas with heat flow in proportion to T - T_w.
+    Valid: one temperature in the gas, wall of constant temperature, ideal gas.
 
     >>> still = gas_temperature(np.ones(4), np.full(4, np.pi / 2), 1.0, 1.4, 320.0)
     >>> np.round(still, 6).tolist()

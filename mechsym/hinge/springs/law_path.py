@@ -79,9 +79,8 @@ def law_path(wanted: Hinge | Balance, spring: ByClosing, parameters: GuideParame
     .. math:: U(z) = U_0 - W(\varphi), \qquad \rho = \rho_0 - z / c, \qquad
               \frac{d\rho}{d\theta} = \frac{M_h}{\text{shaft ratio}\; c\, F(z)}
 
-    wanted: torque to give with its work.
-    Source: Zotov et al. (2024), eqs. (9) to (11): U_0 = 0, c = 2, gauge law. The slope is fitted and the path is its
-    exact integral, so that the torque of the path is exact too.
+    wanted: torque to give with its work. Source: Zotov et al. (2024), eqs. (9) to (11): U_0 = 0, c = 2, gauge law. The
+    slope is fitted and the path is its exact integral, so that the torque of the path is exact too.
     """
     low, high = work_range(wanted)
     at_start = 0.0 if parameters.start == "as_printed" else float(spring.energy(parameters.z_margin)) + high

@@ -2,10 +2,10 @@
 
 parameters  what a crank train consists of
 articulated  rods that hang on other rods
-parts       one derived throw, instantiated for every cylinder and joined by the shaft
-forces      kinematics, reactions and momentum per throw
+throws      one derived throw, instantiated for every cylinder: kinematics, reactions and momentum
+assembly    all of them joined by the shaft
 firing      firing order, crank phases and gas forces
-roles       what its parts are for; plan  what it answers for
+plan        what its parts are for, and what it answers for
 """
 
 from mechsym.mechanisms.crank_train.assembly import build, build_rigid, listing

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 
-from mechsym.mechanisms.crank_train import forces
+from mechsym.mechanisms.crank_train import throws as summed
 from mechsym.mechanisms.crank_train.articulated import LETTERS, OUTPUTS, hung
-from mechsym.mechanisms.crank_train.forces import Instances, Outputs
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
-from mechsym.mechanisms.crank_train.throws import ThrowPart, parts
+from mechsym.mechanisms.crank_train.throws import Instances, Outputs, ThrowPart, parts
 from mechsym.mechanisms.record import LazyFunctions, Mechanism, generated
 from mechsym.quantities import record
 
@@ -138,15 +137,15 @@ def _mechanism(
 
     def reactions() -> Outputs:
         sections = {f"shaft_torque_{k}": torque for k, torque in enumerate(ca.vertsplit(joined()[1]), 1)}
-        return forces.reactions(throws("reactions")) | sections
+        return summed.reactions(throws("reactions")) | sections
 
     def momentum() -> Outputs:
-        found, flywheel = forces.momentum(throws("momentum")), each(p, "sense")[-1] * p.I_f * s.a[-1]
+        found, flywheel = summed.momentum(throws("momentum")), each(p, "sense")[-1] * p.I_f * s.a[-1]
         return found | {"angular_momentum_rate": found["angular_momentum_rate"] + flywheel}
 
     q, u, a = (values[: len(s.names)] for values in (s.q, s.u, s.a))
     groups: dict[str, tuple[list[ca.SX], Callable[[], Outputs]]] = {
-        "kinematics": (q, lambda: forces.kinematics(throws("kinematics"), s.names)),
+        "kinematics": (q, lambda: summed.kinematics(throws("kinematics"), s.names)),
         "dynamics": ([*q, *u, *s.forces], lambda: joined()[0]),
         "energy": ([*q, *u], energy),
         "reactions": ([*q, *u, *a, *s.forces], reactions),

@@ -121,20 +121,14 @@ def tilt(p: CrankTrainParameters, bank: Radian, sense: Pure) -> Radian:
 
 
 def each(parameters: CrankTrainParameters, name: str) -> tuple[float, ...]:
-    """Values of one letter for every cylinder or throw [unit of the letter].
-
-    name: a letter that is given per cylinder or per throw.
-    """
+    """Values of a letter that is given per cylinder or throw, for every one of them [unit of the letter]."""
     value = getattr(parameters, name)
     count = len(parameters.throw) if name in _PER_CYLINDER else max(parameters.throw)
     return value if isinstance(value, tuple) else (value,) * count
 
 
 def local_shift(parameters: CrankTrainParameters) -> tuple[Radian, ...]:
-    """What turns a shaft angle into each cylinder's own crank angle (0 where its crank points to its head).
-
-    Returns shifts: phase - sense * bank, one a cylinder.
-    """
+    """What makes of a shaft angle each cylinder's own (0: its crank points to its head): phase - sense * bank."""
     rows = zip(parameters.throw, each(parameters, "phase"), each(parameters, "bank"), strict=True)
     return tuple(phase - each(parameters, "sense")[k - 1] * bank for k, phase, bank in rows)
 

@@ -1,17 +1,110 @@
-"""What a crank train answers for: how it is put together, its roles, its proportions, what one cylinder sees."""
+"""What a crank train answers for: its parts and their roles, its proportions, what one cylinder sees."""
+
+import math
+from itertools import combinations
+
+import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.crank_throw import NAME as THROW
 from mechsym.mechanisms.crank_throw import CrankThrowParameters
 from mechsym.mechanisms.crank_train.assembly import build, build_rigid, listing
 from mechsym.mechanisms.crank_train.firing import refuse_wrong_firing
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
-from mechsym.mechanisms.crank_train.roles import roles
-from mechsym.mechanisms.crank_train.spacing import pitch, span, unequal
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, dead_centre, each, local_shift
 from mechsym.mechanisms.plan import AssembledMechanism
 from mechsym.mechanisms.proportions import Proportions, Reciprocating
+from mechsym.mechanisms.roles import BearingRole, FaceRole, GuideRole, PartRoles, RotorRole, ShaftRole
 from mechsym.mechanisms.train_drawing import crank_train
 from mechsym.quantities.records import Record
+
+_AXIS = 1e-9  # rad, and of a distance: axes that differ by less are one
+
+
+def roles(p: CrankTrainParameters) -> PartRoles:
+    """Roles of a train on a rigid shaft."""
+    cylinders, firing = range(1, len(p.throw) + 1), each(p, "firing") or (0.0,) * len(p.throw)
+    pins = [bearing for i in cylinders for bearing in _pins(p, i)]
+    mains = [_main(p, k) for k in sorted(set(p.throw))]
+    tops = [top - shift for top, shift in zip(dead_centre(p), local_shift(p), strict=True)]
+    return PartRoles(
+        faces=tuple(
+            FaceRole(
+                name=f"{i}",
+                travel=f"x_{i}",
+                force=f"F{i}",
+                fires=firing[i - 1],
+                throw=p.throw[i - 1] - 1,
+                masses=(each(p, "m_piston")[i - 1],),
+                top=tops[i - 1] if each(p, "master")[i - 1] else None,
+            )
+            for i in cylinders
+        ),
+        rotors=(RotorRole(name="flywheel", angle="phi", load="M", inertia="I_f", weight=_weight(p)),),
+        guides=tuple(
+            GuideRole(name=f"side_force_{i}", reaction=f"side_force_{i}", travel=f"x_{i}", at="guides")
+            for i in cylinders
+        ),
+        bearings=(*pins, *mains),
+        shafts=(ShaftRole(name="shaft", discs=(*each(p, "I0"), p.I_f), stiffness=each(p, "k"), damping=each(p, "c")),),
+        opposed=_opposed(p),
+    )
+
+
+def _opposed(p: CrankTrainParameters) -> bool:
+    """Whether the pistons stand in pairs on one axis, each towards the other's crank."""
+    bank, at, across, z = (np.asarray(each(p, name)) for name in ("bank", "axis_x", "axis_y", "z"))
+    throw = np.asarray(p.throw) - 1
+    place, along = (at + 1j * across)[throw], z[throw]
+
+    def faces(i: int, k: int) -> bool:
+        way = (place[k] - place[i]) * np.exp(-1j * bank[i])  # from crank to crank, along the first one's axis
+        turned = abs(np.exp(1j * (bank[k] - bank[i])) + 1) < _AXIS
+        return bool(turned and along[i] == along[k] and way.real > 0 and abs(way.imag) < _AXIS * way.real)
+
+    pistons = range(len(throw))
+    return all(any(faces(i, k) for k in pistons if k != i) for i in pistons)
+
+
+def _pins(p: CrankTrainParameters, i: int) -> tuple[BearingRole, BearingRole]:
+    piston_pin = BearingRole(
+        name=f"piston_pin_{i}", at="piston_pins", turns=f"psi_{i}",
+        reactions=(f"piston_pin_force_along_{i}", f"piston_pin_force_across_{i}"),
+    )  # fmt: skip
+    if each(p, "master")[i - 1]:
+        knuckle = BearingRole(
+            name=f"knuckle_pin_{i}", at="piston_pins", turns=f"knuckle_{i}",
+            reactions=(f"knuckle_force_x_{i}", f"knuckle_force_y_{i}"),
+        )  # fmt: skip
+        return piston_pin, knuckle
+    return (
+        piston_pin,
+        BearingRole(
+            name=f"crank_pin_{i}", at="crank_pins", turns=("phi", f"psi_{i}"), throw=each(p, "r")[i - 1],
+            phase=each(p, "phase")[i - 1], sense=each(p, "sense")[p.throw[i - 1] - 1],
+            z=each(p, "z")[p.throw[i - 1] - 1] + each(p, "z_rod")[i - 1], main=f"main_bearing_{p.throw[i - 1]}",
+            reactions=(f"pin_force_x_{i}", f"pin_force_y_{i}"),
+        ),
+    )  # fmt: skip
+
+
+def _main(p: CrankTrainParameters, k: int) -> BearingRole:
+    return BearingRole(
+        name=f"main_bearing_{k}",
+        at="main_bearings",
+        turns=("phi",),
+        sense=each(p, "sense")[k - 1],
+        z=each(p, "z")[k - 1],
+        reactions=(f"main_bearing_force_x_{k}", f"main_bearing_force_y_{k}"),
+    )
+
+
+def _weight(p: CrankTrainParameters) -> str:
+    """Torque of the weight of all throws, by the angle of the shaft [N*m]."""
+    rows = zip(*(each(p, name) for name in ("u0", "u_phase", "sense")), strict=True)
+    terms = [
+        f"({-p.g * u * sense!r})*cos(({sense!r})*(phi + ({phase!r})) + ({p.axis_tilt!r}))" for u, phase, sense in rows
+    ]
+    return " + ".join(terms)
 
 
 def _alone(p: CrankTrainParameters) -> tuple[str, Record]:
@@ -45,3 +138,58 @@ PLAN = AssembledMechanism(
     listing=listing, parts=roles, alone=_alone, proportions=_proportions, require_firing=refuse_wrong_firing,
     shapes=crank_train,
 )  # fmt: skip
+
+
+_ALIKE = ("r", "l1", "l2", "m_rod", "m_piston", "I_rod", "I0", "m0")
+_Place = tuple[float, float, float]
+
+
+def pitch(p: CrankTrainParameters) -> float | None:
+    """Least distance of two cylinders on one shaft, at half stroke; None where throws have no place along it [m]."""
+    if not any(each(p, "z")):
+        return None
+    at = [_shaft(p, i) for i in range(len(p.throw))]
+    middles = [_half(p, i) for i in range(len(p.throw))]
+    near = [math.dist(middles[i], middles[j]) for i, j in combinations(range(len(middles)), 2) if at[i] == at[j]]
+    return min(near, default=None)
+
+
+def unequal(p: CrankTrainParameters) -> dict[str, float]:
+    """Largest over least of what is alike in all cylinders and throws, by letter; zeros leave parts away."""
+    lists = {name: [value for value in each(p, name) if value > 0] for name in _ALIKE}
+    return {name: max(values) / min(values) for name, values in lists.items() if values}
+
+
+def span(p: CrankTrainParameters) -> float | None:
+    """Distance of the shafts of opposed pistons over the length of both rods and throws; None without such [-]."""
+    found = []
+    for i, j in combinations(range(len(p.throw)), 2):
+        facing = math.cos(each(p, "bank")[i] - each(p, "bank")[j]) < -0.99
+        apart = math.dist(_shaft(p, i), _shaft(p, j))
+        if facing and apart > 0 and _along(p, i, j) and each(p, "z")[p.throw[i] - 1] == each(p, "z")[p.throw[j] - 1]:
+            found.append(apart / (_reach(p, i) + _reach(p, j)))
+    # the one that is farthest off
+    return max(found, key=lambda ratio: abs(math.log(ratio)), default=None)
+
+
+def _along(p: CrankTrainParameters, i: int, j: int) -> bool:
+    """Whether a cylinder's axis points from its own shaft to that of the other."""
+    (x1, y1), (x2, y2), bank = _shaft(p, i), _shaft(p, j), each(p, "bank")[i]
+    along = (x2 - x1) * math.cos(bank) + (y2 - y1) * math.sin(bank)
+    return along > 0.99 * math.dist((x1, y1), (x2, y2))
+
+
+def _shaft(p: CrankTrainParameters, i: int) -> tuple[float, float]:
+    k = p.throw[i] - 1
+    return each(p, "axis_x")[k], each(p, "axis_y")[k]
+
+
+def _reach(p: CrankTrainParameters, i: int) -> float:
+    """Throw and rod of a cylinder [m]."""
+    return each(p, "r")[i] + each(p, "l1")[i] + each(p, "l2")[i]
+
+
+def _half(p: CrankTrainParameters, i: int) -> _Place:
+    """The piston's pin at half stroke, by its own shaft [m]."""
+    half, bank = _reach(p, i) - each(p, "r")[i], each(p, "bank")[i]
+    return half * math.cos(bank), half * math.sin(bank), each(p, "z")[p.throw[i] - 1] + each(p, "z_rod")[i]

@@ -1,7 +1,9 @@
-"""The derived throw, instantiated: the crank of every throw alone, and one instance for every cylinder."""
+"""The derived throw, instantiated for every throw and cylinder; its outputs in the common frame and summed."""
 
 import dataclasses
 from collections.abc import Mapping
+
+import casadi as ca
 
 from mechsym.mechanisms.crank_train.articulated import top
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each, hung_letters, local_shift, tilt
@@ -28,10 +30,7 @@ class ThrowPart:
 
 
 def parts(p: CrankTrainParameters) -> list[ThrowPart]:
-    """The instances that a crank train consists of, cranks first.
-
-    Returns parts: one a throw, then one a cylinder, those whose rods hang on others last.
-    """
+    """The instances: one a throw, then one a cylinder, those whose rods hang on others last."""
     nothing = dict.fromkeys((*_CRANK, *_CYLINDER), 0.0)
     found = []
     for k in range(max(p.throw)):
@@ -64,3 +63,93 @@ def _part(
         z=each(p, "z")[k] + (each(p, "z_rod")[cylinder - 1] if cylinder else 0.0),
         letters=letters | {"g": p.g, "axis_tilt": tilt(p, bank, sense)},
     )
+
+
+Outputs = dict[str, ca.SX]
+Instances = list[tuple[ThrowPart, Outputs]]  #: Parts with the outputs of the derived throw
+
+
+def _common(part: ThrowPart, x: ca.SX, y: ca.SX) -> tuple[ca.SX, ca.SX]:
+    # the part's y axis stands a quarter turn ahead in its own sense of rotation
+    c, s = ca.cos(part.bank), ca.sin(part.bank)
+    return c * x - part.sense * s * y, s * x + part.sense * c * y
+
+
+def kinematics(throws: Instances, names: tuple[str, ...]) -> Outputs:
+    """Travel and rod angle of every cylinder with derivatives by the angle of its throw.
+
+    names: names of the coordinates; one name stands for all throws. Returns outputs: `x_1`, `dx_1_dphi1`,
+    `d2x_1_dphi1_dphi1`, `psi_1`, `dpsi_1_dphi1`, of a rod that hangs on another `knuckle_1` and its derivative, the
+    turn of its pin.
+    """
+    outputs: Outputs = {}
+    for part, found in throws:
+        if part.cylinder:
+            i = part.cylinder
+            q = names[part.throw] if len(names) > 1 else names[0]
+            twice = f"d{q}_d{q}" if len(names) > 1 else f"d{q}2"
+            outputs |= {f"x_{i}": found["x"], f"dx_{i}_d{q}": found["dx_dphi"], f"d2x_{i}_{twice}": found["d2x_dphi2"]}
+            outputs |= {f"psi_{i}": found["psi"], f"dpsi_{i}_d{q}": found["dpsi_dphi"]}
+            if part.master:
+                outputs |= {f"knuckle_{i}": found["knuckle"], f"dknuckle_{i}_d{q}": found["dknuckle_dphi"]}
+    return outputs
+
+
+def reactions(throws: Instances) -> Outputs:
+    """Joint forces of every cylinder and the load on the main bearings of every throw.
+
+    Returns
+    -------
+    outputs : dict of str to casadi.SX
+        Per cylinder `pin_force_x_1, pin_force_y_1` (crank on rod, common frame), `piston_pin_force_along_1`,
+        `piston_pin_force_across_1` (rod on piston), `side_force_1` (cylinder on piston, across, positive in the sense
+        of rotation); of a rod that hangs on another `knuckle_force_x_1, knuckle_force_y_1` (that rod on it, common
+        frame) in place of the pin force, which the other's has in it; per throw `main_bearing_force_x_1,
+        main_bearing_force_y_1` (frame on crank, common frame)
+    """
+    outputs: Outputs = {}
+    bearings: Outputs = {}
+    for part, found in throws:
+        i, k = part.cylinder, part.throw + 1
+        for axis, force in zip("xy", _common(part, found["R_x_O"], found["R_y_O"]), strict=True):
+            name = f"main_bearing_force_{axis}_{k}"
+            bearings[name] = bearings.get(name, ca.SX(0)) + force
+        if part.master:
+            outputs |= _hung(part, found, outputs)
+        elif i:
+            pin = _common(part, found["R_x_A"], found["R_y_A"])
+            outputs |= {f"pin_force_x_{i}": pin[0], f"pin_force_y_{i}": pin[1]}
+            outputs |= {f"piston_pin_force_along_{i}": found["R_x_B"], f"piston_pin_force_across_{i}": found["R_y_B"]}
+            outputs[f"side_force_{i}"] = found["R_y_G"]
+    return outputs | bearings
+
+
+def _hung(part: ThrowPart, found: Outputs, before: Outputs) -> Outputs:
+    """Forces at a rod that hangs on another, and those of the other with what it carries."""
+    i, m = part.cylinder, part.master
+    pin, knuckle = (_common(part, found[f"R_x_{joint}"], found[f"R_y_{joint}"]) for joint in "AK")
+    carried = {
+        f"pin_force_x_{m}": pin[0], f"pin_force_y_{m}": pin[1], f"piston_pin_force_across_{m}": found["R_y_Bm"],
+        f"side_force_{m}": found["R_y_Gm"],
+    }  # fmt: skip
+    return {name: before[name] + force for name, force in carried.items()} | {
+        f"knuckle_force_x_{i}": knuckle[0], f"knuckle_force_y_{i}": knuckle[1],
+        f"piston_pin_force_along_{i}": found["R_x_B"], f"piston_pin_force_across_{i}": found["R_y_B"],
+        f"side_force_{i}": found["R_y_G"],
+    }  # fmt: skip
+
+
+def momentum(throws: Instances) -> Outputs:
+    """Rates of momentum of all moving parts in the common frame, without the flywheel.
+
+    Returns outputs: `momentum_rate_x`, `momentum_rate_y`, `angular_momentum_rate` about the shaft line through the
+    origin, and `rocking_rate_x`, `rocking_rate_y` about the X and the Y axis.
+    """
+    names = ("momentum_rate_x", "momentum_rate_y", "angular_momentum_rate", "rocking_rate_x", "rocking_rate_y")
+    totals = {name: ca.SX(0) for name in names}
+    for part, found in throws:
+        x, y = _common(part, found["momentum_rate_x"], found["momentum_rate_y"])
+        about_own = part.sense * found["angular_momentum_rate"]
+        rates = (x, y, about_own + part.axis[0] * y - part.axis[1] * x, -part.z * y, part.z * x)
+        totals = {name: totals[name] + rate for name, rate in zip(names, rates, strict=True)}
+    return totals

@@ -8,7 +8,7 @@ from mechsym.errors import BadInput
 from mechsym.out.cad.solids import Body, Plate, Turned, tube
 from mechsym.sizing.bearing_design import Choice
 from mechsym.sizing.hypocycloid.engine import PartForces, Parts, Stock, chosen, shaft_length, spans
-from mechsym.sizing.result import Sizing
+from mechsym.sizing.rows import Sizing
 from mechsym.sizing.slider_crank import SliderForces, SliderParts
 from mechsym.sizing.wants import CrankPart
 

@@ -43,10 +43,7 @@ Body = Turned | Plate
 
 
 def tube(name: str, radii: tuple[Metre, Metre], ends: tuple[Metre, Metre], place: Point, axis: str) -> Turned:
-    """A tube, or a rod where the inner radius is 0.
-
-    radii, ends: inner and outer radius, and distances of its faces from `place`.
-    """
+    """A tube, or a rod of inner radius 0. radii: inner and outer. ends: distances of its faces from `place`."""
     (inner, outer), (low, high) = radii, ends
     corners = ((inner, low), (outer, low), (outer, high), (inner, high))
     return Turned(name=name, profile=corners, place=place, axis=axis)

@@ -1,7 +1,8 @@
 r"""The pressure controller of a hinge as an FMU of its own, for co-simulation beside the machine.
 
 It reads crank angle and speed at every communication point and sets the spring once in a period, as
-`mechsym.codesign.control` does: the work that is missing, seen in the speed, is regressed on what a pascal more gives.
+`mechsym.codesign.manoeuvres` does: the work that is missing, seen in the speed, is regressed on what a pascal more
+gives.
 
 .. math:: w = -\tfrac12 I (\dot\varphi^2 - \overline{\dot\varphi^2}) - \int M_\mathrm{load}\,d\varphi, \qquad
           w - w_\mathrm{design} \approx \Delta p\,\frac{\partial U}{\partial p} + c_0 + c_1 \varphi
@@ -16,8 +17,7 @@ from scipy.interpolate import PPoly
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
-from mechsym.hinge.guide import Guide, closing, path
-from mechsym.hinge.setting import setting_of, with_setting
+from mechsym.hinge.guide import Guide, closing, path, setting_of, with_setting
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.out.block import Block, Curve, Port

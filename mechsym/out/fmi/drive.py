@@ -107,8 +107,8 @@ def _pointer(values: np.ndarray) -> "ctypes._Pointer[ctypes.c_double]":
 
 
 @contextlib.contextmanager
-def driven(path: Path, kind: str) -> Iterator[Driven]:
-    """An FMU unpacked, loaded and initialised as model exchange (`me`) or co-simulation (`cs`)."""
+def driven(path: Path, kind: str, tolerance: float = _TOLERANCE) -> Iterator[Driven]:
+    """An FMU unpacked, loaded and initialised as model exchange (`me`) or co-simulation (`cs`), to a tolerance [-]."""
     fmpy = _fmpy()
     from fmpy import fmi2, fmi3
 
@@ -126,10 +126,10 @@ def driven(path: Path, kind: str) -> Iterator[Driven]:
         )
         unit.instantiate()
         if second:
-            unit.setupExperiment(tolerance=_TOLERANCE, startTime=0.0)
+            unit.setupExperiment(tolerance=tolerance, startTime=0.0)
             unit.enterInitializationMode()
         else:
-            unit.enterInitializationMode(tolerance=_TOLERANCE, startTime=0.0)
+            unit.enterInitializationMode(tolerance=tolerance, startTime=0.0)
         unit.exitInitializationMode()
         handle = Driven(unit, description)
         if kind == "me":

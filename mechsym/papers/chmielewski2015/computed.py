@@ -96,10 +96,7 @@ def speeds(name: str, t: np.ndarray, speed: np.ndarray, residual: float | None) 
 
 @cache
 def fixed(model: str, step: float, order: int) -> tuple[np.ndarray, np.ndarray]:
-    """A start-up with a fixed step.
-
-    step: step [s]. Returns t: times [s]. Returns y: phi0, phi2, their speeds, and the energy columns [SI].
-    """
+    """A start-up with a fixed step [s]: times [s]; phi0, phi2, their speeds, and the energy columns [SI]."""
     with np.errstate(all="ignore"):
         return fixed_step(problem(model), step, order)
 
@@ -163,10 +160,7 @@ def energy_gained(model: str, t: np.ndarray, q: np.ndarray, u: np.ndarray) -> np
 
 
 def mixed_model_energy() -> np.ndarray:
-    """Energy that the printed model makes or loses over the start-up.
-
-    Returns share: as a share of the work done by the end [-].
-    """
+    """Energy that the printed model makes or loses over the start-up, by the work done by the end [-]."""
     result = run("crankshaft_flywheel_printed")
     q, u = (np.array([result.columns[f"{a}{d}"] for a in ("phi0", "phi2")]) for d in ("", "d"))
     return energy_gained("crankshaft_flywheel", result.t, q, u)

@@ -34,10 +34,7 @@ _FIGURES = (
 
 
 def figures() -> dict[str, Figure]:
-    """All figures with curves.
-
-    Returns figures: `figure_5` to `figure_11`, and `speeds`: the printed claim beside all runs.
-    """
+    """All figures with curves, `figure_5` to `figure_11`, and `speeds`: the printed claim beside all runs."""
     result = run(EXACT, FINEST[1], FINEST[0])
     columns = {**result.columns, **piston()}
     drawn = {"figure_5": _torque()}

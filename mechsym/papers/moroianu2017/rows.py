@@ -29,10 +29,7 @@ FIGURES = {
 
 @cache
 def curves() -> tuple[Turn, Chain]:
-    """The source's chain over a turn, with the assumed data.
-
-    Returns turn, chain: rod as two masses with its centre of mass after Terskih.
-    """
+    """The chain over a turn, with the assumed data; the rod as two masses, its centre of mass after Terskih."""
     one = turn(load(CASE))
     return one, chain(one, terskih(one.omega))
 

@@ -20,7 +20,7 @@ from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.size import printed_parts
 from mechsym.quantities import RPM, record
 from mechsym.sizing.hypocycloid.masses import PrintedMasses
-from mechsym.sizing.rules import bearings, gear_factors, gears, materials
+from mechsym.sizing.rules import bearings, gears, materials
 from mechsym.sizing.rules.bearings import Bearing
 from mechsym.sizing.rules.gear_bending import bending_geometry_factor
 from mechsym.sizing.rules.gear_geometry import Pair, pitting_geometry_factor
@@ -117,15 +117,12 @@ def _allowed(field: str) -> float:
 def load_distribution_printed(member: int) -> float:
     """K_m of table 4.10. Returns K_m: 1.2537 and 1.1349 [-]."""
     d, C_pm = (D_PINION, 1.1) if member == 1 else (D_RING, 1.0)
-    return gear_factors.load_distribution_factor(WIDEST, d, C_pm, "extra-precision", 0.8)
+    return gears.load_distribution_factor(WIDEST, d, C_pm, "extra-precision", 0.8)
 
 
 def load_distribution_twin_contact() -> float:
-    """K_m that table 4.12 uses for the ring in contact: eq. 4.22, meant for 25 mm and less, at 52 mm.
-
-    Returns K_m: 1.12185 [-].
-    """
-    align = gear_factors.mesh_alignment_factor(WIDEST, "extra-precision")
+    """K_m = 1.12185 [-] of table 4.12 for the ring in contact: eq. 4.22, meant for 25 mm and less, at 52 mm."""
+    align = gears.mesh_alignment_factor(WIDEST, "extra-precision")
     return 1 + (WIDEST / (10 * D_RING) - 0.025) + 0.8 * align
 
 
@@ -136,7 +133,7 @@ def dynamic_printed(member: int, rpm: float | np.ndarray, feet: float) -> np.nda
     feet: 196.85 in table 4.10, 200 in tables 4.11 and 4.12 [ft*s/(min*m)].
     """
     d = D_PINION if member == 1 else D_RING
-    return gear_factors.dynamic_factor(np.pi * d * np.asarray(rpm) / 60, 6.0, feet)
+    return gears.dynamic_factor(np.pi * d * np.asarray(rpm) / 60, 6.0, feet)
 
 
 def widths_printed(shift: float, teeth: int, rpm: np.ndarray, tooth: np.ndarray, twin: bool) -> tuple[float, ...]:
@@ -173,7 +170,7 @@ def widths_corrected(
     module = D_PINION / teeth
     pair = Pair(kind="internal", module=module, teeth_1=teeth, teeth_2=2 * teeth, pressure_angle=_ANGLE, shift=shift)
     speed = gears.mesh_speed(D_PINION, np.asarray(rpm) * RPM)
-    load = 0.5 * np.max(tooth * gear_factors.dynamic_factor(speed, 6.0))
+    load = 0.5 * np.max(tooth * gears.dynamic_factor(speed, 6.0))
     factors = gears.LoadFactors(K_m=load_distribution_printed(1))
     bend = [
         gears.face_width_bending(load, module, bending_geometry_factor(pair, m), bounds["bending"], factors)

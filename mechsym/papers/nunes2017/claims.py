@@ -15,8 +15,8 @@ from mechsym.papers.nunes2017.chapter4 import Peaks, chapter4
 from mechsym.papers.rows import Row
 from mechsym.quantities import dimension
 from mechsym.sizing.rules import crankshaft, piston
-from mechsym.sizing.rules import cylinder as bolt
-from mechsym.sizing.rules.cylinder import tdc_gap
+from mechsym.sizing.rules import piston as bolt
+from mechsym.sizing.rules.piston import tdc_gap
 
 
 def peaks() -> Peaks:
@@ -64,10 +64,7 @@ def displacement() -> Decided:
 
 
 def combustion_columns() -> Decided:
-    """Straight lines through the columns of table 3.1.
-
-    Returns decided: they are (3.2) and (3.1) the other way round.
-    """
+    """Lines through the columns of table 3.1: they are (3.2) and (3.1) the other way round."""
     lines = [np.polyfit(_SPEED, column, 1) for column in (_DURATION, _START)]
     shift = (lines[0][0] + 0.0004) * 8000
     return Decided(
@@ -160,10 +157,7 @@ _F_PRINTED = 27410.0
 
 
 def piston_area() -> Decided:
-    """The area of table 3.2 against the bore's.
-
-    Returns decided: ten times too large, with what chapter 4 made of it.
-    """
+    """The area of table 3.2 is ten times too large against the bore's; what chapter 4 made of it."""
     area = math.pi * _B**2 / 4
     drawn = 1 + _STROKES * 1e-3 / tdc_gap(_V_C, _AREA_PRINTED)
     cylinder, rod_as_made = "length of the cylinder [mm]", "length of the rod [mm]"
@@ -262,10 +256,7 @@ def crankpin_force() -> Decided:
 
 
 def web_stress() -> Decided:
-    """The stress by (4.34) with the right force, and with the width of (4.33).
-
-    Returns decided: for a disc of 65 mm only.
-    """
+    """The stress by (4.34) with the right force and the width of (4.33): for a disc of 65 mm only."""
     force = peaks().F
     disc, lean = (crankshaft.web_stress(force / 2, 0.043, 0.034, 0.015, w) / 1e6 for w in (0.065, 0.04082))
     note = (

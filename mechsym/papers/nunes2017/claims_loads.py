@@ -15,7 +15,7 @@ from mechsym.papers.nunes2017.chapter4 import GEOMETRY
 from mechsym.papers.nunes2017.claims import against, computed, peaks, right
 from mechsym.quantities import RPM, dimension
 from mechsym.sizing.loads import journal_load_massless, tooth_load_printed
-from mechsym.sizing.rules import bearings, gear_factors
+from mechsym.sizing.rules import bearings, gears
 from mechsym.sizing.rules import gears as agma
 
 _PRESSURE_ANGLE = np.radians(25)
@@ -208,7 +208,7 @@ def dynamic_members() -> Decided:
 
 def elastic_coefficient() -> Decided:
     """Z_E of steel on steel."""
-    pascal = float(gear_factors.elastic_coefficient(200e9, 0.3, 200e9, 0.3))
+    pascal = float(gears.elastic_coefficient(200e9, 0.3, 200e9, 0.3))
     return against(
         1.8703e5,
         pascal / 1e3,

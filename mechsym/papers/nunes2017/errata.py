@@ -36,20 +36,14 @@ def errata() -> dict[str, dict[str, float]]:
 
 
 def one_piston() -> dict[str, float]:
-    """E2: volume with one piston only, as eqs. (2.60) and (2.71) print it.
-
-    Returns figures: compression ratio that the printed clearance would give [-].
-    """
+    """E2: compression ratio of the clearance with one piston only, as eqs. (2.60) and (2.71) print it [-]."""
     machine = _engine("nunes-slider-crank")
     room = chamber(machine.chamber, machine.motion)
     return {"compression_ratio": float(1 + room.area * room.stroke / room.clearance)}
 
 
 def unburnt_share() -> dict[str, float]:
-    """E3: the remainder that the thesis calls unburnt, and the share that is.
-
-    Returns figures: shares of the fuel's energy over the speeds [-].
-    """
+    """E3: the remainder that the thesis calls unburnt, and the share that is, of the fuel's energy [-]."""
     (machine, result), performance = _marched("nunes-slider-crank"), _figures("nunes-slider-crank")
     fuel = result.fuel * machine.cycle.heating_value
     share = 1 - result.heat_released.sum(axis=0) / fuel
@@ -108,10 +102,7 @@ def averages() -> dict[str, float]:
 
 
 def engine_torque() -> dict[str, float]:
-    """E7: the peak torque is one piston's, the average is both's; the peak of the engine.
-
-    Returns figures: largest torque of both pistons, which run in phase [N*m].
-    """
+    """E7: largest torque of both pistons, in phase [N*m]; the printed peak is one's, the average both's."""
     return {
         f"torque_max {name}": float(2 * _figures(f"nunes-{name}").torque_max.max())
         for name in ("slider-crank", "hypocycloid")

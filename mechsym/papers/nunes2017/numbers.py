@@ -12,7 +12,7 @@ from mechsym.cases import Case, load
 from mechsym.cycle.chamber import Chamber, chamber, travel
 from mechsym.cycle.compare import crossovers
 from mechsym.cycle.engine import columns, over_speeds
-from mechsym.cycle.kinds.ideal import otto_efficiency
+from mechsym.cycle.kinds.spark_ignition import otto_efficiency
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.papers.rows import NOT_REPRODUCED, REPRODUCED, SLIP, OtherModels, Row, last_digit, number
 from mechsym.quantities import RPM, record

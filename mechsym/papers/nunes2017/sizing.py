@@ -13,10 +13,10 @@ from mechsym.papers.nunes2017 import chapter4 as gearing
 from mechsym.papers.nunes2017.chapter4 import COLUMNS, GEOMETRY, SINGLE, TWIN, Chapter4, area_printed, chapter4
 from mechsym.papers.nunes2017.numbers import Item, item_row
 from mechsym.papers.rows import ARITHMETIC, NOT_REPRODUCED, REPRODUCED, Row
-from mechsym.sizing.rules import bearings, crankshaft, cylinder, masses, piston
+from mechsym.sizing.rules import bearings, crankshaft, masses, piston
 from mechsym.sizing.rules.gear_bending import bending_geometry_factor, interpolated
-from mechsym.sizing.rules.gear_factors import elastic_coefficient
 from mechsym.sizing.rules.gear_geometry import Pair, pitting_geometry_factor
+from mechsym.sizing.rules.gears import elastic_coefficient
 from mechsym.sizing.rules.materials import need
 
 _TEN = "piston area ten times too large (table 3.2)"
@@ -63,8 +63,8 @@ def _piston(thesis: Chapter4) -> list[Row]:
     heat = piston.head_heat(thesis.fuel * thesis.top_rpm / 120 / 2, thesis.heating_value, wants.heat_share)
     cap = thesis.bearings["HK 2516"].outside
     gaps = (
-        round(cylinder.tdc_gap(thesis.clearance, area_printed(thesis)), 4),
-        cylinder.tdc_gap(thesis.clearance, thesis.area),
+        round(piston.tdc_gap(thesis.clearance, area_printed(thesis)), 4),
+        piston.tdc_gap(thesis.clearance, thesis.area),
     )
     length = [piston.rod_length(wants.reach, thesis.e, gap, part.head, cap) * 1e3 for gap in gaps]
     hot, cold = 12.56 / (4 * np.pi), "75/1.5 = 50 MPa used; the text allows 60 MPa"
@@ -91,14 +91,14 @@ def _piston(thesis: Chapter4) -> list[Row]:
 def _cylinder(thesis: Chapter4) -> list[Row]:
     wants, B, stroke = thesis.wants, thesis.bore, 4 * thesis.e
     parts, hoop = thesis.printed.parts, need(thesis.material("cylinder"), "fatigue") / thesis.wants.wall
-    gap, wrong = (cylinder.tdc_gap(thesis.clearance, area) for area in (thesis.area, area_printed(thesis)))
+    gap, wrong = (piston.tdc_gap(thesis.clearance, area) for area in (thesis.area, area_printed(thesis)))
     height, both = parts.piston.height, 2 * stroke
-    length, right = (cylinder.cylinder_length(g, height, stroke) * 1e3 for g in (wrong, gap))
-    core = [cylinder.core_diameter(thesis.peaks.p, B, int(wants.bolts), s * wants.bolt_stress) * 1e3 for s in (1, 0.5)]
-    low, high = cylinder.flange_range(parts.cylinder.wall)
+    length, right = (piston.cylinder_length(g, height, stroke) * 1e3 for g in (wrong, gap))
+    core = [piston.core_diameter(thesis.peaks.p, B, int(wants.bolts), s * wants.bolt_stress) * 1e3 for s in (1, 0.5)]
+    low, high = piston.flange_range(parts.cylinder.wall)
     return [
         _entry("wall of the cylinder [mm]", "7.49",
-               cylinder.wall_thickness(thesis.peaks.p, B, hoop, wants.reboring) * 1e3),
+               piston.wall_thickness(thesis.peaks.p, B, hoop, wants.reboring) * 1e3),
         _sum("dry liner, least [mm]", "1.8", 30 * B),
         _sum("dry liner, largest [mm]", "2.1", 35 * B),
         _entry("flange, least [mm]", "9", low * 1e3),
@@ -111,9 +111,9 @@ def _cylinder(thesis: Chapter4) -> list[Row]:
         _sum("bolts, least number", "4.6", 0.01e3 * B + 4),
         _sum("bolts, largest number", "5.2", 0.02e3 * B + 4),
         _entry("bolts, diameter at 70 MPa [mm]", "9.94", core[0], "the core's, taken for the nominal diameter", "",
-               float(cylinder.thread_for(core[0] * 1e-3))),
+               float(piston.thread_for(core[0] * 1e-3))),
         _entry("bolts, diameter at 35 MPa [mm]", "14.06", core[1], "the core's, taken for the nominal diameter", "",
-               float(cylinder.thread_for(core[1] * 1e-3))),
+               float(piston.thread_for(core[1] * 1e-3))),
         _sum("bolts, 0.75 of the flange [mm]", "9", 0.75 * parts.cylinder.flange * 1e3,
              "the flange's own range is printed"),
     ]  # fmt: skip

@@ -90,8 +90,7 @@ def proportional_to_square() -> Decided:
 
 def proportional_to_pressure() -> Decided:
     """The torque of one guide at two pressures."""
-    from mechsym.hinge.guide import crank_torque, refit
-    from mechsym.hinge.setting import with_setting
+    from mechsym.hinge.guide import crank_torque, refit, with_setting
     from mechsym.hinge.springs.air import AirAbsolute
 
     cut = computed.engines().cut
@@ -123,7 +122,7 @@ def pressure_ratio() -> Decided:
 
 def almost_constant() -> Decided:
     """The ripple of the speed with the guide of 89 rpm at 142 rpm."""
-    from mechsym.hinge.retune import retune
+    from mechsym.hinge.steady import retune
 
     paper = computed.retuned(computed.PRESSURES[1])
     engines = computed.engines()

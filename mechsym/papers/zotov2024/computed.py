@@ -17,10 +17,10 @@ from mechsym.hinge.balance import Balance, balance
 from mechsym.hinge.choices import GuideParameters, Limits
 from mechsym.hinge.guide import Guide, cut
 from mechsym.hinge.limits import Verdict, judge
-from mechsym.hinge.retune import Retuning, at_setting, retune
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.air import AirGauge
 from mechsym.hinge.springs.face import Spring
+from mechsym.hinge.steady import Retuning, at_setting, retune
 from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.machine import machine
 from mechsym.machine.record import Machine, gas_of
@@ -124,10 +124,7 @@ def retuned(pressure: float) -> Retuning:
 
 
 def best_pressure() -> Retuning:
-    """The pressure with which that guide comes nearest to the torque needed at 142 rpm.
-
-    Returns retuned: by least squares of the torque.
-    """
+    """The pressure with which that guide comes nearest to the torque needed at 142 rpm, by least squares."""
     both = engines()
     return retune(both.cut, both.hinges[1], "least_squares_torque")
 
@@ -154,10 +151,7 @@ def guides() -> tuple[Member, ...]:
 
 
 def longest_stretch(cut: Guide) -> float:
-    """By how much the spring in a guide is longer than its free height.
-
-    Returns stretch: 0 when the guide presses it everywhere [m].
-    """
+    """By how much the spring in a guide is longer than its free height; 0 when pressed everywhere [m]."""
     if cut.rho is None:
         return float("nan")
     _, _, rho, _ = periodic.extremes(cut.rho)
@@ -165,10 +159,7 @@ def longest_stretch(cut: Guide) -> float:
 
 
 def departure(cut: Guide) -> float:
-    """How far a guide is from a circle: largest minus smallest distance over their mean [-].
-
-    cut: a guide that could be cut.
-    """
+    """How far a guide that could be cut is from a circle: largest minus smallest distance by their mean [-]."""
     rho = distances(cut)
     return float(np.ptp(rho) / ((rho.max() + rho.min()) / 2))
 

@@ -53,8 +53,7 @@ def dx_dphi_printed(p: CrossheadLetters, phi: Array) -> Array:
 
     .. math:: dx/d\varphi \approx r\sin\varphi + \tfrac12 l\lambda^2\sin 2\varphi
 
-    phi: crank angle [rad]. Returns slope: derivative of the travel [m/rad].
-    Source: Zotov et al. (2024), below eq. (3).
+    phi: crank angle [rad]. Returns slope: derivative of the travel [m/rad]. Source: Zotov et al. (2024), below eq. (3).
     """
     r, l, lam = _lengths(p)
     return r * np.sin(phi) + l / 2 * lam**2 * np.sin(2 * phi)
@@ -65,8 +64,7 @@ def cos_psi_printed(p: CrossheadLetters, phi: Array) -> Array:
 
     .. math:: \cos\psi \approx 1 - \lambda^2/4 + (\lambda^2/4)\cos 2\varphi
 
-    phi: crank angle [rad]. Returns cos_psi: cosine [-].
-    Source: Zotov et al. (2024), below eq. (3).
+    phi: crank angle [rad]. Returns cos_psi: cosine [-]. Source: Zotov et al. (2024), below eq. (3).
     """
     lam = _lengths(p)[2]
     return 1 - lam**2 / 4 + lam**2 / 4 * np.cos(2 * phi)
@@ -91,8 +89,7 @@ def load_torque_printed(p: CrossheadLetters, force: np.ndarray, phi: np.ndarray)
     .. math:: M_r = \frac1{2\pi}\int_0^{2\pi} F\,(r\sin\varphi + \tfrac12 l \lambda^2 \sin 2\varphi)\,d\varphi
 
     force: net force on the piston at even crank angles over a turn, without its end [N]; phi: these angles [rad].
-    Returns M_r: load torque [N*m].
-    Source: Zotov et al. (2024), eqs. (4) and (5).
+    Returns M_r: load torque [N*m]. Source: Zotov et al. (2024), eqs. (4) and (5).
     """
     return float(np.mean(force * dx_dphi_printed(p, phi)))
 

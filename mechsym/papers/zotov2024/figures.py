@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mechsym.hinge import guide
-from mechsym.hinge.setting import with_setting
+from mechsym.hinge.guide import with_setting
 from mechsym.machine.record import gas_of
 from mechsym.papers.page import turn_axis
 from mechsym.papers.zotov2024.computed import (

@@ -10,10 +10,8 @@ import numpy as np
 
 from mechsym.hinge import guide, trials
 from mechsym.hinge.balance import balance
-from mechsym.hinge.fitted import fitted
-from mechsym.hinge.guide import Guide
-from mechsym.hinge.retune import retune
-from mechsym.hinge.setting import setting_of, with_setting
+from mechsym.hinge.guide import Guide, fitted, setting_of, with_setting
+from mechsym.hinge.steady import retune
 from mechsym.machine.loads import ConstantLoad
 from mechsym.papers.rows import ARITHMETIC, NOT_COMPUTABLE, Row, by_digits, claim, row
 from mechsym.papers.zotov2024.computed import (

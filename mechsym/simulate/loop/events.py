@@ -76,10 +76,7 @@ def first_state(loop: Loop, omega: RadPerSecond, angle: Radian = 0.0) -> tuple[l
 
 
 def gap(loop: Loop, gas: GasState, k: int, y: Pure[Array]) -> Radian:
-    """How far a cylinder is past its next event.
-
-    k: number of the cylinder, from 0; y: state, in its mixed units. Returns gap: negative before the event.
-    """
+    """How far cylinder k, from 0, is past its next event; negative before it. y: state, in its mixed units."""
     cycle = loop.engine.cycle
     targets = (gas.start, gas.start + gas.duration, cycle.exhaust_opens, cycle.inlet_closes)
     return float(y[_angle(loop, k)]) - gas.dead_centre - targets[gas.phase]

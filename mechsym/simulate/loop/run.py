@@ -146,9 +146,8 @@ def simulate_loop(
 
     omega: speed of every coordinate at the start; turns: turns of the first coordinate to run; angle: value of every
     coordinate at the start; t_end: time at which the run ends if that comes first. Returns result: columns of the
-    motion, works, energies, and pressures `p_1`, `p_2`, .
-
-    Raises BadInput: Another backend than the one that takes gas in the loop.
+    motion, works, energies, and pressures `p_1`, `p_2`, . Raises BadInput: Another backend than the one that takes gas
+    in the loop.
     """
     if settings.backend not in _LOOPS:
         raise BadInput(f"backend {settings.backend!r} does not take gas in the loop; use {' or '.join(_LOOPS)}")

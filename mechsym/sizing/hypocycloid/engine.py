@@ -12,10 +12,9 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 from mechsym.quantities.units import Metre
 from mechsym.sizing.bearing_design import Choice, Seat
-from mechsym.sizing.crank_design import CrankLoads
+from mechsym.sizing.crank_design import CrankLoads, CylinderLoads
 from mechsym.sizing.gear_design import ToothLoads
 from mechsym.sizing.loads import Spans, side_loads, side_vectors, tooth_share_one_end
-from mechsym.sizing.piston_design import CylinderLoads
 from mechsym.sizing.rules.bearings import Bearing
 from mechsym.sizing.rules.materials import Material, get
 from mechsym.sizing.rules.turning_shaft import Shaft, moment, outer_shares
@@ -104,10 +103,7 @@ _SEATS = {
 
 
 def spans(parts: Parts, stock: Stock) -> Spans:
-    """Axial places of one side; with the source's sizes they give its 43 mm and its 77 mm of shaft.
-
-    Returns spans: from the middle of the crankpin.
-    """
+    """Axial places of one side from the middle of the crankpin; the source's sizes give its 43 mm and 77 mm."""
     places = chosen(parts.bearings, stock)
     width = {name: choice.stack for name, choice in places.items()}
     stack = max(width["inner"], width["main"])
@@ -135,20 +131,14 @@ def shaft(parts: Parts, stock: Stock) -> Shaft:
 
 
 def bending_moment(parts: Parts, forces: PartForces, stock: Stock) -> Callable[[float], np.ndarray]:
-    """Bending moment along the crankshaft.
-
-    Returns moment: distance from the middle of the crankpin [m] -> moment (2, k, n) [N*m].
-    """
+    """Bending moment along the crankshaft: distance from the crankpin's middle [m] -> moment (2, k, n) [N*m]."""
     force, teeth, centrifugal = forces.side
     z, shares = spans(parts, stock), outer_shares(shaft(parts, stock))
     return lambda place: moment(place, z, shares, force, teeth + centrifugal)
 
 
 def tooth_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> ToothLoads:
-    """Tooth loads of the harder loaded pair.
-
-    Returns loads: half of the crank's tooth load, or what one driving end makes of it.
-    """
+    """Tooth loads of the harder loaded pair: half of the crank's, or what one driving end makes of it."""
     one_end = wants.take_off == "one_end"
     share = tooth_share_one_end(spans(parts, stock), wants.stiffness_ratio) if one_end else 0.5
     return ToothLoads(omega=forces.omega, tooth=share * forces.tooth)
@@ -167,10 +157,7 @@ def seats(parts: Parts, forces: PartForces, stock: Stock, wanted: Sequence[str] 
 
 
 def crank_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> CrankLoads:
-    """Loads of crankpin, web and shafts.
-
-    Returns loads: the output shaft carries both cranks' torque: its own and, through the belt, the other one's.
-    """
+    """Loads of crankpin, web and shafts; the output shaft carries its own torque and, by the belt, the other's."""
     pair = tooth_loads(parts, forces, wants, stock)
     return CrankLoads(
         omega=forces.omega,

@@ -50,10 +50,7 @@ class Moving:
 
 
 def moving_printed(printed: PrintedMasses, stock: Stock) -> Moving:
-    """Moving masses from the printed masses (errata E20).
-
-    Returns moving: 0.579 kg on the cylinder axis; the source's dynamics use 0.250 kg.
-    """
+    """Moving masses by the printed ones (erratum E20): 0.579 kg on the axis; the source's dynamics use 0.250 kg."""
     m, places = printed.masses, chosen(printed.parts.bearings, stock)
     density = 6675.0  # the source's Nitralloy N, from which its 90.8 g of shaft follow
     shaft = cylinder_mass(density, printed.parts.crank.shaft, printed.parts.crank.shaft_length)

@@ -54,8 +54,7 @@ def catalogue(extra: str | Path | None = None) -> dict[str, Bearing]:
     """The built-in bearings, and those of a CSV file with the same columns.
 
     extra: file with more bearings; a designation that exists already is replaced. Raises BadInput: file not readable, a
-    column missing or not known, a value out of range.
-    Source: Nunes (2017), table 4.16, and what `bearings.csv` names.
+    column missing or not known, a value out of range. Source: Nunes (2017), table 4.16, and what `bearings.csv` names.
 
     >>> catalogue()["6013 M"].C
     31900.0
@@ -94,8 +93,7 @@ _RELIABILITY = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99:
 def life_exponent(kind: str) -> Pure:
     """Exponent of the life equation.
 
-    Returns p: 3 for balls, 10/3 for rollers.
-    Source: ISO 281.
+    Returns p: 3 for balls, 10/3 for rollers. Source: ISO 281.
 
     >>> life_exponent("ball")
     3.0
@@ -109,10 +107,8 @@ def equivalent_load(F: Newton[Array], kind: str, turns: Radian[Array] | None = N
     .. math:: P = \left(\frac{\int |F|^p\,\mathrm{d}\varphi}{\int \mathrm{d}\varphi}\right)^{1/p}
 
     F: radial load at equal steps over a period, shape (..., n); turns: turning of the bearing in each step, equal when
-    not given. Returns P: equivalent dynamic load, shape (...).
-    Source: ISO 281 with the linear damage rule. Valid: pure radial load.
-
-    Half of the turns at 8 kN, half unloaded, in a ball bearing: 8 / 2^(1/3).
+    not given. Returns P: equivalent dynamic load, shape (...). Source: ISO 281 with the linear damage rule. Valid: pure
+    radial load. Half of the turns at 8 kN, half unloaded, in a ball bearing: 8 / 2^(1/3).
 
     >>> f"{equivalent_load(np.array([8000.0, 0.0]), 'ball'):.0f}"
     '6350'
@@ -144,10 +140,8 @@ def life_revolutions(C: Newton, P: Newton[Scalar], kind: str, reliability: Pure 
     .. math:: L = a_1\left(\frac{C}{P}\right)^p 10^6
 
     C: dynamic rating; P: equivalent load, at most C / 2 for the life to be meant literally; reliability: 0.90, 0.95,
-    0.96, 0.97, 0.98 or 0.99. Returns L: revolutions that this share of bearings survives.
-    Source: ISO 281:2007, table 12 for a_1.
-
-    Shigley, problem 11-3 (8th ed.): 10.279 kN for 1440e6 revolutions needs C = 91.1 kN in a roller bearing.
+    0.96, 0.97, 0.98 or 0.99. Returns L: revolutions that this share of bearings survives. Source: ISO 281:2007, table
+    12 for a_1. Shigley, problem 11-3 (8th ed.): 10.279 kN for 1440e6 revolutions needs C = 91.1 kN in a roller bearing.
 
     >>> f"{life_revolutions(91.1e3, 10.279e3, 'roller'):.3g}"
     '1.44e+09'
@@ -163,8 +157,7 @@ def required_rating(P: Newton, revolutions: Pure, kind: str) -> Newton:
 
     .. math:: C = P\,(L/10^6)^{1/p}
 
-    P: equivalent load.
-    Source: ISO 281.
+    P: equivalent load. Source: ISO 281.
 
     >>> f"{required_rating(10.279e3, 1440e6, 'roller') / 1e3:.1f}"  # Shigley, problem 11-3 (8th ed.)
     '91.1'
@@ -179,8 +172,7 @@ def life_hours(revolutions: Pure[Scalar], omega: RadPerSecond[Scalar]) -> Annota
 
     .. math:: L_h = \frac{2\pi L}{3600\,|\omega|}
 
-    omega: speed of one ring relative to the other.
-    Source: ISO 281.
+    omega: speed of one ring relative to the other. Source: ISO 281.
 
     >>> f"{life_hours(540e6, 300 * 2 * np.pi / 60):.0f}"  # Shigley, problem 11-1 (8th ed.): 30000 h
     '30000'

@@ -110,10 +110,9 @@ def web_stress(R: Newton, arm: Metre, l_pin: Metre, t: Metre, w: Metre) -> Pasca
     .. math:: \sigma = \frac{6 R\left(a - \frac{l}{2} - \frac{t}{2}\right)}{w t^2} + \frac{R}{w t}
 
     R: reaction at the bearing; arm: from the bearing to the middle of the pin; l_pin: length of the crankpin; t, w:
-    thickness and width of the web.
-    Source: Nunes (2017), eq. 4.34. Print: 118.074 MPa holds for F = 27410 N and w = 65 mm; the printed mass of the
-    crankshaft leaves webs of 614 mm2: the outline of pin and shaft (`masses.web_outline`), not a disc of 65 mm. Valid:
-    crank at dead centre, rectangular web, fillets without effect.
+    thickness and width of the web. Source: Nunes (2017), eq. 4.34. Print: 118.074 MPa holds for F = 27410 N and w = 65
+    mm; the printed mass of the crankshaft leaves webs of 614 mm2: the outline of pin and shaft (`masses.web_outline`),
+    not a disc of 65 mm. Valid: crank at dead centre, rectangular web, fillets without effect.
 
     >>> f"{web_stress(27410.0 / 2, 0.043, 0.034, 0.015, 0.065) / 1e6:.3f}"
     '118.074'
@@ -129,9 +128,8 @@ def shaft_diameter(T: NewtonMetre, tau: Pascal) -> Metre:
 
     .. math:: d = \sqrt[3]{\frac{16 T}{\pi\tau}}
 
-    T: largest torque; tau: allowable shear stress.
-    Source: Nunes (2017), eq. 4.35. Print: 7.82 mm is not what 243.6 N.m and 1250/1.5 MPa give; 78.2 N.m would. Valid:
-    round solid shaft, torsion alone, elastic.
+    T: largest torque; tau: allowable shear stress. Source: Nunes (2017), eq. 4.35. Print: 7.82 mm is not what 243.6 N.m
+    and 1250/1.5 MPa give; 78.2 N.m would. Valid: round solid shaft, torsion alone, elastic.
 
     >>> [f"{shaft_diameter(T, 1250e6 / 1.5) * 1e3:.2f}" for T in (243.6, 78.2)]
     ['11.42', '7.82']
@@ -161,9 +159,8 @@ def torsion_stress(T: NewtonMetre[Scalar], d: Metre) -> Pascal[Scalar]:
 
     .. math:: \tau = \frac{16 T}{\pi d^3}
 
-    d: diameter. Returns tau: stress at the surface.
-    Source: eq. 4.35 of Nunes (2017) solved for the stress: his 8 mm shaft has 2423 MPa against 1250 MPa ultimate.
-    Valid: round solid section, elastic.
+    d: diameter. Returns tau: stress at the surface. Source: eq. 4.35 of Nunes (2017) solved for the stress: his 8 mm
+    shaft has 2423 MPa against 1250 MPa ultimate. Valid: round solid section, elastic.
 
     >>> f"{torsion_stress(243.6, 0.008) / 1e6:.0f}"
     '2423'
@@ -199,10 +196,9 @@ def squeeze_time(
         k = 1 - \frac{192\,b}{\pi^5\,l} \sum_{n = 1, 3, ..} \frac{\tanh(n \pi l/2 b)}{n^5}, \qquad b = d\,\alpha/2
 
     arc: angle of the bearing shell that carries; mu: viscosity of the oil; h_1, h_2: film at the start and at the end,
-    h_1 above h_2.
-    Source: O. Reynolds (1886), parallel plates l by b; k for the oil that leaves at the ends: Poisson's equation on a
-    rectangle, D. F. Hays, J. Basic Eng. 83 (1961) 579; 1 for a long pin, 0.42 for l = b. Valid: film even over the arc
-    (clearance small against h_2: a pin in a wider shell is squeezed sooner), rigid surfaces.
+    h_1 above h_2. Source: O. Reynolds (1886), parallel plates l by b; k for the oil that leaves at the ends: Poisson's
+    equation on a rectangle, D. F. Hays, J. Basic Eng. 83 (1961) 579; 1 for a long pin, 0.42 for l = b. Valid: film even
+    over the arc (clearance small against h_2: a pin in a wider shell is squeezed sooner), rigid surfaces.
 
     >>> round(squeeze_time(500e3, 0.3, 0.2, 2.0, 0.03, 60e-6, 10e-6), 3)
     0.411
@@ -221,9 +217,8 @@ def rectangle_stress(moment: NewtonMetre, F: Newton, width: Metre, thickness: Me
     .. math:: \sigma = \frac{6 M}{w t^2} + \frac{F}{w t}
 
     moment: bending moment about the web's weak axis. F: force along the web. width, thickness: section: w across, t
-    along the shaft. Returns sigma: nominal stress.
-    Source: beam theory; R. S. Khurmi, J. K. Gupta, A Textbook of Machine Design (2005), ch. 32. Valid: fillets are left
-    out, so the wanted factor must hold their notch effect.
+    along the shaft. Returns sigma: nominal stress. Source: beam theory; R. S. Khurmi, J. K. Gupta, A Textbook of
+    Machine Design (2005), ch. 32. Valid: fillets are left out, so the wanted factor must hold their notch effect.
 
     >>> round(rectangle_stress(40e3, 250e3, 0.4, 0.12) / 1e6, 2)
     46.88
@@ -239,9 +234,8 @@ def wear_index(p: Pascal[Array], sliding: MetrePerSecond[Array], phi: Radian[Arr
     .. math:: W = \frac{1}{\Delta\varphi}\int p\,|v|\,\mathrm{d}\varphi
 
     p: specific pressure over the turn; phi: crank angles of a whole turn, first and last point the same. Returns index:
-    mean product; wear of a given pair grows with it and the hours.
-    Source: J. F. Archard, J. Appl. Phys. 24 (1953) 981: worn depth is k p s. Valid for comparing designs of the same
-    pair and lubrication.
+    mean product; wear of a given pair grows with it and the hours. Source: J. F. Archard, J. Appl. Phys. 24 (1953) 981:
+    worn depth is k p s. Valid for comparing designs of the same pair and lubrication.
 
     >>> turn = np.linspace(0, 2 * np.pi, 721)
     >>> round(wear_index(np.full(721, 1e6), np.sin(turn), turn) / 1e6, 4)

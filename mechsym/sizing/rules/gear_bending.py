@@ -67,8 +67,7 @@ def load_height(pair: Pair, member: int) -> tuple[Radian, Pure]:
               r_L = R_b/\cos\varphi_L
 
     Returns phi_L: angle between the load and the tooth's normal; r_L: distance of the load point from the gear's
-    centre, in modules.
-    Source: AGMA 908-B89, section 5 (highest point of single tooth contact).
+    centre, in modules. Source: AGMA 908-B89, section 5 (highest point of single tooth contact).
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=26, teeth_2=55, pressure_angle=0.4363323129985824)
     >>> "{:.3f} {:.3f}".format(*load_height(pair, 1))
@@ -177,8 +176,7 @@ def table() -> tuple[Json, ...]:
     """The lines of the three tables.
 
     Returns lines: tuple of dict, keys `shift_pinion, teeth_pinion, teeth_gear, I, J_pinion, J_gear` (numbers, None
-    where the table marks the pair undercut or pointed) and `reading`.
-    Source: Nunes (2017), annex A.2 to A.4.
+    where the table marks the pair undercut or pointed) and `reading`. Source: Nunes (2017), annex A.2 to A.4.
 
     >>> len(table()), sum(line["reading"] == "clear" for line in table())
     (108, 69)

@@ -73,8 +73,7 @@ def contact_ratio(pair: Pair) -> Pure:
 
     .. math:: m_p = (\rho_{end} - \rho_{start}) / p_b
 
-    Returns m_p: mean number of tooth pairs in contact.
-    Source: AGMA 908-B89, section 4. A pair wants at least 1.2.
+    Returns m_p: mean number of tooth pairs in contact. Source: AGMA 908-B89, section 4. A pair wants at least 1.2.
 
     >>> pair = Pair(kind="internal", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824)
     >>> f"{contact_ratio(pair):.3f}"
@@ -136,8 +135,7 @@ def top_land(pair: Pair) -> Pure:
 
     .. math:: s_a = 2 R_a\left(\frac{s}{2R} + \mathrm{inv}\,\varphi - \mathrm{inv}\,\varphi_a\right)
 
-    Returns s_a: top land of the pinion.
-    Source: involute geometry. AGMA 908-B89 calls a tooth below 0.3 pointed.
+    Returns s_a: top land of the pinion. Source: involute geometry. AGMA 908-B89 calls a tooth below 0.3 pointed.
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=17, teeth_2=35, pressure_angle=0.4363323129985824, shift=0.5)
     >>> top_land(pair) < 0.3  # table A.4 marks it T
@@ -155,8 +153,7 @@ def undercut_shift(pair: Pair) -> Pure:
     .. math:: x_{min} = h_a - \rho_a (1 - \sin\varphi) - \tfrac12 z \sin^2\varphi
 
     pair: the pair; h_a is the tool's addendum (whole depth - 1). Returns x_min: smallest shift of the pinion without
-    undercut.
-    Source: rack generation (AGMA 908-B89, section 7). Valid: teeth cut by a rack or hob.
+    undercut. Source: rack generation (AGMA 908-B89, section 7). Valid: teeth cut by a rack or hob.
 
     >>> pair = Pair(kind="external", module=1e-3, teeth_1=12, teeth_2=26, pressure_angle=0.4363323129985824)
     >>> undercut_shift(pair) > 0  # table A.2 marks 12 teeth U

@@ -38,8 +38,7 @@ def web_outline(d_1: Metre, d_2: Metre, e: Metre, points: int = 256) -> tuple[Me
     .. math:: \sin\beta = (R_1 - R_2)/e
 
     d_1, d_2: diameters of the circles around crankpin and shaft; e: distance of their centres. Returns x, y: points,
-    the crankpin at the origin, the shaft at (e, 0), shape (points,).
-    Source: geometry.
+    the crankpin at the origin, the shaft at (e, 0), shape (points,). Source: geometry.
 
     >>> x, y = web_outline(0.025, 0.015, 0.013)
     >>> f"{x.max() * 1e3:.2f}"
@@ -59,9 +58,8 @@ def area_and_centre(x: Metre[Array], y: Metre[Array]) -> tuple[Area, Metre]:
 
     .. math:: A = \tfrac12\sum (x_i y_{i+1} - x_{i+1} y_i)
 
-    x, y: corners in order.
-    Source: geometry. Print: the masses of table 4.14 of Nunes (2017) leave 614 mm2 for each web; the outline of bare
-    pin and shaft has 613 mm2, the printed disc of 65 mm has 3318.
+    x, y: corners in order. Source: geometry. Print: the masses of table 4.14 of Nunes (2017) leave 614 mm2 for each
+    web; the outline of bare pin and shaft has 613 mm2, the printed disc of 65 mm has 3318.
 
     >>> area, centre = area_and_centre(*web_outline(0.025, 0.015, 0.013))
     >>> f"{area * 1e6:.0f} {centre * 1e3:.1f}"
@@ -78,8 +76,7 @@ def roll_up(parts: Mapping[str, tuple[float, int]]) -> Kilogram:
 
     .. math:: m = \sum n_i m_i
 
-    parts: part to its mass [kg] and how many there are [-].
-    Source: Nunes (2017), ch. 5.1.2.
+    parts: part to its mass [kg] and how many there are [-]. Source: Nunes (2017), ch. 5.1.2.
 
     >>> f"{roll_up({'piston': (0.2947, 2), 'cylinder': (1.9024, 1)}):.4f}"
     '2.4918'
@@ -93,8 +90,7 @@ def power_to_weight(power: Watt[Scalar], mass: Kilogram) -> Annotated[Scalar, "W
 
     .. math:: P/m
 
-    Returns ratio: power to weight.
-    Source: Nunes (2017), fig. 5.13.
+    Returns ratio: power to weight. Source: Nunes (2017), fig. 5.13.
 
     >>> f"{power_to_weight(31.009e3, 13.4066) / 1e3:.3f}"
     '2.313'
@@ -108,11 +104,9 @@ def unbalance(parts: Sequence[tuple[float, float]]) -> Annotated[float, "kg*m"]:
 
     .. math:: U = \sum m_i b_i
 
-    parts: mass [kg] and signed distance of its centre from the axis [m].
-    Source: Nunes (2017), eq. 4.37. Print: "g.mm/s2" is g.mm; the force is U omega^2, and the acceleration that the
-    parts share is the centripetal one, not an angular acceleration.
-
-    Table 4.15: shaft, two needle bearings and pinion at 13 mm, the output shaft set at -3.81 mm.
+    parts: mass [kg] and signed distance of its centre from the axis [m]. Source: Nunes (2017), eq. 4.37. Print:
+    "g.mm/s2" is g.mm; the force is U omega^2, and the acceleration that the parts share is the centripetal one, not an
+    angular acceleration. Table 4.15: shaft, two needle bearings and pinion at 13 mm, the output shaft set at -3.81 mm.
 
     >>> moving = [(0.0908, 0.013), (0.014, 0.013), (0.014, 0.013), (0.0953, 0.013)]
     >>> f"{unbalance(moving) * 1e6:.1f} {unbalance([(0.7298, -0.00381)]) * 1e6:.1f}"

@@ -1,0 +1,180 @@
+"""The language of certificates: what every Coq script starts with, and expressions as Coq text."""
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import field
+from fractions import Fraction
+from typing import TypeGuard
+
+import sympy
+from sympy import Expr, Integer, Mul, Pow, Symbol
+
+from mechsym.audit.judge.question import Question
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+HEAD = """Require Import Reals Lra Field.
+Open Scope R_scope.
+
+Lemma root_is : forall u v : R, 0 <= v -> v * v = u -> sqrt u = v.
+Proof. intros u v H E. rewrite <- E. apply sqrt_square; exact H. Qed.
+Lemma cos_of_asin : forall u : R, -1 <= u <= 1 -> cos (asin u) = sqrt (1 - u ^ 2).
+Proof. intros u H. rewrite (cos_asin u H). unfold Rsqr. f_equal; ring. Qed.
+
+Ltac product := repeat first
+  [ assumption | apply PI_neq0 | apply Rmult_integral_contrapositive_currified | apply pow_nonzero
+  | apply Rinv_neq_0_compat | lra | solve [ apply Rgt_not_eq; unfold Rpower; apply exp_pos ] ].
+Ltac nonzero := repeat split; first
+  [ assumption
+  | solve [ product ]
+  | let Z := fresh in intro Z; first
+    [ match goal with Z : ?f = 0, h : ?e <> 0 |- False => apply h; replace e with f by ring; exact Z end
+    | match goal with Z : ?f = 0, h : ?d <> 0, k : ?e <> 0 |- False =>
+        apply (Rmult_integral_contrapositive_currified d e h k); replace (d * e) with f by ring; exact Z end
+    | match goal with h : ?e <> 0 |- False => apply h; lra end ] ].
+Ltac strictly := unfold Rpower, Rdiv; repeat first
+  [ assumption | apply exp_pos | apply PI_RGT_0 | apply Rmult_lt_0_compat | apply Rinv_0_lt_compat | apply pow_lt
+  | apply sqrt_lt_R0 | lra ].
+Ltac positive := unfold Rdiv; repeat first
+  [ assumption | apply sqrt_pos | apply pow2_ge_0 | apply Rmult_le_pos | apply pow_le | lra
+  | solve [ apply Rlt_le; strictly ] ].
+Lemma ln_of_pow : forall (n : nat) (x : R), 0 < x -> ln (x ^ n) = INR n * ln x.
+Proof.
+  induction n; intros x H. { simpl; rewrite ln_1; ring. }
+  rewrite S_INR. simpl pow. rewrite ln_mult; [ | exact H | apply pow_lt; exact H ]. rewrite IHn; [ ring | exact H ].
+Qed.
+Ltac logarithms := unfold Rdiv; apply ln_inv; [ strictly | strictly | ];
+  repeat first [ rewrite ln_mult by strictly | rewrite ln_Rinv by strictly | rewrite ln_of_pow by strictly
+    | unfold Rpower; rewrite ln_exp | progress rewrite ?ln_1 ]; simpl INR; field; nonzero.
+Ltac circles := first
+  [ match goal with |- context [cos ?a] => solve [ generalize (sin2_cos2 a); unfold Rsqr; lra ] end
+  | match goal with |- context [sqrt ?u] =>
+      solve [ let Q := fresh in assert (Q : 0 <= u) by assumption; generalize (sqrt_sqrt u Q); lra ] end ].
+"""
+
+
+def symbol(letter: str) -> Symbol:
+    """The symbol of a letter that stands for a function."""
+    # a power of a positive number is positive, a root at least not negative
+    return Symbol(letter, real=True, positive=letter[0] == "P" or None, nonnegative=letter[0] == "D" or None)
+
+
+@record
+class CoqTerm:
+    """An expression twice: as Coq text with all functions named, and as rational function of the same letters."""
+
+    text: str
+    value: Expr
+
+
+@record
+class Script:
+    """What is gathered on the way through both formulas."""
+
+    question: Question
+    name: str
+    steps: list[str] = field(default_factory=list)
+    lemmas: list[str] = field(default_factory=list)
+    names: dict[str, CoqTerm] = field(default_factory=dict)
+    functions: dict[str, CoqTerm] = field(default_factory=dict)  #: By their text
+    terms: dict[str, str] = field(default_factory=dict)  #: Letter of a sine, cosine or root: what it stands for
+    relations: list[Expr] = field(default_factory=list)  #: What vanishes
+    powers: dict[Symbol, tuple[Expr, Expr]] = field(default_factory=dict)  #: Letter of a power: base and exponent
+    angles: list[tuple[Expr, CoqTerm]] = field(default_factory=list)  #: Arcsines, by what they are of
+    hypotheses: dict[str, None] = field(default_factory=dict)
+    definitions: dict[str, str] = field(default_factory=dict)  #: Names of the tape and of the author, in their order
+
+    def put(self, text: str) -> str:
+        """A text with what its letters stand for."""
+        return re.sub(r"\b[A-Za-z]\w*", lambda m: self.terms.get(m[0], m[0]), text)
+
+    def new(self, stem: str, term: str) -> Symbol:
+        """A letter for a term."""
+        letter = f"{stem}{len(self.terms)}"
+        self.terms[letter] = term
+        return symbol(letter)
+
+    def prove(self, left: str, right: str, proof: str) -> None:
+        """A function of which the value is known: from here on it is replaced."""
+        if self.put(left) == self.put(right):
+            return
+        assertion = f"  assert (K{len(self.steps)} : {left} = {right}). {{ {proof}. }}"
+        self.steps.append(assertion)
+        self.steps[-1] += f"\n  {self.rewritten}."
+
+    @property
+    def rewritten(self) -> str:
+        """A tactic that puts in all values that are known."""
+        known = ", ".join(f"?K{i}" for i in range(len(self.steps)))
+        return f"repeat (progress rewrite {known})" if known else "idtac"
+
+    def suppose(self, hypothesis: str) -> None:
+        """A condition of the theorem."""
+        self.hypotheses[hypothesis] = None
+
+
+def rational(number: Fraction) -> CoqTerm:
+    """A number in Coq and for sympy."""
+    text = str(abs(number.numerator))
+    text = text if number.denominator == 1 else f"({text} / {number.denominator})"
+    return CoqTerm(
+        text=f"(- {text})" if number < 0 else text, value=sympy.Rational(number.numerator, number.denominator)
+    )
+
+
+def is_half(exponent: Fraction | None) -> TypeGuard[Fraction]:
+    """Whether an exponent is whole or half."""
+    return exponent is not None and exponent.denominator <= 2
+
+
+def power_text(base: str, exponent: Fraction | None, written: Callable[[], str]) -> str:
+    """A power in Coq; one that is not whole or half of a positive number."""
+    if not is_half(exponent):
+        return f"(Rpower {base} {written()})"
+    text = base if exponent.denominator == 1 else f"(sqrt {base})"
+    text = f"({text} ^ {abs(exponent.numerator)})"
+    return f"(/ {text})" if exponent < 0 else text
+
+
+def bases(product: Expr) -> list[Expr]:
+    """What a product is made of, powers and numbers left out."""
+    factors = [f.base if isinstance(f, Pow) else f for f in Mul.make_args(product)]
+    return [f for f in factors if not f.is_number]
+
+
+def prime_factors(product: Expr) -> Iterator[tuple[Expr, int]]:
+    """What a product is made of, with exponents; numbers as primes."""
+    for factor in Mul.make_args(sympy.factor(product)):
+        base, count = factor.as_base_exp()
+        if base.is_Integer and base > 1:
+            yield from ((Integer(p), k * int(count)) for p, k in sympy.factorint(base).items())
+        elif base.is_number and base != 1 or not count.is_Integer:
+            raise BadInput("a power of this has no place in a certificate")
+        elif base != 1:
+            yield base, int(count)
+
+
+def coq_text(e: Expr) -> str:
+    """A rational expression in Coq."""
+    if e.is_Symbol:
+        return str(e)
+    if e.is_Rational:
+        return rational(Fraction(int(e.p), int(e.q))).text
+    if e.is_Add:
+        first, *rest = (coq_text(a) for a in sorted(e.args, key=lambda a: (a.could_extract_minus_sign(), str(a))))
+        return "(" + first + "".join(f" - {r[3:-1]}" if r.startswith("(- ") else f" + {r}" for r in rest) + ")"
+    if e.is_Mul and e.could_extract_minus_sign():
+        return f"(- {coq_text(-e)})"
+    if e.is_Mul:
+        above, below = ([a for a in e.args if _is_below(a) is side] for side in (False, True))
+        top = " * ".join(map(coq_text, above)) or "1"
+        return f"({top} / {coq_text(Mul(*(1 / a for a in below)))})" if below else f"({top})"
+    if _is_below(e):
+        return f"(1 / {coq_text(1 / e)})"
+    if isinstance(e, Pow) and e.exp.is_Integer:
+        return f"({coq_text(e.base)} ^ {int(e.exp)})"
+    raise BadInput(f"{e} has no place in a certificate")
+
+
+def _is_below(e: Expr) -> bool:
+    return isinstance(e, Pow) and bool(e.exp.is_Integer and e.exp < 0)

@@ -1,0 +1,251 @@
+"""`mechsym prove`: a mechanism, or the limits of guides -> rounding of their code; a case -> its motion enclosed."""
+
+from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
+
+import casadi as ca
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.cases.numbers import usual
+from mechsym.errors import BadInput
+from mechsym.hinge.balance import balance
+from mechsym.hinge.kernel import design_kernel
+from mechsym.hinge.torque import torque
+from mechsym.jobs.machine import machine
+from mechsym.jobs.problem import problem_of
+from mechsym.machine.record import acting, shaft_torque
+from mechsym.mechanisms.record import Mechanism, bind, evaluate, generated, listing, velocities
+from mechsym.proof.enclosure import EnclosureMethod
+from mechsym.proof.motion import MOST, Passed, balls_of, digits, enclose, half_widths, method_for, task_of
+from mechsym.proof.outputs import ProvenRounding, of_guides, of_mechanism, rounding, units_of, widened
+from mechsym.quantities import record
+from mechsym.quantities.results import Columns, part, quantity, result
+from mechsym.simulate import Settings, simulate
+from mechsym.simulate.problem import Problem, Steps
+
+_SHARE = 0.01  # of a parameter's value, to both sides
+_SHARE_OF_GUIDES = 0.001  # beyond it balls do not see that the kernel's Newton steps come to an end
+GUIDES = "hinge"  #: What stands for the limits of guides among the names of mechanisms
+_FASTER = 1.1  # highest speed by that of operation
+#: Cases that give numbers to mechanisms that have none of their own
+_OF_OTHERS = {GUIDES: "zotov-89", "crank_throw": "opposed-pistons", "crankshaft_flywheel_printed": "chmielewski", 
+              "rodless_constraints": "balandin", "crosshead": "zotov-89"}  # fmt: skip
+_TURN = np.arange(1440) * 4 * np.pi / 1440
+
+Ranges = dict[str, tuple[float, float]]
+
+
+@record
+class Extremes:
+    """What a machine reaches in operation."""
+
+    speed: tuple[float, float]  #: [rad/s]
+    acceleration: float  #: Of the shaft [rad/s^2]
+    force: tuple[float, float]  #: On a piston [N]
+    torque: float  #: On the shaft [N*m]
+
+
+def usual_case(mechanism: str) -> str:
+    """The case whose numbers a mechanism is proven for. Raises BadInput: there is none."""
+    found = _OF_OTHERS.get(mechanism) or usual(mechanism)
+    if not found:
+        raise BadInput(f"{mechanism} has no case of its own; name one with --case")
+    return found
+
+
+def of_mechanism_at(
+    mechanism: str,
+    case: Case,
+    given: Mapping[str, tuple[float, float]],
+    samples: int,
+    progress: Callable[[int], object] = lambda _: None,
+) -> ProvenRounding:
+    """The rounding of a mechanism's functions over the ranges of a case.
+
+    given: ranges of letters in place of the case's [SI].
+    """
+    ranges = ranges_of(mechanism, case)
+    if unknown := sorted(set(given) - set(ranges)):
+        raise BadInput(f"--range {unknown[0]}: {mechanism} has no such letter; letters are {', '.join(ranges)}")
+    words = (
+        f"parameters of {case.name} +-{100 * _SHARE:g} %, a full turn of each angle, speeds and inputs within its "
+        f"extremes{''.join(f', {k} = {low:g}..{high:g}' for k, (low, high) in given.items())}"
+    )
+    subjects = of_mechanism(mechanism, ranges | dict(given))
+    return rounding(mechanism, subjects, units_of(mechanism), samples, words, progress)
+
+
+def of_guides_at(case: Case, samples: int, progress: Callable[[int], object] = lambda _: None) -> ProvenRounding:
+    """The rounding of the limits of guides of a case, as maps of guides compute them."""
+    choices = case.need("guide")
+    wanted = balance(torque(machine(case)), choices.balance)
+    sections = case.need("spring"), choices, case.need("rollers"), case.need("limits")
+    kernel = design_kernel(wanted, *sections, ("guide.rho0",))
+    words = f"numbers of {case.name} +-{100 * _SHARE_OF_GUIDES:g} %, its torque around the turn"
+    return rounding(GUIDES, of_guides(kernel, _SHARE_OF_GUIDES), {}, samples, words, progress)
+
+
+def ranges_of(mechanism: str, case: Case) -> Ranges:
+    """Ranges of all letters of a mechanism [SI]: parameters at the case's values and 1 % to both sides."""
+    known, module = listing(mechanism), generated(mechanism)
+    values = {letter: _number(case, letter) for letter in module.PARAMETERS}
+    extremes = extremes_of(case)
+    length = 2 * max((abs(v) for letter, v in values.items() if known["parameters"][letter] == "m"), default=1.0)
+    ranges: Ranges = {letter: widened(v, _SHARE) for letter, v in values.items()}
+    for q, unit in known["coordinates"].items():
+        by = 1.0 if unit == "rad" else length
+        ranges[q] = (-np.pi, np.pi) if unit == "rad" else (-length, length)
+        ranges[f"{q}d"] = (by * extremes.speed[0], by * extremes.speed[1])
+        ranges[f"{q}dd"] = (-by * extremes.acceleration, by * extremes.acceleration)
+    for name, unit in known["inputs"].items():
+        ranges[name] = extremes.force if unit == "N" else (-extremes.torque, extremes.torque)
+    return ranges
+
+
+def _number(case: Case, letter: str) -> float:
+    value = getattr(case.need("parameters"), letter, None)
+    if isinstance(value, tuple):  # of several throws the first
+        value = value[0] if value else None
+    if value is None:
+        raise BadInput(f"{case.file}: no value for {letter}; name a case of this mechanism with --case")
+    return float(value)
+
+
+def extremes_of(case: Case) -> Extremes:
+    """Speeds, forces and torques that a case reaches: over a turn, or in its run where it has no speed of operation."""
+    if "operation" not in case.sections:
+        return _of_run(case)
+    engine = machine(case)
+    torque = float(np.abs(shaft_torque(engine, "drive", _TURN)).max())
+    forces = np.concatenate([np.zeros(1), *(f.value(_TURN) for f in acting(engine))])
+    (q,) = engine.mechanism.coordinates
+    inertia = float(evaluate(engine.mechanism, "dynamics", **{q: _TURN})["mass_matrix"].min())
+    return Extremes(
+        speed=(0.0, _FASTER * engine.omega),
+        acceleration=torque / inertia,
+        force=(float(forces.min()), float(forces.max())),
+        torque=torque,
+    )
+
+
+def _of_run(case: Case) -> Extremes:
+    """The extremes of a run in time: what the shaft is driven by is all that acts on it."""
+    problem = problem_of(case)
+    result = simulate(problem, Settings(check="none"))
+    speeds = np.array([result.columns[name] for name in velocities(problem.mechanism)])
+    values = [v for part in problem.parts if isinstance(part.value, Steps) for v in part.value.values]
+    return Extremes(
+        speed=(float(speeds.min()), float(speeds.max())),
+        acceleration=float(np.abs(np.diff(speeds) / np.diff(result.t)).max()),
+        force=(min(0.0, *values), max(0.0, *values)),
+        torque=max(0.0, *np.abs(values).tolist()),
+    )
+
+
+@result
+class ProvenMotion:
+    """A motion enclosed: where every solution of the case's equations is, second by second."""
+
+    subject: str = part()
+    t: tuple[float, ...] = quantity("s")  #: Ends of the seconds
+    lower: Columns = part()  #: No state is below at these times; doubles, half-widths are apart
+    upper: Columns = part()  #: Nor above
+    half_width: Columns = part()  #: Of each state around its midpoint
+    least: Columns = part()  #: No state was below during the second before
+    largest: Columns = part()  #: Nor above
+    mean_least: Columns = part()  #: Mean of each velocity over the second before: not below
+    mean_largest: Columns = part()  #: Nor above
+    steps: int = quantity("-")  #: Of the enclosure
+    bits: int = quantity("-")  #: Of its midpoints
+    digits: float = quantity("-")  #: That were forecast to be needed
+    statement: str = part()
+    trusted: tuple[str, ...] = part()
+
+
+_WIDTH = 1e-9  # that is asked for at the end, in the norm [-]
+_TRUSTED = (
+    "python-flint's balls",
+    "the tape: it is the equations that the package derived, read once",
+    "the parameters are the decimals that the case prints, each one number and no measured value with an error",
+)
+
+
+def motion_of(
+    case: Case, t_end: float | None = None, out: Path | None = None, window: tuple[float, float] | None = None,
+    progress: Callable[[int], object] = lambda _: None,
+) -> ProvenMotion:  # fmt: skip
+    """The motion of a case enclosed.
+
+    t_end: in place of the case's [s]; out: folder in which the proof is kept, and goes on from; window: times that the
+    statement is about [s]. Raises BadInput: it cannot be enclosed; the message names the force, or the digits that it
+    would need.
+    """
+    problem = problem_of(case)
+    symbols = {name: ca.SX.sym(name) for name in problem.mechanism.parameters}
+    open_ = bind(case.mechanism, symbols)
+    values = {name: float(v) for name, v in problem.mechanism.parameters.items()}
+    _require_same(case, problem, bind(case.mechanism, values))
+    task = task_of(problem, open_, values)
+    until = t_end or problem.t_end
+    needed = digits(task, until, _WIDTH)
+    if needed > MOST:
+        raise BadInput(
+            f"{case.file}: to {until:g} s an enclosure of {_WIDTH:g} needs more than {MOST:g} digits: neighbours come "
+            "apart too fast; give a shorter --t-end"
+        )
+    method = method_for(needed)
+    passed = enclose(task, method, Fraction(repr(float(until))), out, progress)
+    states = (*problem.mechanism.coordinates, *velocities(problem.mechanism))
+    return _told(case, problem, states, passed, (method, needed), window)
+
+
+def _require_same(case: Case, problem: Problem, plain: Mechanism) -> None:
+    """Refuse a run whose mechanism is more than its declaration: a flywheel, the torque of a hinge."""
+    if plain.inputs != problem.mechanism.inputs:
+        raise BadInput(f"{case.file}: [drive] or [spring] adds an input to {plain.name}; it cannot be enclosed with it")
+    at = [0.3 + 0.1 * k for k in range(plain.functions["dynamics"].n_in())]
+    pairs = zip(*(m.functions["dynamics"].call(at) for m in (plain, problem.mechanism)), strict=True)
+    if any(np.abs(np.asarray(a - b)).max() > 0 for a, b in pairs):
+        raise BadInput(f"{case.file}: a section adds inertia to {plain.name}; put it into the parameters to enclose it")
+
+
+def _told(
+    case: Case, problem: Problem, states: tuple[str, ...], passed: Sequence[Passed], by: tuple[EnclosureMethod, float],
+    window: tuple[float, float] | None,
+) -> ProvenMotion:  # fmt: skip
+    units = dict(zip(states, problem.mechanism.state_units, strict=True))
+    n = len(states) // 2
+    ends = np.array([[(float(b.lower()), float(b.upper())) for b in balls_of(p.at)] for p in passed])
+    times, starts = np.array([float(p.at.t) for p in passed]), np.array([[q, q] for q in problem.q0])
+    # over a second the mean of a velocity is the change of its coordinate by its length, doubles a hair outwards
+    moved = ends[:, :n] - np.concatenate([starts[None], ends[:-1, :n]])[:, :, ::-1]
+    means = moved / np.diff(times, prepend=problem.t_start)[:, None, None] + [-1e-11, 1e-11]
+
+    def columns(values: np.ndarray, names: Sequence[str] = states) -> Columns:
+        return Columns({k: tuple(v) for k, v in zip(names, np.transpose(values).tolist(), strict=True)}, units)
+
+    low, high = np.array([p.low for p in passed]), np.array([p.high for p in passed])
+    speeds = tuple(f"{q}d" for q in states[:n])
+    inside = (
+        times > problem.t_start if window is None else (times >= window[0] + 1 - 1e-9) & (times <= window[1] + 1e-9)
+    )
+    if not inside.any():
+        raise BadInput(f"--window {window}: no whole second lies in it; they end at {times[0]:g} to {times[-1]:g} s")
+    mean = means[inside, 0, 0].min(), means[inside, 0, 1].max()
+    of_all = low[inside, n].min(), high[inside, n].max()
+    claim = getattr(case.sections.get("startup"), "claim_speed", None)
+    never = claim is not None and not mean[0] <= claim <= mean[1]
+    statement = (
+        f"with the decimals of {case.name} every solution has {speeds[0]} within [{of_all[0]:.6g}, {of_all[1]:.6g}] "
+        f"{units[speeds[0]]} from {times[inside][0] - 1:g} to {times[inside][-1]:g} s, its mean over each second in "
+        f"[{mean[0]:.6g}, {mean[1]:.6g}]{f': never in steady motion at {claim:g}' if never else ''}; at "
+        f"{times[-1]:g} s the state is known to +-{max(half_widths(passed[-1].at)[:n]):.1g} in its coordinates"
+    )
+    return ProvenMotion(
+        subject=case.name, t=tuple(times.tolist()), lower=columns(ends[:, :, 0]), upper=columns(ends[:, :, 1]),
+        half_width=columns(np.array([half_widths(p.at) for p in passed])), least=columns(low), largest=columns(high),
+        mean_least=columns(means[:, :, 0], speeds), mean_largest=columns(means[:, :, 1], speeds),
+        steps=passed[-1].steps, bits=by[0].bits, digits=by[1], statement=statement, trusted=_TRUSTED,
+    )  # fmt: skip

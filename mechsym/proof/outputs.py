@@ -1,0 +1,253 @@
+"""The outputs of generated functions, each with a proven bound of its rounding and the largest error that was seen."""
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+import casadi as ca
+import numpy as np
+
+from mechsym import budget
+from mechsym.errors import BadInput
+from mechsym.hinge.kernel import DesignKernel
+from mechsym.mechanisms.record import generated, listing
+from mechsym.native import compiled
+from mechsym.native.source import prepared
+from mechsym.native.tape import Tape
+from mechsym.proof.balls import Ball, arb, evaluate
+from mechsym.proof.rounding import VALUES, Rounded, bounds
+from mechsym.proof.sampled import Exact, errors, exact_function, points_in
+from mechsym.quantities import record
+from mechsym.quantities.results import part, quantity, result
+
+Box: TypeAlias = tuple[tuple[float, float], ...]
+_PIECES = (64, 16)  # of a turn: where one angle turns, and where several do
+_DEEPEST = 12  # how often a piece is halved before it is told as singular
+_SEED = 20260
+_PER_SAMPLE = 1e-4  # of each function [s]
+
+
+@record
+class Subject:
+    """A function whose rounding is bounded, over boxes of its inputs."""
+
+    name: str
+    function: ca.Function
+    exact: Exact | None = None  #: The same for balls, from another text than the tape; None takes the tape
+    boxes: tuple[Box, ...]
+    along: tuple[int, ...] = ()  #: Inputs along which a box may be halved and which say where it is
+    places: tuple[str, ...] = ()  #: Of the boxes, where no input says it
+    outputs: tuple[str, ...] = ()  #: Their names, where the function has others
+
+
+@result
+class ProvenOutput:
+    """An output of machine code and how far it can be from its exact value."""
+
+    name: str = part()
+    unit: str = part()
+    absolute: float | None = quantity("@unit")  #: Proven bound; None where no place has one
+    relative: float | None = quantity("-")  #: The same by the largest value of the output
+    where: str = part()  #: Where it is largest
+    seen: float = quantity("@unit")  #: Largest error of the samples
+    factor: float | None = quantity("-")  #: Bound by the largest error seen; None where none was seen
+    singular: tuple[str, ...] = part()  #: Places without a bound
+
+
+@result
+class ProvenRounding:
+    """The rounding of the generated functions of a mechanism."""
+
+    subject: str = part()
+    outputs: tuple[ProvenOutput, ...] = part()
+    samples: int = quantity("-")  #: Random points of each function, half of their values at the ends of the ranges
+    holds: bool = part()  #: Whether no sample is beyond its bound
+    statement: str = part()
+    trusted: tuple[str, ...] = part()
+
+
+TRUSTED = (
+    "the compiler: IEEE doubles, one rounding an operation, as -ffp-contract=off asks",
+    "python-flint's balls",
+    "the tape is the text: the samples come from the compiled text and are held against the plain generated function",
+    "the stated bounds of elementary functions: sine and cosine 2 units in the last place, tan and asin 3, exp, log "
+    "and powers 1.5; tests hold them against 60 digits",
+)
+
+
+def of_mechanism(name: str, ranges: Mapping[str, tuple[float, float]]) -> tuple[Subject, ...]:
+    """The plain generated functions of a mechanism over ranges of all their letters [SI]; angles are cut in pieces."""
+    module, angles = generated(name), [q for q, unit in listing(name)["coordinates"].items() if unit == "rad"]
+    subjects = []
+    for function, (letters, outputs) in module.FUNCTIONS.items():
+        symbols = [ca.SX.sym(letter) for letter in letters]
+        values = [ca.SX(v) for v in getattr(module, function)(*symbols)]
+        options = {"allow_duplicate_io_names": True}
+        built = ca.Function(f"{name}_{function}", symbols, values, list(letters), list(outputs), options)
+        turning = [i for i, letter in enumerate(letters) if letter in angles]
+        subjects.append(
+            Subject(
+                name=function,
+                function=built,
+                exact=exact_function(module, function),
+                boxes=tuple(_pieces([ranges[letter] for letter in letters], turning)),
+                along=tuple(turning),
+            )
+        )
+    return tuple(subjects)
+
+
+def of_guides(kernel: DesignKernel, share: float) -> tuple[Subject, ...]:
+    """The limits of guides: shares around the turn, and the margins, with all numbers +- a share [-]."""
+    around, ends = kernel.functions
+    lanes: Box = tuple(widened(v, share) for v in kernel.lanes.values())
+    pairs = [
+        pair
+        for pair in itertools.pairwise(range(len(kernel.angles)))
+        if kernel.angles[pair[0]] < kernel.angles[pair[1]]
+    ]
+    stages = [tuple((min(column), max(column)) for column in kernel.stages[list(pair)].T.tolist()) for pair in pairs]
+    shares = compiled(around, "strict").batch(*kernel.stages.T, *kernel.lanes.values())
+    peaks = tuple(widened(float(row.max()), share) for row in shares)
+    return (
+        Subject(
+            name="around_the_turn", function=around, boxes=tuple((*stage, *lanes) for stage in stages),
+            places=tuple(f"angle of the guide = {kernel.angles[a]:.4g}..{kernel.angles[b]:.4g}" for a, b in pairs),
+            outputs=kernel.around,
+        ),
+        Subject(
+            name="margins", function=ends, boxes=((*lanes, *peaks),), places=("the whole turn",),
+            outputs=(*kernel.limits, "cut"),
+        ),
+    )  # fmt: skip
+
+
+def widened(value: float, share: float) -> tuple[float, float]:
+    """A range with a share of a value [SI] to both sides."""
+    return value - share * abs(value), value + share * abs(value)
+
+
+def units_of(name: str) -> dict[str, str]:
+    """Units of the outputs of a mechanism's functions; of a constraint's none is told."""
+    known, along = listing(name), {"rad": "N*m", "m": "N"}
+    units = {"kinetic_energy": "J", "potential_energy": "J", "angular_momentum_rate": "N*m", "momentum_rate_x": "N",
+             "momentum_rate_y": "N"}  # fmt: skip
+    for a, unit in known["coordinates"].items():
+        units |= {f"bias_{a}": along[unit], f"force_{a}": along[unit]}
+        for b, other in known["coordinates"].items():
+            units[f"mass_{a}_{b}"] = ("kg", "kg*m", "kg*m^2")[(unit, other).count("rad")]
+    return units | known["outputs"]
+
+
+def _pieces(box: Sequence[tuple[float, float]], turning: Sequence[int]) -> Iterator[Box]:
+    count = _PIECES[0] if len(turning) == 1 else _PIECES[1]
+    edges = [np.linspace(*box[i], count + 1).tolist() for i in turning]
+    for ends in itertools.product(*(itertools.pairwise(e) for e in edges)):
+        piece = list(box)
+        for i, end in zip(turning, ends, strict=True):
+            piece[i] = end
+        yield tuple(piece)
+
+
+def prove(
+    subject: Subject,
+    units: Mapping[str, str],
+    samples: int,
+    code: Callable[..., np.ndarray] | None = None,
+    progress: Callable[[int], object] = lambda _: None,
+) -> tuple[ProvenOutput, ...]:
+    """Bounds of all outputs of a function, beside the largest error of its machine code at random points.
+
+    units: of outputs by name; code: what is held against the bound, in place of the strict build of the function.
+    """
+    tape = prepared(subject.function, "strict")
+    rows = [_bounded(tape, box, subject.along) for box in subject.boxes]
+    exact = subject.exact or (lambda *values: evaluate(tape, VALUES | _MORE, values))
+    points, which = points_in(subject.boxes, samples, _SEED)
+    off, sizes = errors(code or compiled(subject.function, "strict").batch, exact, points, progress)
+    names = dict(zip(subject.boxes, subject.places, strict=False))
+
+    def place(box: Box) -> str:
+        return names.get(box) or ", ".join(
+            f"{tape.inputs[k]} = {box[k][0]:.4g}..{box[k][1]:.4g}" for k in subject.along
+        )
+
+    proven = []
+    for i, name in enumerate(subject.outputs or tape.outputs):
+        pieces = [piece for row in rows for piece in row[i]]
+        finite = [(value.error, box) for box, value in pieces if math.isfinite(value.error)]
+        singular = [box for box, value in pieces if not math.isfinite(value.error)]
+        inside = np.array([not any(_within(point, box) for box in singular) for point in points.T])
+        seen = float(off[i][inside].max(initial=0.0))
+        absolute, where = max(finite, key=lambda found: found[0], default=(None, ()))
+        least = (float(value.ball.abs_lower()) for _, value in pieces if value.ball.is_finite())
+        size = max((float(sizes[i][inside].max(initial=0.0)), *least))
+        proven.append(
+            ProvenOutput(
+                name=f"{subject.name}.{name}",
+                unit=units.get(name, ""),
+                absolute=absolute,
+                relative=None if absolute is None else absolute / size if size else 0.0,
+                where=place(where) if absolute else "",
+                seen=seen,
+                factor=absolute / seen if absolute is not None and seen else None,
+                singular=tuple(dict.fromkeys(map(place, singular))),
+            )
+        )
+    return tuple(proven)
+
+
+_MORE: dict[str, Callable[..., Ball]] = {
+    "lt": lambda a, b: arb(int(a < b)), "le": lambda a, b: arb(int(a <= b)), "not": lambda a: arb(int(a.is_zero())),
+    "eq": lambda a, b: arb(int(a == b)), "ne": lambda a, b: arb(int(a != b)), "sign": lambda a: a.sgn(),
+    "and": lambda a, b: arb(int(a != 0 and b != 0)), "or": lambda a, b: arb(int(a != 0 or b != 0)),
+    "if_else_zero": lambda c, a: a if c != 0 else arb(0),
+}  # fmt: skip
+
+
+def _bounded(tape: Tape, box: Box, along: Sequence[int], depth: int = 0) -> list[list[tuple[Box, Rounded]]]:
+    """For each output the parts of a box with what holds there; what has no bound is halved some times."""
+    values = bounds(tape, box, centred=not along)
+    if depth == _DEEPEST or not along or all(math.isfinite(v.error) for v in values):
+        return [[(box, v)] for v in values]
+    i = max(along, key=lambda k: box[k][1] - box[k][0])
+    middle = (box[i][0] + box[i][1]) / 2
+    halves = (
+        _bounded(tape, (*box[:i], end, *box[i + 1 :]), along, depth + 1)
+        for end in ((box[i][0], middle), (middle, box[i][1]))
+    )
+    parts = [a + b for a, b in zip(*halves, strict=True)]
+    return [[(box, v)] if math.isfinite(v.error) else p for v, p in zip(values, parts, strict=True)]
+
+
+def _within(point: np.ndarray, box: Box) -> bool:
+    return all(low <= v <= high for v, (low, high) in zip(point, box, strict=True))
+
+
+def rounding(
+    name: str,
+    subjects: Sequence[Subject],
+    units: Mapping[str, str],
+    samples: int,
+    words: str,
+    progress: Callable[[int], object] = lambda _: None,
+) -> ProvenRounding:
+    """All outputs of some functions. words: over which ranges. Raises BadInput: no samples."""
+    if samples < 1:
+        raise BadInput(f"--samples {samples}: a bound is held against at least 1 point")
+    budget.require(f"{samples} samples", samples * len(subjects) * _PER_SAMPLE, 2e2 * samples, "give fewer --samples")
+    outputs = tuple(row for s in subjects for row in prove(s, units, samples, progress=progress))
+    holds = all(row.absolute is None or row.seen <= row.absolute for row in outputs)
+    largest = max((row.relative for row in outputs if row.relative is not None), default=0.0)
+    return ProvenRounding(
+        subject=name,
+        outputs=outputs,
+        samples=samples,
+        holds=holds,
+        statement=f"what the strict build of {name} returns in doubles is within its bound of the exact value, at most "
+        f"{largest:.2g} of the largest value of an output, for {words}"
+        if holds
+        else f"the code of {name} is not what was proven: a sample is beyond its bound",
+        trusted=TRUSTED,
+    )
