@@ -15,7 +15,7 @@ from mechsym.audit.read.tree import at
 from mechsym.audit.repair.edits import apply
 from mechsym.audit.repair.examination import Repair
 from mechsym.audit.theory.record import dependencies
-from mechsym.audit.verdict import PASSED, WORST, Decision, decide
+from mechsym.audit.verdict import PASSED, RIGHT_WITH, WORST, Decision, decide
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.page import page
@@ -87,6 +87,18 @@ def answer_or_why(asked: Asked) -> Row:
         return unread_row(asked.name, asked.against, asked.text, str(error))
 
 
+def shared(rows: Sequence[Row]) -> list[Row]:
+    """The rows of one source: what several formulas count alike is their author's convention."""
+    told = [row["note"].partition(RIGHT_WITH)[2].partition(";")[0].strip() for row in rows]
+    said = [(row["claim"].rpartition(".")[0], words) for row, words in zip(rows, told, strict=True)]
+    settled = []
+    for row, pair in zip(rows, said, strict=True):
+        many = said.count(pair) if pair[1] and row["verdict"] == "untestable" else 0
+        note = f"right with {pair[1]}, as {many} formulas of this source count"
+        settled.append(row | {"verdict": "convention", "correction": None, "note": note} if many > 1 else row)
+    return settled
+
+
 def _answer(asked: Asked, said: Statement, claim: str) -> Row:
     chosen = [c for c in conventions.checked(asked.convention) if c != "show"]
     question = question_of(asked, said)
@@ -99,7 +111,7 @@ def _answer(asked: Asked, said: Statement, claim: str) -> Row:
     notes += [f"not read: {', '.join(idle)}; neither the formula nor {question.quantity} holds it"] if idle else []
     if chosen and verdict.verdict not in ("exact", "convention"):
         question = conventions.converted(question, chosen)
-        verdict = decide(question)
+        verdict = decide(question, settled=True)
         if verdict.verdict in PASSED:
             note = joined(verdict.note, f"{verdict.verdict} with {conventions.told(chosen)}")
             verdict = replace(verdict, verdict="convention", note=note)

@@ -7,7 +7,7 @@ from typing import Any
 import mpmath
 import numpy as np
 
-from mechsym.audit.judge.conventions import conditions, under
+from mechsym.audit.judge.conventions import conditions, reading, under
 from mechsym.audit.judge.dimensions import is_consistent
 from mechsym.audit.judge.orders import EXACT, lowest
 from mechsym.audit.judge.prover import POINTS, ROUNDING, Agreement, agreement, proves_equal, reach
@@ -25,6 +25,7 @@ PASSED = ("exact", "truncation", "convention")  # exit status 0
 FINDINGS = ("misprint", "nearer", "wrong")  # exit status 1
 OPEN = ("mixed", "untestable")  # exit status 3
 WORST = ("wrong", "nearer", "misprint", *OPEN, "convention", "truncation", "exact")  # the worst first
+RIGHT_WITH = "a misprint, or right with"  # a convention that nothing tells
 _NEAR_ONLY = "it agrees near the data and not over the whole domain; say with assume where it is meant to hold"
 _EITHER = "a term is too many, or one has lost a factor that the condition makes zero"
 _STATIC = "it has no speed at all, so that what it has lost may hold at any speed"
@@ -50,8 +51,8 @@ class Decision:
     note: str = ""
 
 
-def decide(question: Question) -> Decision:
-    """Compare a printed formula with the derived quantity."""
+def decide(question: Question, settled: bool = False) -> Decision:
+    """Compare a printed formula with the derived quantity; `settled`: its author's way of counting is known."""
     exam = examine(question)
     plain = _plain(exam)
     if plain is not None:
@@ -62,7 +63,7 @@ def decide(question: Question) -> Decision:
             words = "exact" if judged.verdict == "exact" else f"a truncation of relative order {judged.order}"
             note = joined(judged.note, f"{words} at {condition.told}")
             return replace(judged, verdict="convention", note=note)
-    return _searched(exam)
+    return _searched(exam, settled)
 
 
 def _plain(exam: Examination) -> Decision | None:
@@ -89,7 +90,7 @@ def _plain(exam: Examination) -> Decision | None:
     return None if note is None else _decision(exam, "truncation", start, note=note, domain=domain(exam.question))
 
 
-def _searched(exam: Examination) -> Decision:
+def _searched(exam: Examination, settled: bool) -> Decision:
     question, tree = exam.question, exam.question.formula.tree
     start = standing(exam, tree)
     condition = next(conditions(question), None)
@@ -116,6 +117,9 @@ def _searched(exam: Examination) -> Decision:
     met = agreement(exam.judged, tree)
     if verdict in ("wrong", "nearer") and 2 * met.valued <= met.expected:
         return _decision(exam, "untestable", start, note=_without_value(met))
+    # what is right in its author's way of counting is said and not blamed
+    if not settled and verdict in FINDINGS and (read := reading(exam.judged, tree)):
+        verdict, outcome = "untestable", replace(outcome, note=joined(f"{RIGHT_WITH} {read}", outcome.note))
     note = outcome.note if met.valued else joined(outcome.note, "as printed it has no real value anywhere")
     return _decision(exam, verdict, start, repairs=outcome.repairs, nearer=outcome.nearer, note=note)
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from mechsym.cli.common import emit, folder_option, json_option, progress
+from mechsym.errors import BadInput
 from mechsym.files import Json
 
 
@@ -32,10 +33,16 @@ def derive(
     """
     from mechsym.mechanisms import own
 
+    files = [name for name in names if own.is_file(name)]
+    given = {"--latex": latex, "--explain": explain, "--show": show, "--check": check, "--out": out}
+    first, *others = [option for option, value in given.items() if value] or [""]
+    if first in ("--latex", "--explain") and others:
+        raise BadInput(f"{others[0]} does nothing beside {first}; leave one of them out")
+    if not files and (idle := [option for option in ("--explain", "--show", "--out") if given[option]]):
+        raise BadInput(f"{idle[0]} is for a mechanism of your own: name its FILE.py, or leave {idle[0]} out")
     if latex:
         _latex(names, as_json)
         return
-    files = [name for name in names if own.is_file(name)]
     if explain:
         steps = {name: own.explained(name) for name in files}
         emit({"closing": steps}, as_json, lambda: "\n".join(line for lines in steps.values() for line in lines))

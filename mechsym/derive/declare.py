@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from sympy import Expr, Integer
 
 from mechsym.derive import closing, dimensions, rates
-from mechsym.derive.cams import Cams
 from mechsym.derive.drawing import Drawing
+from mechsym.derive.elements import Elements
 from mechsym.derive.linkage import Link, Linkage, LinkPoint, point_of
 from mechsym.derive.refuse import place, refuse
 
@@ -59,7 +59,7 @@ class Element:
     along: Expr
 
 
-class Declaration(Linkage, Cams, Drawing):
+class Declaration(Linkage, Elements, Drawing):
     """What a mechanism is made of.
 
     name: name through all stages; source: file stem of the source; about: one line for lists.
@@ -69,6 +69,7 @@ class Declaration(Linkage, Cams, Drawing):
         super().__init__(name, source, about)
         self.bodies: list[Body] = []
         self.springs: list[Element] = []
+        self.stores: list[Expr] = []  # energies of springs by their laws
         self.dampers: list[Element] = []
         self.forces: list[Element] = []
         self.constraints: dict[str, Expr] = {}

@@ -125,7 +125,7 @@ def derive(m: Declaration) -> Equations:
         bias=tuple(sum((_body_bias(m, body, v) for body in m.bodies), Integer(0)) for v in m.q),
         generalized_force=tuple(generalized_force(m, v) for v in m.q),
         kinetic_energy=Rational(1, 2) * sum(terms, Integer(0)),
-        potential_energy=m.tape.named(sum([*weight, *springs], Integer(0))),
+        potential_energy=m.tape.named(sum([*weight, *springs, *m.stores], Integer(0))),
         reactions=_reactions(m),
         kinematics=kinematics,
         momentum=_momentum(m),
@@ -168,7 +168,8 @@ def generalized_force(m: Declaration, a: Symbol) -> Expr:
     applied = [f.value * d(f.along, a) for f in m.forces]
     springs = [-s.value * s.along * d(s.along, a) for s in m.springs]
     dampers = [-c.value * velocity(m, c.along) * d(c.along, a) for c in m.dampers]
-    return m.tape.named(sum([*weight, *applied, *springs, *dampers], Integer(0)))
+    stored = [-d(energy, a) for energy in m.stores]
+    return m.tape.named(sum([*weight, *applied, *springs, *stored, *dampers], Integer(0)))
 
 
 def _reactions(m: Declaration) -> dict[str, Expr]:

@@ -8,7 +8,7 @@ m.friction(x, mu=mu, normal=m1 * g)                             along a coordina
 
 from collections.abc import Callable
 
-from sympy import Expr, Integer, Symbol, cos, sin, sqrt
+from sympy import Expr, Integer, Piecewise, Symbol, cos, sin, sqrt
 
 from mechsym.derive import dimensions
 from mechsym.derive.linkage import Joint, Link, LinkLine, Pair, point_of
@@ -52,13 +52,16 @@ class Unilateral(Roles):
     def contact(
         self, name: str, first: object, second: object, *, radii: object = (0, 0),
         restitution: Expr | float | None = None, stiffness: Expr | float | None = None,
-        damping: Expr | float | None = None, friction: object = None,
+        damping: Expr | float | None = None, friction: object = None, length: object = None, depth: object = "1 mm",
     ) -> None:  # fmt: skip
         """A point of a link, or a pair (x, y), on the left of a line, or two circles: `radii` of the circles about the
-        first and the second point [m]. `friction` is mu, or (mu_s, mu_k), against a line of the frame, without
-        restitution."""
+        first and the second point [m]. With a `length` the line ends so far from its point, and is the face of a wall
+        as thick as `depth` on its right, which the circle meets from all sides [m]. `friction` is mu, or (mu_s, mu_k),
+        against a line of the frame, without restitution."""
         r1, r2 = self._pair(radii, "m", f"radii of {name}", (f"{name}_r1", f"{name}_r2"))
         x, y = self._placed(first, name)
+        if length is not None and (not isinstance(second, LinkLine) or r1 == 0 or friction is not None):
+            refuse(f"the contact {name!r} has no length; it is of a circle, radii=(r, 0), at a line without friction")
         if not isinstance(second, LinkLine):
             x2, y2 = self._placed(second, name)
             if r1 == r2 == 0:
@@ -66,7 +69,7 @@ class Unilateral(Roles):
             gap = sqrt((x - x2) ** 2 + (y - y2) ** 2) - r1 - r2
         else:
             along, across = _along(second, (x, y))
-            gap = across - r1
+            gap = across - r1 if length is None else self._wall(name, (along, across), (length, depth), r1) - r1
         if friction is not None and not (isinstance(second, LinkLine) and second.link is self.frame):
             refuse(f"the contact {name!r} has friction, which needs a line of the frame; leave friction out")
         if friction is not None and restitution not in (None, 0):
@@ -77,6 +80,21 @@ class Unilateral(Roles):
                 refuse(f"the contact {name!r} is of a circle whose turn is not known; name a point of a link")
             slides = along + (r1 * point_of(first).link.angle if r1 != 0 else 0)
             self._rub(f"{name}_friction", slides, "m", friction, {"contact": name})
+
+    def _wall(self, name: str, at: Pair, sizes: tuple[object, object], radius: Expr) -> Expr:
+        """How far a point is from a wall that begins where a line does [m]; as a circle rolls over its end, the rate
+        of its gap has no kink: the way beyond begins softly, over a fiftieth of the radius."""
+        soft, square = radius / 50, Integer(0)
+        for which, place, size in zip(("along", "across"), (at[0], -at[1]), sizes, strict=True):
+            key = "length" if which == "along" else "depth"
+            long = self._constant(size, "m", f"{name}_{key}", f"{key} of {name}")
+            here = self.let(self.free_name(f"{which}_{name}"), place, "m")
+            beyond: list[tuple[Expr, Expr | bool]] = []
+            for far in (-here, here - long):
+                x = far / soft
+                beyond += [(far, far > soft), (soft * x**3 * (6 - 8 * x + 3 * x**2), far > 0)]
+            square += self.let(self.free_name(f"beyond_{which}_{name}"), Piecewise(*beyond, (0, True)), "m") ** 2
+        return sqrt(square)
 
     def friction(
         self, of: object, *, mu: object, normal: Expr | float | None = None, radius: Expr | float | None = None,

@@ -18,7 +18,7 @@ from mechsym.simulate import blows
 from mechsym.simulate.equations import System
 from mechsym.simulate.integrate import integrate as whole_run
 from mechsym.simulate.laws import Model, model
-from mechsym.simulate.modes import ZERO, Now, Seen, frictions, look, settle
+from mechsym.simulate.modes import ZERO, Now, frictions, look, settle
 from mechsym.simulate.phase import Raw
 from mechsym.simulate.problem import Problem
 from mechsym.simulate.result import Happened, RunEvent
@@ -42,12 +42,12 @@ def integrate(
     known = model(problem)
     now = _start(problem, known)
     times, states, steps, end, failure, idle = [np.array([now.t])], [now.y[None]], 0, "t_end", "", 0
-    missed, rested = np.inf, False
+    missed, rested, done = np.inf, False, now.t
     for _ in range(_MOST):
         later = [min(next(e for e in ends if e > now.t), missed)]
         levels = _levels(known, now)
         turns = problem.turns and problem.turns - (now.y[0] - problem.q0[0]) / (2 * np.pi)
-        n, due = known.system.size, wanted[(wanted > now.t) & (wanted <= later[0])]
+        n, due = known.system.size, wanted[(wanted > done) & (wanted <= later[0])]
         here = replace(
             problem, q0=tuple(now.y[:n]), u0=tuple(now.y[n : 2 * n]), t_start=now.t, t_end=later[0], turns=turns
         )
@@ -65,11 +65,12 @@ def integrate(
         if failure or leg.end not in (*levels, "t_end") or now.t >= problem.t_end:
             end = leg.end
             break
-        before = now.t
+        done = now.t  # an event made exact may lie before
         _pass(known, now, leg.end if leg.end in levels else "", problem)
-        over = wanted[(wanted > before) & (wanted <= now.t)]  # by a bounce that is summed up
+        over = wanted[(wanted > done) & (wanted <= now.t)]  # by a bounce that is summed up
         times.append(over)
         states.append(np.repeat(now.y[None], len(over), axis=0))
+        done = max(done, now.t)
         if idle > _STUCK and not rested:
             _stay(known, now)
             rested, idle = True, 0
@@ -196,7 +197,8 @@ def _levels(known: Model, now: Now) -> dict[str, Level]:
                 watch("release", i, place, 1)
             else:
                 watch("hit", i, place, -1)
-                watch("turn", i, place + 1, -1 if _speed(seen, now, i, place) > 0 else 1)
+                if max(abs(seen.guards[place + 1]), abs(seen.v_rate[i])) > ZERO:  # a gap may stay as it is
+                    watch("turn", i, place + 1, 1)
         elif one.role.law != "smooth" and not now.mode[-1]:
             if sticks:
                 watch("slip-", i, place + 1, -1)
@@ -204,11 +206,6 @@ def _levels(known: Model, now: Now) -> dict[str, Level]:
             elif way:
                 watch("stick", i, place, -way)
     return levels
-
-
-def _speed(seen: Seen, now: Now, i: int, place: int) -> float:
-    """Speed of a gap, by where it is going when it has just passed zero."""
-    return float(seen.v_rate[i] if i in now.turned else seen.guards[place + 1])
 
 
 def _guarded(known: Model, now: Now) -> np.ndarray:

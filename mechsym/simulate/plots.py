@@ -1,4 +1,4 @@
-"""Picture of a run: speed over time with its mean over each period, and the last period over its angle."""
+"""Pictures of a run: speed over time and over the last period; and events of stops, contacts and friction."""
 
 from typing import TYPE_CHECKING
 
@@ -6,7 +6,21 @@ import numpy as np
 
 from mechsym.quantities.units import Radian, RadPerSecond
 from mechsym.simulate.result import Result, last_period, period_ends, period_means
-from mechsym.style import BLUE, INK, RED, axis_unit, envelope, heading, legend, over_angle, panels
+from mechsym.style import (
+    BLUE,
+    GREEN,
+    INK,
+    ORANGE,
+    RED,
+    TEAL,
+    VIOLET,
+    axis_unit,
+    envelope,
+    heading,
+    legend,
+    over_angle,
+    panels,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -14,6 +28,31 @@ if TYPE_CHECKING:
 
 _LEAST, _SPAN = 1e-3, 0.02  # of the speed: what swings less is round-off, and drawn over so much
 _PLANNED = ("turns", "t_end")  # ends that a run was made for
+
+
+_KINDS = {"hit": RED, "touch": RED, "rest": VIOLET, "release": GREEN, "stick": BLUE, "slip": ORANGE, "turn": TEAL}
+_MOST = 4  # coordinates that are drawn above the events
+
+
+def met(result: Result) -> "Figure":
+    """Coordinates over time, and below them what each stop, contact and friction did when."""
+    places = [n for n in result.columns if f"{n}d" in result.columns][:_MOST]
+    names = list(dict.fromkeys(e.name for e in result.happened.events))
+    height = 1.3 * len(places) + 0.9 + 0.25 * len(names)
+    figure, axes = panels(9.0, height, len(places) + 1, 1, "Motion and events over time", sharex=True)
+    for axis, name in zip(axes, places, strict=False):
+        factor, unit = axis_unit(result.units[name], result.columns[name])
+        envelope(axis, result.t, result.columns[name] * factor, BLUE)
+        axis.set_ylabel(f"{name.replace('_', ' ')} [{unit}]")
+    last = axes[-1]
+    for kind, color in _KINDS.items():
+        marks = [(e.t, names.index(e.name)) for e in result.happened.events if e.kind == kind]
+        if marks:
+            last.plot(*zip(*marks, strict=True), ls="", marker="o", ms=4, color=color, label=kind)
+    last.set_yticks(range(len(names)), [n.replace("_", " ") for n in names])
+    last.set(xlabel="time [s]", ylim=(-0.6, len(names) - 0.4))
+    legend(last, width=8.0)
+    return figure
 
 
 def speed(result: Result, coordinate: str, period: Radian, wanted: RadPerSecond, words: str = "") -> "Figure":

@@ -90,13 +90,16 @@ def span(speed: Columns) -> str:
 
 
 def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
-    from mechsym.simulate.plots import speed
+    from mechsym.simulate.plots import met, speed
 
     result, engine, starts, found = run.result, run.engine, run.start_ups, []
     if engine is not None and len(result.t) > 1:
         see = "Speed over time with its mean over each period, and the last period over the angle."
         found.append(Picture(name="speed", see=see, draw=lambda: speed(
             result, engine.coordinate, engine.period, engine.wanted, engine.words)))  # fmt: skip
+    if result.happened.events:
+        see = "The motion, and when each stop, contact and friction was met, left, stuck or slid."
+        found.append(Picture(name="events", see=see, draw=lambda: met(result)))
     if run.twist:
         see = "Twist of each shaft section: the peak decides on the shaft."
         found.append(Picture(name="twist", see=see, draw=lambda: twist(result, len(run.twist))))

@@ -86,6 +86,8 @@ SLIPS = {
     "m.stop(x, restitution=1.5)": "at most 1",
     "m.contact('c', crank.at(r), block, restitution=0)": "give radii=(r1, r2), or a line",
     "m.contact('c', crank.at(r), m.frame.line(), radii=0.1, restitution=0)": "is no pair",
+    "m.contact('c', crank.at(r), m.frame.line(), length=-0.1, radii=(r, 0), restitution=0)": "is below zero",
+    "m.contact('c', crank.at(r), block.at(l), length=l, radii=(r, 0), restitution=0)": "has no length",
     "m.contact('c', crank.at(r), m.frame.line(), restitution=0.5, friction=mu)": "may gain energy",
     "m.backlash('b', x, angle='1 deg', restitution=0)": "has the wrong dimension; give it in m",
     "m.friction('B', mu=mu)": "names the joint 'B', which is none; there are O",
@@ -113,6 +115,13 @@ SLIPS = {
     CAM + ", follower='knife', restitution=2)": "at most 1",
     CAM + ", follower='knife'), m.cam('c', turns=phi)": "write cam(",
     CAM + ", follower='knife'), " + CAM + ", follower='knife')": "is taken",
+    # laws
+    "m.gas_spring('g', x, pressure='2 bar', area='3 cm', length='0.1 m')": "has the wrong dimension; give it in m^2",
+    "m.gas_spring('g', phi, pressure='2 bar', area='3 cm^2', length='0.1 m')": "must be in m",
+    "m.belleville('b', x, outer='20 mm', inner='30 mm', height='1 mm', thickness='1 mm')": "inner is not below outer",
+    "m.table_spring('t', x, file='missing.csv')": "missing.csv",
+    "m.motor('E', x, k='0.1 N*m/A', R='2 ohm')": "must be in rad",
+    "m.motor('E', phi, k='0.1 N*m/A')": "needs k and R, or a file",
 }
 
 

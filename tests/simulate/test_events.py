@@ -12,7 +12,10 @@ from mechsym import mechanisms
 from mechsym.derive import derive
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import bind
-from mechsym.simulate import Settings, simulate
+from mechsym.mechanisms.roles import StopRole
+from mechsym.simulate import Settings, blows, simulate
+from mechsym.simulate.laws import Numbers
+from mechsym.simulate.plots import met
 from mechsym.simulate.problem import FormulaForce, Part, Problem, Steps
 
 FILE = Path(__file__).parents[1] / "unilateral.py"
@@ -194,6 +197,37 @@ def test_a_press_stays_while_its_friction_holds_and_one_that_locks_itself_is_ref
     assert np.all(result.columns["phid"][result.t < (times(result, "slip") or [1.0])[0]] == 0)
     with pytest.raises(BadInput, match="locks itself"):
         driven(100.0, 20.0)
+
+
+def test_blows_at_once_take_half_of_each_impulse_times_the_speed_that_is_lost():
+    """lost = 1/2 sum L_i (1 - e_i) |v_i|, with impulses and energies worked out anew from the velocities."""
+    random, blown = np.random.default_rng(3), 0
+    for _ in range(40):
+        root, W, u = random.normal(size=(3, 3)), random.normal(size=(3, 2)), random.normal(size=3)
+        mass, e = root @ root.T + np.eye(3), random.uniform(0, 1, 2)
+        v = W.T @ u
+        if (v >= 0).any():
+            continue
+        roles = [StopRole(name=n, gap=n, force=n, restitution=str(k)) for n, k in zip("ab", e, strict=True)]
+        elements = tuple(Numbers(role=r, sizes={"restitution": k}) for r, k in zip(roles, e, strict=True))
+        blow = blows.solve(elements, {0, 1}, v, mass, W)
+        after = u + blow.change
+        impulses = np.linalg.lstsq(np.linalg.solve(mass, W), blow.change, rcond=None)[0]
+        assert blow.lost == pytest.approx((u @ mass @ u - after @ mass @ after) / 2, rel=1e-9)
+        pressed = impulses > 1e-9
+        np.testing.assert_allclose((W.T @ after)[pressed], -(e * v)[pressed], atol=1e-9)
+        if pressed.all():
+            assert blow.lost == pytest.approx(np.sum(impulses * (1 - e) * -v) / 2, rel=1e-9)
+            blown += 1
+    assert blown > 3
+
+
+def test_a_run_with_events_shows_them():
+    result = run("ball", {"m1": 1.0, "e": 0.5, "g": G}, (1.0,), (0.0,), 2.0)
+    figure = met(result)
+    assert [t.get_text() for t in figure.axes[-1].get_yticklabels()] == ["stop y"]
+    hits = next(line for line in figure.axes[-1].lines if line.get_label() == "hit")
+    np.testing.assert_allclose(hits.get_xdata(), times(result, "hit"))
 
 
 @pytest.mark.parametrize(

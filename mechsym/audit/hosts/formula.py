@@ -9,7 +9,7 @@ from typing import Any
 from mechsym import budget
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.read.reader import joined
-from mechsym.audit.row import Row, answer, answer_or_why
+from mechsym.audit.row import Row, answer, answer_or_why, shared
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.inputs import read_text
@@ -58,7 +58,7 @@ def check_file(path: Path, theory: str = "") -> list[Row]:
         except BadInput as error:
             raise BadInput(f"{path}: formula {table.get('name', number)}: {error}") from None
         rows.append(answer_or_why(asked))
-    return rows
+    return shared(rows)
 
 
 def _asked(table: Json, number: int, theory: str, path: Path) -> Asked:

@@ -129,7 +129,7 @@ def row(source: str, entry: Entry) -> Row:
         error = None if decided.rel_error is None else abs(decided.rel_error)
         return head | plain_row(verdict, error, decided.note, "")
     question = question_of(entry)
-    decision = decide(question)
+    decision = decide(question, settled=True)
     effect = entry.effect(decision) if entry.effect else _at_the_data(question, decision)
     return head | formula_row(question, decision, entry.statement, entry.note, effect)
 

@@ -7,10 +7,12 @@ from functools import partial
 
 import numpy as np
 
-from mechsym.audit.judge.prover import agreement, judges
-from mechsym.audit.judge.question import Question, peak, used_names, value
+from mechsym.audit.judge.dimensions import ANGLE, NUMBER, Kind, kind_of, kind_of_letter, kind_of_unit
+from mechsym.audit.judge.prover import POINTS, Judges, agreement, judges
+from mechsym.audit.judge.question import Question, bench, names, peak, shaped, used_names, value
+from mechsym.audit.read.algebra import FLOATS, Values, evaluate
 from mechsym.audit.read.reader import read_expression
-from mechsym.audit.read.tree import Node, binary, letters, name, negative, substitute
+from mechsym.audit.read.tree import Node, letters, name, substitute
 from mechsym.audit.theory.record import Theory, dependencies
 from mechsym.audit.theory.tape import retaped
 from mechsym.errors import BadInput
@@ -67,10 +69,18 @@ _TOLD = {
     "reversed": "the angle the other way round",
     "quadrature": "the angle from the perpendicular, pi/2 - angle",
     "sign": "the quantity reversed",
+    "inverse": "the ratio the other way round",
+    "double": "twice the quantity, as a diameter for a radius",
+    "half": "half of the quantity, as a radius for a diameter",
+    "turns": "in turns where the quantity is in radians",
+    "radians": "in radians where the quantity is in turns",
     "rate": "per radian where the quantity is per second",
     "degrees": "the angle in degrees",
     "rpm": "the speed in revolutions per minute",
 }
+# what the author's quantity is in the theory's, @
+_OWN_WAY = {"sign": "-(@)", "inverse": "1/(@)", "double": "2*(@)", "half": "(@)/2", "turns": "(@)/(2*pi)",
+            "radians": "2*pi*(@)"}  # fmt: skip
 _ANGLES = ("bottom", "reversed", "quadrature")
 
 
@@ -94,11 +104,12 @@ def converted(question: Question, chosen: Iterable[str]) -> Question:
     theory, formula = question.theory, question.formula
     angle, quantity, own = theory.angle, question.quantity, dict(formula.letters)
     for convention in chosen:
-        if convention in ("sign", "rate"):
+        if convention in (*_OWN_WAY, "rate"):
             speed = name(f"{theory.angle}d")
             if convention == "rate" and speed.id not in theory.letters:
                 raise BadInput(f"--convention rate: {theory.name} has no speed")
-            own_way = negative(name(quantity)) if convention == "sign" else binary(ast.Mult, name(quantity), speed)
+            way = _OWN_WAY.get(convention, f"@*{speed.id}").replace("@", quantity)
+            own_way = read_expression(way, [quantity, speed.id, "pi"])[0]
             quantity = f"{quantity}_{convention}"
             tape = retaped(theory.tape, {quantity: own_way}, theory.letters, theory.angle)
             theory = replace(theory, tape=tape)
@@ -144,3 +155,81 @@ def _holds(question: Question, chosen: tuple[str, ...]) -> bool:
         printed, expected = value(judged.quick, other.formula.tree), judged.quick.expected
         close = np.abs(printed - expected) <= 1e-8 * peak(expected)
     return bool(np.all(close)) and agreement(judged, other.formula.tree).exact
+
+
+# by kind of a letter or a quantity: by what the author's is more than the theory's, and in which words
+_FACTORS: dict[Kind, dict[str, float]] = {
+    kind_of_unit("m"): {"twice it, as a diameter for a radius": 2.0, "half of it, as a radius for a diameter": 0.5},
+    kind_of_unit("Pa"): {"twice it, as 2E for E": 2.0, "half of it, as E/2 for E": 0.5},
+    kind_of_unit("1/s"): {
+        "turns per second": 0.5 / np.pi,
+        "turns per minute": 30 / np.pi,
+        "radians per second": 2 * np.pi,
+        "per minute": 60.0,
+    },
+    ANGLE: {"degrees": 180 / np.pi},
+}
+_SAME, _TURN = 1e-9, 12
+_ROUND = "bBdDrR"  # what radii and diameters are called
+
+
+def reading(judged: Judges, tree: Node) -> str:
+    """A convention under which a formula is right that its author may well have meant, in words; empty without one.
+
+    The whole reversed, turned over, doubled or halved, in turns or degrees, from another origin; or one letter so.
+    """
+    asked, kind = judged.quick, kind_of(judged.question.theory, name(judged.question.quantity))
+    known = names(asked, letters(tree))
+    with np.errstate(all="ignore"):
+        printed, expected = value(asked, tree), np.asarray(asked.expected, dtype=float)
+        for words, other in _others(kind, expected, judged.question.quantity):
+            if _agree(printed, other):
+                return f"the quantity as {words}"
+        if _agree(printed, -expected):
+            return "the quantity reversed"
+        if shifted := _other_origin(judged, tree):
+            return shifted
+        for letter in letters(tree):
+            own = kind_of_letter(judged.question, letter)
+            free = letter in judged.question.theory.letters and letter not in judged.question.formula.letters
+            if own is None or letter == "pi" or own == NUMBER and free:
+                continue  # nobody turns an exponent over; a ratio of two letters may be either way round
+            for words, other in _others(own, known.get(letter), letter):
+                if _agree(shaped(asked, evaluate(tree, {**known, letter: other}, FLOATS)), expected):
+                    return f"{letter} as {words}"
+    return ""
+
+
+def _others(kind: Kind | None, values: Values, called: str) -> Iterator[tuple[str, Values]]:
+    if kind == NUMBER:
+        yield "the ratio the other way round", 1 / values
+        yield "the ratio the other way round, reversed", -1 / values
+    round_ones = kind != kind_of_unit("m") or called[0] in _ROUND or "radius" in called
+    for words, factor in _FACTORS.get(kind, {}).items() if kind and round_ones else ():
+        yield words, factor * values
+
+
+def _agree(one: Values, other: Values) -> bool:
+    valued = np.isfinite(other)
+    close = np.abs(one - other) <= _SAME * np.abs(other)
+    return bool(np.sum(valued) > POINTS // 2 and np.all(close | ~valued) and np.any(other != 0))
+
+
+def _other_origin(judged: Judges, tree: Node) -> str:
+    # what is left of formula and quantity, or of formula less quantity, is the same at every angle
+    question, theory = judged.question, judged.question.theory
+    kind = kind_of(theory, name(question.quantity))
+    places = [kind_of_unit(unit) for unit in ("m", "m^3")]
+    if not theory.angle or theory.angle in question.hold or kind not in (*places, ANGLE):
+        return ""
+    states = {k: np.ravel(judged.quick.base[k])[:2] for k in theory.letters}
+    turned = {k: np.repeat(v, _TURN) for k, v in states.items()}
+    turned[theory.angle] = np.tile(0.1 + np.linspace(0, 2 * np.pi, _TURN, endpoint=False), 2)
+    asked = bench(question, turned, FLOATS)
+    rows = [np.reshape(np.broadcast_to(v, (2 * _TURN,)), (2, -1)) for v in (value(asked, tree), asked.expected)]
+    for sign, words in ((1, "from another origin"), (-1, "from another origin, the other way")):
+        left = rows[0] - sign * rows[1]
+        moves = np.ptp(rows[1], axis=1)
+        if np.all(np.isfinite(left)) and np.all(moves > 0) and np.all(np.ptp(left, axis=1) <= _SAME * moves):
+            return f"the quantity {words}"
+    return ""

@@ -56,7 +56,9 @@ class Window:
 
     def told(self, tree: Node) -> np.ndarray:
         """At which states nothing of a formula is lost where two values nearly cancel [-]."""
-        return ~_cancels(self.quick, [tree])
+        # of |x| and cases every value is meant, nought too
+        lost = _cancels(self.quick, [] if has_cases(tree) else [tree])
+        return ~lost
 
 
 def wide_window(question: Question) -> Window:
