@@ -1,7 +1,7 @@
 """Options and output that every command shares, and the ranges of a performance map."""
 
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,7 @@ from mechsym.inputs import reads
 from mechsym.mechanisms import own
 from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import load
-from mechsym.quantities.display import SMALLEST, choose, column_text, heading, ratio_text, shown_in
+from mechsym.quantities.display import SMALLEST, choose, column_text, heading, key_words, ratio_text, shown_in
 from mechsym.quantities.results import units_of
 
 if TYPE_CHECKING:
@@ -268,17 +268,28 @@ def progress(total: int, label: str) -> Any:
     return click.progressbar(length=total, label=label, file=sys.stderr, hidden=not sys.stderr.isatty())
 
 
-def table(rows: list[Json], columns: list[str], units: Mapping[str, str] | None = None, digits: int = 4) -> str:
+def table(
+    rows: list[Json], columns: list[str], units: Mapping[str, str] | None = None, digits: int = 4,
+    named: Collection[str] = (),
+) -> str:  # fmt: skip
     """Rows as an aligned text table, units in the headings, each column in the unit that suits it.
 
     units: SI unit of columns whose name does not tell it. digits: at least so many; more where neighbours differ in
-    them only. Returns text: header line and one line a row.
+    them only. named: columns of keys, which are told in words. Returns text: header line and one line a row.
     """
+    from mechsym.cycle.columns import WORDS
+
+    rows = [row | {c: key_words(row[c], WORDS) for c in named} for row in rows]
     headed = [heading(c, [row.get(c) for row in rows], unit=(units or {}).get(c)) for c in columns]
     shown = [column_text(values, digits) for _, values in headed]
-    cells = [[name for name, _ in headed], *([column[i] for column in shown] for i in range(len(rows)))]
+    cells = [[_column(name) for name, _ in headed], *([column[i] for column in shown] for i in range(len(rows)))]
     widths = [max(len(line[i]) for line in cells) for i in range(len(columns))]
     return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells)
+
+
+def _column(name: str) -> str:
+    stem, bracket, unit = name.partition(" [")
+    return f"{key_words(stem) if '_' in stem else stem}{bracket}{unit}"
 
 
 def heads(rows: type) -> dict[str, str]:

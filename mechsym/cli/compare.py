@@ -17,6 +17,7 @@ from mechsym.cli.common import (
     table,
 )
 from mechsym.files import Json
+from mechsym.quantities.display import key_words
 
 if TYPE_CHECKING:
     from mechsym.cycle.compare import ComparedValue, EngineComparison
@@ -62,11 +63,20 @@ def _text(result: "EngineComparison") -> str:
     found = [f"{speed:.1f} rpm" for speed in result.numbers.crossover_rpm]
     rows = [
         vars(row)
+        | {"quantity": _words(row.quantity)}
         | {"at rpm": _speeds(row), "b/a - 1 %": "-" if row.difference is None else f"{100 * row.difference:+.2f}"}
         for row in result.numbers.table
     ]
     lines = [f"a = {a}, b = {b}", f"mean torque crosses at {', '.join(found) or 'no speed'}"]
     return "\n".join([*lines, table(rows, ["quantity", "at rpm", "a", "b", "unit", "b/a - 1 %"])])
+
+
+def _words(quantity: str) -> str:
+    from mechsym.cycle.columns import WORDS
+
+    name = quantity.removeprefix("largest ")
+    words = key_words(name, WORDS)
+    return words if name == quantity else f"highest {words.removeprefix('largest ')}"
 
 
 def _speeds(row: "ComparedValue") -> str:

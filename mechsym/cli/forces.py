@@ -112,7 +112,7 @@ def _over_time(report: "DrivenNumbers") -> str:
     ]  # fmt: skip
     free = f"; {', '.join(report.free)} free" if report.free else ""
     lines = [f"{report.case}: {', '.join(report.driven)} driven{free}, {report.t_end:.6g} s", ""]
-    lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit"]))
+    lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit"], named=["quantity"]))
     if report.power_residual is not None:
         lines.append(f"power residual {ratio_text(report.power_residual)}")
     return "\n".join(lines)
@@ -157,9 +157,9 @@ def _shaking(weight: Json, largest: float) -> str:
 def _loads(found: "Forces") -> str:
     from mechsym.forces.shown import borne
 
-    rows = borne(found)
+    rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(found)]
     several = ["of"] if any(row["of"] for row in rows) else []
-    return table(in_rows(rows, ("max", "min")), ["quantity", *several, "max", "min", "unit", "on"])
+    return table(in_rows(rows, ("max", "min")), ["quantity", *several, "max", "min", "unit", "on"], named=["quantity"])
 
 
 def _journals(rows: list[Json]) -> list[str]:

@@ -85,7 +85,7 @@ def _write(run: "FinishedRun", out: Path) -> list[str]:
 def _text(report: Json, of: Mapping[str, str]) -> str:
     from mechsym.simulate.result import RunEvent
     from mechsym.torsion.startup import StartUpNumbers
-    from mechsym.torsion.twist import ShaftSection
+    from mechsym.torsion.twist import ShaftSection, section_words
 
     told = {
         "ended": f"{_ENDS.get(report['end'], report['end'])} at {_number(report['t_end'])} s",
@@ -106,12 +106,16 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
         rates = dict.fromkeys(("mean", "min", "max"), unit)
         alike = [row for row in rows if of[f"{row['of']}d"] == unit]
         lines += ["", table(alike, ["over the last", "of", *rates], rates)]
-    if report["twist"]:
+    if sections := report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
         natural = ", ".join(figure(f / math.tau, 4) for f in report["natural_frequencies"])
         lines += [
             "",
-            table(report["twist"], columns, heads(ShaftSection)),
+            table(
+                [s | {"section": section_words(k, len(sections))} for k, s in enumerate(sections)],
+                columns,
+                heads(ShaftSection),
+            ),
             f"natural frequencies {natural} Hz",
         ]
     if len(report["start_up"]) > 1:

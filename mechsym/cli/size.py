@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 _FILE = click.Path(path_type=Path, dir_okay=False)
 _SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", "source", "note")
+_FIRST = ["component", "quantity", "value", "unit", "note"]
 
 
 @click.command(short_help="Component sizing with safety factors.")
@@ -56,19 +57,17 @@ def _text(found: "Sizing") -> str:
     sizes = [row for row in found.rows if row["limit"] is None]
     checks = [row for row in found.rows if row["limit"] is not None]
     if not checks:
-        return "\n".join(
-            ["Loads", table(in_rows(sizes, ("value",)), ["component", "quantity", "value", "unit", "note"])]
-        )
+        return "\n".join(["Loads", table(in_rows(sizes, ("value",)), _FIRST, named=["component"])])
     # a margin against nought has no factor
     plain = {"safety_factor": None, "wanted": None}
     marked = [row | {"": "" if row["holds"] else "BELOW"} | (plain if row["limit"] == 0 else {}) for row in checks]
     sizes, marked = in_rows(sizes, ("value",)), in_rows(marked, ("value", "limit"))
     lines = [
         "Sizes and figures",
-        table(sizes, ["component", "quantity", "value", "unit", "note"]),
+        table(sizes, _FIRST, named=["component"]),
         "",
         "Checks",
-        table(marked, ["", *_SHOWN]),
+        table(marked, ["", *_SHOWN], named=["component"]),
         "",
     ]  # fmt: skip
     state = "masses and loads agree" if found.converged else "masses and loads do NOT agree"

@@ -113,6 +113,8 @@ def _text(told: list["StudiedSweep"]) -> str:
     for one in told:
         failed = one.numbers.failed
         lines += [f"{one.name}: {one.points} points, {len(failed)} failed. {one.about}".rstrip()]
-        lines += [table(one.rows, ["name", "unit", "min", "at min", "max", "at max"])] if one.rows else []
+        lines += (
+            [table(one.rows, ["name", "unit", "min", "at min", "max", "at max"], named=["name"])] if one.rows else []
+        )
         lines += [f"failed: {gap.reason}" for gap in failed[:3]] + [""]
     return "\n".join(lines)

@@ -117,7 +117,7 @@ def _text(found: "Sweep", told: "SweepNumbers") -> str:
         spread = ["mean", "std"] if sampled else []
         lines += [
             "",
-            table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread]),
+            table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread], named=["name"]),
             "",
         ]
         more = len(told.data) - len(rows)
@@ -141,7 +141,11 @@ def _indices(sobol: Sequence["SobolIndex"]) -> list[str]:
         }
         for one in sobol
     ]
-    return ["Sobol indices, with 95 % intervals", table(rows, ["result", "value", "first", "total"]), ""]
+    return [
+        "Sobol indices, with 95 % intervals",
+        table(rows, ["result", "value", "first", "total"], named=["result", "value"]),
+        "",
+    ]
 
 
 def _more(found: "Sweep") -> str:

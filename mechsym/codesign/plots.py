@@ -9,7 +9,7 @@ from mechsym.codesign.contact_block import fine_path
 from mechsym.codesign.loss import KINDS
 from mechsym.codesign.rank import Count
 from mechsym.codesign.result import CoDesignResult
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import key_words, quantity_text
 from mechsym.style import (
     BLUE,
     GREEN,
@@ -214,7 +214,9 @@ def spread(result: CoDesignResult) -> Figure | None:
     for y, (_, (low, high)) in enumerate(rows):
         for value, color in ((low, ORANGE), (high, BLUE)):
             right.plot([base, 100 * value], [y, y], color=color, linewidth=7, solid_capstyle="butt", alpha=0.6)
-    right.set_yticks(range(len(rows)), [f"{name} ± {200 * result.spread.errors[name]:g} %" for name, _ in rows])
+    right.set_yticks(
+        range(len(rows)), [f"{key_words(name)} ± {200 * result.spread.errors[name]:g} %" for name, _ in rows]
+    )
     right.set(xlabel="largest speed ripple [%]")
     return figure
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechsym.cycle.source import GasSource
 from mechsym.page import ShownFigures
-from mechsym.quantities.display import without_unit
+from mechsym.quantities.display import key_words, without_unit
 from mechsym.quantities.results import part, quantity, result, units_of
 
 Curve = np.ndarray
@@ -32,7 +32,7 @@ class CycleColumns:
     ca10_deg: Curve = quantity("deg", card="CA10")  #: Where a tenth of the heat is released, from firing dead centre
     ca50_deg: Curve = quantity("deg", card="CA50")  #: Where half of it is
     ca90_deg: Curve = quantity("deg", card="CA90")  #: Where nine tenths of it are
-    t_max_k: Curve = quantity("K")  #: Largest mean temperature of the gas
+    t_max_k: Curve = quantity("K", card="largest temperature")  #: Largest mean temperature of the gas
     knock: Curve = quantity("-")  #: Integral of the ignition delay of the unburnt gas; from 1 on it knocks
     force_max: Curve = quantity("N")  #: Largest force of gas and inertia on a piston
     friction_mep_kpa: Curve = quantity("kPa", card="FMEP")  #: Friction and auxiliaries as a mean effective pressure
@@ -98,7 +98,7 @@ class CycleColumns:
 
 #: What people call a figure: the word of its field, else its name
 WORDS: Mapping[str, str] = {
-    field.name: field.metadata.get("card") or without_unit(field.name, field.metadata["unit"]).replace("_", " ")
+    field.name: field.metadata.get("card") or key_words(without_unit(field.name, field.metadata["unit"]))
     for field in dataclasses.fields(CycleColumns)
     if "unit" in field.metadata
 }

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 
 
 _MOST_CURVES = 6
+_BAND = 360  # points of the edge of a band: more cannot be told apart
 _SEEN = 1e-3  # of the largest bar: a lower one cannot be seen
 _NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of what is balanced
 
@@ -205,18 +206,27 @@ def _order_bars(axis: "Axes", orders: dict[str, Harmonics], si: str, name: str) 
 
 
 def balance_orders(one: BalancedEngine) -> "Figure":
-    """Force and couple on the frame by order, before and after."""
-    names = ["force", *(["couple"] if np.any(one.before.couple) or np.any(one.after.couple) else [])]
-    figure, axes = panels(9, 3.8, 1, len(names), f"{' and '.join(names).capitalize()} on the frame by order")
-    for axis, name, unit in zip(axes, names, ("N", "N*m"), strict=False):
-        both = [amplitudes(getattr(shaken, name), one.turn) for shaken in (one.before, one.after)]
-        factor, shown = axis_unit(unit, *(np.array(list(values.values())) for values in both))
-        for values, label, color, beside in zip(both, ("before", "after"), SERIES, (-0.2, 0.2), strict=False):
+    """What acts on the frame by order, before and after; what does not act is said."""
+    both = {
+        (name, unit): [amplitudes(getattr(shaken, name), one.turn) for shaken in (one.before, one.after)]
+        for name, unit in (("force", "N"), ("couple", "N*m"))
+    }
+    acting = {of: pair for of, pair in both.items() if max(max(one.values()) for one in pair) >= _NOUGHT}
+    still = "\n".join(
+        f"no {name} on the frame: below 1 {unit_words(unit)}" for name, unit in both if (name, unit) not in acting
+    )
+    figure, axes = panels(9, 3.8, 1, len(acting) or 1, "What acts on the frame by order")
+    for axis, ((name, unit), pair) in zip(axes, acting.items(), strict=False):
+        factor, shown = axis_unit(unit, *(np.array(list(values.values())) for values in pair))
+        for values, label, color, beside in zip(pair, ("before", "after"), SERIES, (-0.2, 0.2), strict=False):
             place, height = np.array(list(values))[:8] + beside, np.array(list(values.values()))[:8]
             axis.bar(place, height * factor, width=0.38, color=color, label=label)
-        axis.set(xlabel="order [-]", ylabel=f"{name} [{shown}]")
+        axis.set(xlabel=f"order [-]\n{still}".rstrip(), ylabel=f"{name} [{shown}]")
         axis.set_xticks(range(1, 9))
         legend(axis)
+    if not acting:
+        axes[0].set_axis_off()
+        axes[0].text(0.5, 0.5, still, ha="center", va="center", transform=axes[0].transAxes)
     return figure
 
 
@@ -230,7 +240,8 @@ def friction(forces: Forces) -> "Figure":
     labels = [f"{_label(n)}: mean {forces.losses.places[n] * factor:.3g} {unit}" for n in names]
     phi = np.radians(forces.columns["phi_deg"])
     angle = over_angle(axis, float(phi[-1] + phi[1]))
-    axis.stackplot(phi * angle, [v * factor for v in values], labels=labels, colors=SERIES, lw=0)
+    some = slice(None, None, max(1, len(phi) // _BAND))
+    axis.stackplot(phi[some] * angle, [v[some] * factor for v in values], labels=labels, colors=SERIES, lw=0)
     axis.set_ylabel(f"friction power [{unit}]")
     legend(axis)
     return figure
@@ -310,8 +321,14 @@ def _closed(values: np.ndarray) -> np.ndarray:
     return np.append(values, values[0])
 
 
+_SAID = {
+    "two_mass": "rod as two masses", "terskih": "rod as two masses, after Terskikh", "force_x": "force along x",
+    "force_y": "force along y", "rocking_x": "rocking about x", "rocking_y": "rocking about y",
+}  # fmt: skip
+
+
 def _label(name: str) -> str:
-    return name.replace("_", " ")
+    return _SAID.get(name) or name.replace("_", " ")
 
 
 def pressure_picture(path: Path, indicated: IndicatedPressure, period: Radian) -> Path:

@@ -104,7 +104,7 @@ def track(design: Design, turn: Contact, radius: Metre) -> "Figure":
         if same_after_half_a_turn(np.column_stack([x, y])):
             curves[-1][3]["label"] = "cut profile, both tracks alike"
         else:
-            curves.append((-x, -y, RED, {"linewidth": 0.9, "linestyle": ":", "label": told}))
+            curves.append((-x, -y, VIOLET, {"linewidth": 0.9, "label": told}))
     for across, up, color, options in curves:
         axis.plot(across * factor, up * factor, color=color, **options)
     axis.plot(0, 0, marker="+", color=INK, markersize=10)

@@ -24,7 +24,7 @@ from mechsym.mechanisms.turning import scene
 from mechsym.page import Card, Picture, View, card, shows
 from mechsym.page.finding import LEAST_SURE, LOOK_AT, NOT_MET, Finding
 from mechsym.quantities import RPM
-from mechsym.quantities.display import figure, quantity_text, ratio_text
+from mechsym.quantities.display import figure, per_cent, quantity_text, ratio_text
 from mechsym.quantities.units import Pure
 from mechsym.style import axis_unit
 
@@ -48,7 +48,8 @@ def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
         Card(name="guide", value="can be cut" if guide.feasible else "cannot be built",
              about=f"{design.target.words}; {guide.reason.removeprefix(ALL_KEPT)}" if guide.feasible else guide.reason,
              mark="yes" if design.target.met else "no"),
-        Card(name="speed ripple", value=ratio_text(check.speed_ripple, 2), about="simulated with the hinge at "
+        Card(name="speed ripple" if lost is None else "speed ripple without losses",
+             value=_ripple(check.speed_ripple), about="simulated with the hinge at "
              f"{quantity_text(design.machine.omega, 'rad/s')}, {'with' if check.losses else 'ideal: no'} losses"),
         card(HingeNumbers, "flywheel_inertia_saved", numbers.flywheel_inertia_saved,
              "by an ideal hinge: what a ripple of 1/50 needs without one"),
@@ -57,10 +58,17 @@ def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
     if lost is not None:
         share, ripple = numbers.misfire_speed_share, lost.speed_ripple
         of_load = "" if lost.share is None else "of the load torque, "
-        with_them = "no steady motion" if ripple is None else f"ripple {figure(ripple, 2)}"
+        found.insert(
+            1,
+            Card(
+                name="speed ripple with losses",
+                value="no steady motion" if ripple is None else _ripple(ripple),
+                about="simulated with assumed friction and heat",
+                mark="" if design.target.met else "no",
+            ),
+        )
         found += [
-            Card(name="lost in the hinge", value=_lost(lost),
-                 about=f"{of_load}with assumed friction and heat; with them {with_them}"),
+            Card(name="lost in the hinge", value=_lost(lost), about=f"{of_load}with assumed friction and heat"),
         ]  # fmt: skip
         if share is not None:  # of a torque alone it is not known
             found += [
@@ -68,6 +76,12 @@ def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
                      about="with the flywheel that is kept", mark="" if share else "no"),
             ]  # fmt: skip
     return tuple(found)
+
+
+def _ripple(share: float | None) -> str:
+    if share is None or abs(share) < 1e-6:  # round-off is none
+        return ratio_text(share, 2)
+    return per_cent(share, 2)
 
 
 def _lost(lost: HingeLossNumbers) -> str:

@@ -10,6 +10,8 @@ from mechsym.cases.provenance import SourcedValue, sourced
 from mechsym.files import Json
 from mechsym.jobs.export import turning, with_gas
 from mechsym.jobs.measured import MeasuredDiagram
+from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.record import listing
 from mechsym.mechanisms.turning import rules
 from mechsym.page import page, title_mark
 from mechsym.quantities import record
@@ -37,6 +39,9 @@ class CaseReport:
     def refused(self) -> tuple[ReportPart, ...]:
         """Parts that bad input kept from being computed."""
         return tuple(p for p in self.parts if p.state == REFUSED)
+
+
+_LONG = 4000  # letters of a formula that nobody reads on paper
 
 
 def case_report(
@@ -101,7 +106,10 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
             told += facts
             parts.append({"part": found, "facts": facts, "figures": figures, "id": f"{found.name}-{place}"})
         first = answer(one.case, one.parts)
-        shown.append({"report": one, "scenes": scenes, "answer": first, "parts": parts, "id": f"case-{place}"})
+        derived = listing(plan_of(one.case.mechanism).theory).get("equations", ())
+        equations = [row for row in derived if len(row["mathml"]) < _LONG]
+        shown.append({"report": one, "scenes": scenes, "answer": first, "parts": parts, "equations": equations,
+                      "id": f"case-{place}"})  # fmt: skip
     return page(
         "report.html", shown=shown, rows=side_by_side([(r.case.name, r.parts) for r in reports]), title=_title(reports),
         block=[_block(one, date) for one in reports], many=len(reports) > 1,

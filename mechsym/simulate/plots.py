@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_LEAST = 1e-3  # of the speed: less is not drawn larger
+_LEAST, _SPAN = 1e-3, 0.02  # of the speed: what swings less is round-off, and drawn over so much
 _PLANNED = ("turns", "t_end")  # ends that a run was made for
 
 
@@ -76,10 +76,9 @@ def speed(result: Result, coordinate: str, period: Radian, wanted: RadPerSecond,
     whole.axhline(wanted * factor, color=INK, lw=0.9, ls="--", label="speed of operation")
     low, high = whole.get_ylim()
     if high - low < _LEAST * wanted * factor:  # round-off is no ripple
-        whole.set_ylim(np.array([-0.5, 0.5]) * _LEAST * wanted * factor + (low + high) / 2)
+        whole.set_ylim(np.array([-0.5, 0.5]) * _SPAN * wanted * factor + (low + high) / 2)
     whole.set(xlabel="time [s]", ylabel=f"speed [{unit}]")
-    of = f"the {words}" if words else coordinate.replace("_", " ")
-    heading(whole, f"speed of {of}{'' if result.end in _PLANNED else f', ended by {result.end}'}")
+    heading(whole, f"speed of the {words or 'shaft'}{'' if result.end in _PLANNED else f', ended by {result.end}'}")
     legend(whole, width=5.0)
     keep = t >= last_period(result, coordinate, period)
     angle = over_angle(last, period, "angle", steps=4)

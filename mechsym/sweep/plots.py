@@ -13,11 +13,13 @@ from mechsym.quantities.display import key_words, without_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
 from mechsym.style.panels import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
+from mechsym.sweep.sensitivity import indices
 
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own
 _COUNTS = 12  # steps of a count that is drawn with whole numbers
 _TRUTHS = ("feasible", "met", "kept", "holds", "converged", "proven")  # 1 is yes
+_CLOUD = 8  # samples below which points are no scatter
 _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
 
@@ -26,6 +28,8 @@ def picture(result: Sweep) -> Figure | None:
     shown = _worth_drawing(result)
     if not shown or len(result.points) == 1:
         return None
+    if result.sobol and indices(result):
+        return _indices(result)
     if "sample" in result.dims:
         return _samples(result, shown)
     long = sorted(range(len(result.axes)), key=lambda i: -len(result.axes[i].values))[:2]
@@ -193,6 +197,27 @@ def _changes_sign(values: np.ndarray) -> bool:
     return bool(np.any(values < 0) and np.any(values > 0))
 
 
+def _indices(result: Sweep) -> Figure:
+    """Shares of the variance by itself and with the others, each with its 95 % interval."""
+    rows = indices(result)
+    names = list(dict.fromkeys(row.result for row in rows))[:_MOST]
+    figure, axes = _panels(result, dict.fromkeys(names))
+    figure.suptitle(_title(result, list(range(len(result.axes)))), fontsize=10)
+    for axis, name in zip(axes, names, strict=False):
+        own = [row for row in rows if row.result == name]
+        place = np.arange(len(own))[::-1]
+        for beside, color, words in ((0.2, BLUE, "by itself"), (-0.2, SERIES[1], "with the others")):
+            kind = "first" if beside > 0 else "total"
+            mid, low, high = (np.array([getattr(row, kind + end) for row in own]) for end in ("", "_low", "_high"))
+            whiskers = [np.maximum(mid - low, 0.0), np.maximum(high - mid, 0.0)]
+            axis.barh(place + beside, mid, 0.36, xerr=whiskers, color=color, label=words, error_kw={"ecolor": INK})
+        axis.set_yticks(place, [key_words(row.key, WORDS) for row in own])
+        axis.set_xlabel("share of the variance [-]")
+        axis.set_title(key_words(name, WORDS), fontsize=9)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2, fontsize=8, frameon=False)
+    return figure
+
+
 def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
     shown = dict(list(shown.items())[:4])
     figure, axes = _panels(result, shown, rows=2)
@@ -210,6 +235,9 @@ def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
         _places(upper.xaxis, name, column)
         i = int(np.argmax([_rank_correlation(values[there], y) for values in inputs]))
         x, across = _scaled(result.axes[i].key, inputs[i][there], result.axes[i].unit)
+        if y.size < _CLOUD:
+            lower.set_visible(False)
+            continue
         lower.plot(x, y, ".", color=BLUE, markersize=3)
         lower.set_xlabel(across)
         lower.set_ylabel(told)

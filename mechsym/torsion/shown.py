@@ -17,7 +17,7 @@ from mechsym.simulate.speed import Speed
 from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import FinishedRun, StartUp
 from mechsym.torsion.train import TrainVibration, critical_words
-from mechsym.torsion.twist import ShaftSection, pairs
+from mechsym.torsion.twist import ShaftSection, pairs, section_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -75,7 +75,8 @@ def run_view(run: FinishedRun) -> View:
         Card(name="speed ripple", value=ripple, about=f"of a transient, {where}" if unsettled else where,
              mark="open" if unsettled else ""),
     ]  # fmt: skip
-    cards += [card(ShaftSection, "twist_peak", s.twist_peak, "peak", s.section.replace("-", " to ")) for s in run.twist]
+    cards += [card(ShaftSection, "twist_peak", s.twist_peak, "peak", section_words(k, len(run.twist)))
+              for k, s in enumerate(run.twist)]  # fmt: skip
     curves = {"t": run.result.t, **run.result.columns}
     return View(title="Run in time", cards=tuple(cards), pictures=_run_pictures(run),
                 columns=lambda: Columns(curves, {"t": "s", **run.result.units}),
@@ -220,7 +221,7 @@ def twist(result: Result, shafts: int) -> "Figure":
     figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
     ends_of = pairs(result, shafts)
     ends = {"free end": result.columns[f"{ends_of[0][0]}d"], "flywheel": result.columns[f"{ends_of[-1][1]}d"]}
-    twists = {f"{a} - {b}".replace("_", " "): result.columns[a] - result.columns[b] for a, b in ends_of}
+    twists = {section_words(k, len(ends_of)): result.columns[a] - result.columns[b] for k, (a, b) in enumerate(ends_of)}
     last = result.columns[ends_of[0][0]] >= result.columns[ends_of[0][0]][-1] - 4 * np.pi
     for row, (curves, si, label) in enumerate(((ends, "rad/s", "speed"), (twists, "rad", "twist"))):
         whole, zoomed = axes[2 * row : 2 * row + 2]

@@ -19,7 +19,7 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import Radian, RadPerSecond
 from mechsym.torsion import modes as torsion
-from mechsym.torsion.twist import ShaftSection
+from mechsym.torsion.twist import ShaftSection, section_words
 
 _COUNT = 12  # orders above are too weak
 _WEAK = 0.01  # of the largest order's torque on a rigid shaft; a weaker order is no critical
@@ -185,11 +185,11 @@ def critical_words(critical: CriticalOrder) -> str:
 def twist_words(train: TrainVibration, twist: Sequence[ShaftSection]) -> tuple[str, ...]:
     """What a run says of the twist that the shaft can bear."""
     lines = []
-    for section, limit in zip(twist, train.twist_limit, strict=True):
+    for place, (section, limit) in enumerate(zip(twist, train.twist_limit, strict=True)):
         peak, most = (quantity_text(angle, "rad", 3) for angle in (section.twist_peak, limit))
         lines.append(
-            f"largest twist of {section.section} {peak}, shaft torque {quantity_text(section.torque_peak, 'N*m', 4)}; "
-            f"the limit is {most}"
+            f"largest twist from {section_words(place, len(twist))} {peak}, shaft torque "
+            f"{quantity_text(section.torque_peak, 'N*m', 4)}; the linear spring stands for a shaft up to {most}"
         )
         if section.twist_peak > limit:
             lines.append(f"the model does not hold: the twist is beyond {most}, no linear spring nor a whole shaft")

@@ -49,6 +49,17 @@ def pairs(result: Result, count: int) -> list[tuple[str, str]]:
     return list(zip(names, names[1:], strict=False))
 
 
+def section_words(place: int, count: int) -> str:
+    """A section of the shaft in words: of so many, from the free end on.
+
+    >>> section_words(0, 1), section_words(0, 2), section_words(1, 2)
+    ('free end to flywheel', 'throw 1 to throw 2', 'throw 2 to flywheel')
+    """
+    if count == 1:
+        return "free end to flywheel"
+    return f"throw {place + 1} to {'flywheel' if place == count - 1 else f'throw {place + 2}'}"
+
+
 def _section(result: Result, pair: tuple[str, str], k: float, c: float, window: np.ndarray) -> ShaftSection:
     a, b = pair
     twist = result.columns[a] - result.columns[b]

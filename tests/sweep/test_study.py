@@ -125,7 +125,7 @@ def test_a_study_is_told_in_units_for_people(tmp_path):
     )
     out = tmp_path / "out"
     text = run(file, "--out", out).output
-    assert "hinge_torque_max    kN*m  44.26" in text and "check.speed_ripple  -     0" in text
+    assert "largest hinge torque  kN*m  44.26" in text and "check, speed ripple   -     0" in text
     page = (out / "report.html").read_text()
     assert ">44.26 kN m<" in page and "0" in page
     # the picture draws round-off as nothing

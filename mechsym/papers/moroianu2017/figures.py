@@ -16,7 +16,9 @@ def figures() -> dict[str, Figure]:
         figure, (axis,) = panels(6.4, 3.4)
         axis.plot(np.degrees(one.phi), getattr(chain, field) / 1e3, color=BLUE)
         axis.axhline(0, color=INK, linewidth=0.6)
-        axis.set_ylabel(f"{name} {field} [k{unit.replace('*', ' ')}]")
+        letter, _, index = field.partition("_")
+        symbol = f"${letter}_{{{index}}}$" if index else letter
+        axis.set_ylabel(f"{name} {symbol} [k{unit.replace('*', ' ')}]")
         axis.set_title(f"Fig. {number}, assumed data", loc="left", fontsize=10)
         turn_axis(axis)
         drawn[f"figure_{number}"] = figure
