@@ -58,7 +58,7 @@ def test_start_up_map_and_pictures(tmp_path):
     assert found["start_up"][0]["criticals"][1]["order"] == 2
     for picture in ("campbell.svg", "startup.svg"):
         assert (tmp_path / picture).read_text().startswith("<svg")
-    assert "torque_peak" in run(*arguments).stdout
+    assert "largest torque" in run(*arguments).stdout
     short, _ = numbers("chmielewski", "--set", "t_end=0.5 s", "--set", "window=0.1 s")
     assert short["start_up"] == [] and short["findings"] == []
 

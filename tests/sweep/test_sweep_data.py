@@ -221,14 +221,14 @@ def test_command(tmp_path):
     written = {line.removeprefix("written: ") for line in text.output.splitlines() if line.startswith("written: ")}
     assert written == {str(f) for f in (tmp_path / "out").iterdir() if f.name != "summary.json"}
     assert {"sweep.csv", "sweep.svg"} <= {Path(f).name for f in written}
-    assert text.output.count("speed_mean") == 1
+    assert text.output.count("mean speed") == 1
     assert "steps" in run(*arguments, "--show", "steps").output
 
 
 def test_command_tells_where_the_extremes_are():
     lines = run("nunes-slider-crank", "--over", "speed_rpm=2000,8000", "--over", "ignition=-20 deg").output.splitlines()
-    (power,) = [line.split() for line in lines if line.startswith("power_kw")]
-    assert power[1] == "kW" and power[3] == "speed_rpm=2000," and power[7] == "speed_rpm=8000,"
+    (power,) = [line.split() for line in lines if line.startswith("indicated power")]
+    assert power[2] == "kW" and power[4] == "speed_rpm=2000," and power[8] == "speed_rpm=8000,"
 
 
 def test_command_with_samples_and_failures():
