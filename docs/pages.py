@@ -221,7 +221,7 @@ def equations() -> str:
         rows = "".join(f"<p><math display='block'>{row['mathml']}</math></p>" for row in stored["equations"])
         parts.append(f"```{{raw}} html\n<div style='overflow-x:auto'>{rows}</div>\n```\n")
     parts.append(
-        "## Of files\n\nEach is [declared in a file](own-mechanism.md) of examples/mechanisms and drawn from it.\n"
+        "## Of files\n\nEach is [declared in a file](../own-mechanism.md) of examples/mechanisms and drawn from it.\n"
     )
     for case in sorted(EXAMPLE_FILES.glob("*.toml")):
         if turning := _turning(str(case)):

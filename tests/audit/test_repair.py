@@ -9,7 +9,7 @@ from mechsym.audit.verdict import decide
 
 REPAIRED = [
     ("r*sin(phi - psi)/cos(psi)", "dx_dphi", "r*sin(phi + psi)/cos(psi)", "sign"),
-    ("2*r*sin(phi + psi)/cos(psi)", "dx_dphi", "r*sin(phi + psi)/cos(psi)", "factor"),
+    ("3*r*sin(phi + psi)/cos(psi)", "dx_dphi", "r*sin(phi + psi)/cos(psi)", "factor"),
     ("r*sin(phi + psi)*cos(psi)", "dx_dphi", "r*sin(phi + psi)/cos(psi)", "inverted"),
     ("r*sin(phi + psi)", "dx_dphi", "r*sin(phi + psi)/cos(psi)", "put back"),
     ("r*cos(phi + psi)/cos(psi)", "dx_dphi", "r*sin(phi + psi)/cos(psi)", "sine and cosine"),

@@ -7,6 +7,7 @@ from mechsym.audit.hosts.formula import check_formula
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_no_trap_is_passed_and_every_twin_is():
     assert sum(not fine for *_, fine in windows.asked()) == 300
     assert not windows.missed()

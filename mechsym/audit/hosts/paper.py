@@ -282,10 +282,12 @@ class _Paper:
         aside = f"set aside: {equation.aside}" if equation.aside else ""
         row = answer(asked)
         row |= _marks() | {"note": joined(row["note"], aside), "printed": equation.text}
-        if row["verdict"] not in FINDINGS or not named_left:
+        blamed = row["verdict"] in FINDINGS
+        if not named_left or not (blamed or row["correction"]):
             return row
+        # what may be another convention may as well follow from an earlier slip
         carried = self._carried(row, quantity, asked)
-        if carried is None:
+        if carried is None and blamed:
             tree = self._tree(statement(text).right[0], text)
             self.wrong.append(_Wrong(name=name, quantity=quantity, tree=tree))
         return carried or row

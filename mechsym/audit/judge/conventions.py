@@ -191,9 +191,9 @@ def reading(judged: Judges, tree: Node) -> str:
             return shifted
         for letter in letters(tree):
             own = kind_of_letter(judged.question, letter)
-            free = letter in judged.question.theory.letters and letter not in judged.question.formula.letters
-            if own is None or letter == "pi" or own == NUMBER and free:
-                continue  # nobody turns an exponent over; a ratio of two letters may be either way round
+            mapped = letter in judged.question.formula.letters
+            if own is None or letter == "pi" or mapped != (own == NUMBER):
+                continue  # what was said to be a radius is one; nobody turns an exponent over, but a ratio of letters
             for words, other in _others(own, known.get(letter), letter):
                 if _agree(shaped(asked, evaluate(tree, {**known, letter: other}, FLOATS)), expected):
                     return f"{letter} as {words}"
@@ -204,7 +204,7 @@ def _others(kind: Kind | None, values: Values, called: str) -> Iterator[tuple[st
     if kind == NUMBER:
         yield "the ratio the other way round", 1 / values
         yield "the ratio the other way round, reversed", -1 / values
-    round_ones = kind != kind_of_unit("m") or called[0] in _ROUND or "radius" in called
+    round_ones = kind != kind_of_unit("m") or called[0] in _ROUND and "_d" not in called or "radius" in called
     for words, factor in _FACTORS.get(kind, {}).items() if kind and round_ones else ():
         yield words, factor * values
 
