@@ -1,4 +1,4 @@
-"""Slips of the hand in mechanisms of one's own, listed before the code was read: one line with file, line, way out."""
+"""Slips in mechanisms of one's own: one line with file, line, way out; of cams and laws listed before the code."""
 
 import pytest
 
