@@ -6,11 +6,12 @@ import re
 import shutil
 import subprocess
 import sys
-import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
+
+import mechsym
 
 ROOT = Path(__file__).parent.parent
 # folders of the source tree that go into the wheel, and where they go
@@ -69,7 +70,7 @@ def test_wheel_runs_where_it_is_installed(installed, tmp_path):
 
 
 def test_citation_is_of_this_version():
-    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    version = mechsym.__version__
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert re.search(rf"^version: {re.escape(version)}$", citation, re.M)
     assert "\nlicense: MIT\n" in citation
