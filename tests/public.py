@@ -13,11 +13,13 @@ import importlib
 import sys
 from pathlib import Path
 
+import click
+
 import mechsym
 from mechsym.cases.keys import keys
 from mechsym.cli import COMMANDS
+from mechsym.cli import mechsym as cli
 from mechsym.cli.results import rows
-from mechsym.quantities import load
 
 FILE = Path(__file__).parent / "public.txt"
 EXITS = (0, 1, 2, 3, 74, 130)
@@ -26,9 +28,10 @@ EXITS = (0, 1, 2, 3, 74, 130)
 def names():
     """All names that are public now, sorted."""
     yield from sorted(python())
-    for command, place in COMMANDS.items():
+    for command in COMMANDS:
         yield f"command {command}"
-        options = {max(option.opts, key=len) for option in load(place).params if option.opts[0].startswith("-")}
+        params = cli.get_command(click.Context(cli), command).params
+        options = {max(option.opts, key=len) for option in params if option.opts[0].startswith("-")}
         yield from (f"command {command} {option}" for option in sorted(options))
     yield from sorted({f"key {_section(row)}.{row['key']}" for row in keys()})
     yield from sorted({f"json {row['command']} {row['path']}" for row in rows()})
