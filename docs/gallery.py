@@ -8,7 +8,6 @@ import contextlib
 import hashlib
 import io
 import json
-import re
 import runpy
 from pathlib import Path
 
@@ -36,14 +35,16 @@ def make(folder: Path) -> None:
         cards.append(_card(f"{script.stem}.html", script.stem, title))
     hidden = "```{toctree}\n:hidden:\n" + "\n".join(sorted(p.stem for p in SCRIPTS.glob("*.py"))) + "\n```\n"
     links = "\n".join(cards)
-    _write(folder / "index.md", f"# Gallery\n\nEach picture opens the case that made it: its numbers, its command, its script.\n\n{hidden}\n"
+    about = "Each picture opens the case that made it: its numbers, its command, its script."
+    _write(folder / "index.md", f"# Gallery\n\n{about}\n\n{hidden}\n"
            f"```{{raw}} html\n<style>{_STYLE}</style><div class='gallery'>\n{links}\n</div>\n```\n")  # fmt: skip
 
 
 def _card(link: str, stem: str, title: str = "") -> str:
     """A picture that opens its page; Sphinx puts it where it puts those of pages."""
     words = title or stem.replace("-", " ")
-    return f'<a class="card" href="{link}"><img src="../../_images/{stem}.svg" alt="{words}" loading="lazy"><b>{words}</b></a>'
+    image = f'<img src="../../_images/{stem}.svg" alt="{words}" loading="lazy">'
+    return f'<a class="card" href="{link}">{image}<b>{words}</b></a>'
 
 
 _STYLE = (
@@ -98,9 +99,7 @@ def _page(script: Path, folder: Path) -> None:
     _write(folder / f"{script.stem}.svg", figure)
     _write(folder / f"{script.stem}.py", text)
     _write(folder / f"{script.stem}.ipynb", notebook(text))
-    known = sorted(
-        {*re.findall(r'"([a-z]+-[a-z0-9-]+|balandin|moroianu|chmielewski|generator)"', text)} & {*cases.names()}
-    )
+    known = [name for name in cases.names() if f'"{name}"' in text]
     opens = f"Its case: {', '.join(f'[{name}](../cases/{name}.md)' for name in known)}.\n\n" if known else ""
     output = f"It prints:\n\n```text\n{printed.rstrip()}\n```\n\n" if printed else ""
     _write(folder / f"{script.stem}.md",

@@ -28,7 +28,8 @@ EXAMPLES = {
     "cases": "none/cases", "check": "zotov-89/check", "cite": "cite nunes-hypocycloid",
     "codesign": "codesign zotov-89 --ripple 5%", "compare": "nunes-slider-crank/compare-two",
     "cycle": "nunes-hypocycloid/cycle-speeds", "derive": "derive --check crosshead", "eval": "none/eval-state",
-    "export": "zotov-89/export", "flywheel": "zotov-89/flywheel", "fmu": "fmu zotov-89 --platforms none --out engine.fmu",
+    "export": "zotov-89/export", "flywheel": "zotov-89/flywheel",
+    "fmu": "fmu zotov-89 --platforms none --out engine.fmu",
     "forces": "moroianu/forces", "guide": "zotov-89/guide", "hinge": "zotov-89/hinge",
     "identify": "identify chmielewski --trace run/series.csv --free I2,k1", "mechanisms": "none/mechanisms",
     "native": "native --info", "new": 'new engine mine --kind inline --bore "86 mm" --stroke "86 mm" --cylinders 6',
@@ -105,7 +106,8 @@ def example(name: str) -> str:
     """What an example of a command printed."""
     kept = EXAMPLES[name]
     if name in MACHINE:
-        return f"## Example\n\n{block(f'$ mechsym {kept}')}It names the compiler, its options and the cache of the machine."
+        words = "It names the compiler, its options and the cache of the machine."
+        return f"## Example\n\n{block(f'$ mechsym {kept}')}{words}"
     if shlex.split(kept)[0] == name:
         before = [f"$ mechsym {BEFORE[name]}"] if name in BEFORE else []
         text = "\n".join([*before, printed(kept)])
@@ -195,9 +197,8 @@ def derived() -> str:
         stored = json.loads((resources.files("mechsym.generated") / "equations" / f"{name}.json").read_text())
         parts.append(f"## {name}\n\n{stored['about']}\n")
         if name in SHOWN and (Path(__file__).parent / "made" / "cases" / f"{SHOWN[name]}.svg").exists():
-            parts.append(
-                f"![{name}, turning](cases/{SHOWN[name]}.svg){{.machine}}\n\nTo scale: [{SHOWN[name]}](cases/{SHOWN[name]}.md).\n"
-            )
+            picture = f"![{name}, turning](cases/{SHOWN[name]}.svg){{.machine}}"
+            parts.append(f"{picture}\n\nTo scale: [{SHOWN[name]}](cases/{SHOWN[name]}.md).\n")
         letters = [f"`{n} [{u}]`" for kind in ("coordinates", "parameters", "inputs") for n, u in stored[kind].items()]
         parts.append(f"Letters: {', '.join(letters)}.\n")
         parts.append(f"```{{derived}} {name}\n```\n")
@@ -209,9 +210,9 @@ def derived() -> str:
 
 def theories() -> str:
     """What formulas can be held against: every theory with its letters and quantities."""
-    parts = [f"# Theories of the auditor\n\nWhat `mechsym audit --formula TEXT --against THEORY.QUANTITY` knows. A theory of "
-             "a mechanism has all names of its derivation; slopes (`dx_dphi`), rates (`x_d`, `x_dd`) and harmonics "
-             "(`x_mean`, `x_cos2`) come by themselves.\n\n"
+    parts = ["# Theories of the auditor\n\nWhat `mechsym audit --formula TEXT --against THEORY.QUANTITY` knows. A "
+             "theory of a mechanism has all names of its derivation; slopes (`dx_dphi`), rates (`x_d`, `x_dd`) and "
+             "harmonics (`x_mean`, `x_cos2`) come by themselves.\n\n"
              f"```{{raw}} html\n<style>{FORMULAS}</style>\n```\n"]  # fmt: skip
     shipped = catalogue.shipped()
     for name in catalogue.names():
@@ -260,7 +261,8 @@ def case_page(name: str, folder: Path) -> str:
 def _how_to_open(name: str) -> str:
     stem = Path(name).stem
     if name.endswith(".toml"):
-        return f"`examples/mechanisms/{stem}.toml`; `mechsym app examples/mechanisms/{stem}.toml` opens it in the workbench."
+        file = f"examples/mechanisms/{stem}.toml"
+        return f"`{file}`; `mechsym app {file}` opens it in the workbench."
     return f"`mechsym cases {stem} > mine.toml` copies it; `mechsym app {stem}` opens it in the workbench."
 
 
@@ -269,4 +271,5 @@ def case_index() -> str:
     told = ((f"[{Path(n).stem}]({Path(n).stem}.md)", cases.load(n).about) for n in every_case())
     lines = "\n".join(f"| {link} | {escaped(about)} |" for link, about in told)
     tree = "\n".join(Path(n).stem for n in every_case())
-    return f"# Cases\n\nData to start from: built in, and of `examples/mechanisms`.\n\n| case | about |\n|---|---|\n{lines}\n\n```{{toctree}}\n:hidden:\n\n{tree}\n```\n"
+    head = "# Cases\n\nData to start from: built in, and of `examples/mechanisms`.\n\n| case | about |\n|---|---|"
+    return f"{head}\n{lines}\n\n```{{toctree}}\n:hidden:\n\n{tree}\n```\n"

@@ -76,6 +76,23 @@ def test_citation_is_of_this_version():
     assert "\nlicense: MIT\n" in citation
 
 
+def test_licences_of_files_of_others_are_named():
+    """Whatever carries a notice of somebody else stands in LICENSE-VENDORED, and nothing there is gone."""
+    named = (ROOT / "LICENSE-VENDORED").read_text(encoding="utf-8")
+    kinds = (".h", ".c", ".js", ".css", ".html", ".py", ".toml")
+    files = [p for p in (ROOT / "mechsym").rglob("*") if p.suffix in kinds and "__pycache__" not in p.parts]
+    foreign = [p for p in files if re.search(r"Copyright \((?:C|c)\) \d", p.read_text(encoding="utf-8"))]
+    assert len(foreign) == len(re.findall(r"\w+\.(?:h|js)\b", named)) == 7
+    assert [p.name for p in foreign if p.name not in named] == []
+
+
+@pytest.mark.slow
+def test_the_wheel_is_small_and_has_its_licences(wheel):
+    assert wheel.stat().st_size < 3_000_000
+    names = zipfile.ZipFile(wheel).namelist()
+    assert {"LICENSE", "LICENSE-VENDORED"} <= {Path(name).name for name in names if ".dist-info/licenses/" in name}
+
+
 YOKE = """from mechsym.derive import Mechanism, pi
 
 
