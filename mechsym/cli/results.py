@@ -18,7 +18,7 @@ _BESIDE = {"doubts": "mechsym.plausible:Doubt", "accepted": "mechsym.plausible:D
 RESULTS = {
     "audit": ("mechsym.audit.row:Compared", "mechsym.audit.hosts.paper:EquationPlace"),
     "balance": ("mechsym.jobs.balance:BalanceOfEngine",),
-    "compare": ("mechsym.cycle.compare:EngineComparison",),
+    "compare": ("mechsym.cycle.columns:EngineComparison",),
     "cycle": (
         "mechsym.cycle.columns:CycleColumns",
         "mechsym.jobs.measured:MeasuredDiagram",
