@@ -49,6 +49,7 @@ SHOWN = {
     "rodless": "balandin", "crankshaft_flywheel": "chmielewski",
 }  # fmt: skip
 EXAMPLE_FILES = Path(__file__).parents[1] / "examples" / "mechanisms"
+WRITTEN: set[Path] = set()  # pages of this build
 _SHOWN = 24  # lines of what a command prints
 _MEANINGS = 4  # of one word, in different results
 
@@ -67,8 +68,17 @@ def make(folder: Path) -> None:
 
 def write(path: Path, text: str) -> None:
     """Write a page that has changed; what has not is left alone, so that Sphinx does."""
+    WRITTEN.add(path)
     if not path.exists() or path.read_text(encoding="utf-8") != text:
         path.write_text(text, encoding="utf-8")
+
+
+def clear(folder: Path) -> None:
+    """Take away pages that an earlier build wrote and this one did not."""
+    for part in (folder, *(folder / name for name in ("commands", "cases", "python"))):
+        for path in part.glob("*.md"):
+            if path not in WRITTEN and path.name != "findings.md":
+                path.unlink()
 
 
 def block(text: str) -> str:
