@@ -8,6 +8,7 @@ import runpy
 import shlex
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -100,6 +101,15 @@ def test_what_the_theory_shows_is_there(pages):
         elif kind == "recorded":
             assert equations().recorded(name), page
     assert sum(kind == "formula" for _, kind, _ in shown) > 80
+
+
+def test_extras_are_those_of_the_package():
+    extras = tomllib.loads((DOCS.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"][
+        "optional-dependencies"
+    ]
+    told = re.findall(r"^\| `(\w+)` \| ", (DOCS / "start.md").read_text(encoding="utf-8").split("## Extras")[1], re.M)
+    assert {*told} == {*extras} - {"heyoka", "bench", "all", "check", "dev"}
+    assert f"mechsym-{mechsym_package.__version__}-py3" in (DOCS / "start.md").read_text(encoding="utf-8")
 
 
 def test_every_key_is_told(pages):
