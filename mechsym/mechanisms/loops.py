@@ -31,6 +31,13 @@ def split(mechanism: Mechanism, dependents: Sequence[str]) -> tuple[list[int], l
     return [i for i in index.values() if i not in held], held
 
 
+def scaled(mechanism: Mechanism, jacobian: np.ndarray) -> np.ndarray:
+    """A Jacobian with columns alike in size, so that metres and radians compare; pure numbers, as of quaternions, do."""
+    sizes = np.abs(jacobian).max(axis=0)
+    pure = np.array([mechanism.units.get(q) == "-" for q in mechanism.coordinates])
+    return jacobian / np.where((sizes > 0) & ~pure, sizes, 1.0)
+
+
 def closed(mechanism: Mechanism, q: ca.SX, dependents: Sequence[str], steps: int = _STEPS) -> ca.SX:
     """Coordinates with the dependent ones closed by Newton's method from where they are.
 
