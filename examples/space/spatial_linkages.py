@@ -51,7 +51,7 @@ def hooke():
     one, other = m.link("shaft1", inertia=I1), m.link("shaft2", inertia=(I2, I2, I2))
     m.revolute("A", m.frame, one, axis="z", turns=phi)
     out = m.revolute("B", m.frame.axis((sin(beta), 0, cos(beta))), other.axis("z"))
-    m.universal("U", one.axis("y"), other.axis("x"))
+    m.universal("U", one.axis("x"), other.axis("y"))
     m.torque(M, along=phi)
     m.torque(-L, along=out.turn)
     return m

@@ -10,124 +10,28 @@ one to the other. The words of the plane hold too: pins turn about z, sliders an
 coordinates of the user's own, then those with fewer freedoms, make a tree from the frame; the rest closes loops.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import Any, ClassVar
 
-from sympy import Expr, Integer, Symbol, cos, sin, sqrt
+from sympy import Expr, Integer, Symbol, sqrt
 
 from mechsym.derive import rates
 from mechsym.derive import vectors as vec
 from mechsym.derive.declare import Declaration
 from mechsym.derive.refuse import place, refuse
-from mechsym.derive.space_joints import KINDS, Freedom, hung
-from mechsym.derive.space_rows import Row, Side
-from mechsym.derive.space_tree import Part, SharedSteps, Tree, about_origin
+from mechsym.derive.space_joints import KINDS, hung
+from mechsym.derive.space_parts import SpaceJoint, SpaceLink, SpacePoint, three
+from mechsym.derive.space_rows import ClosureRow
+from mechsym.derive.space_tree import SharedSteps, Tree, about_origin
 from mechsym.derive.vectors import AXES, NONE, Matrix, O, Vector
-
-
-@dataclass(eq=False)
-class SpacePoint:
-    """A point of a link, and perhaps a direction, in the link's axes."""
-
-    link: "SpaceLink"
-    at: Vector = NONE
-    direction: Vector | None = None
-
-    def __repr__(self) -> str:
-        return f"{self.link!r}.at{self.at}"
-
-    @property
-    def xyz(self) -> Vector:
-        """Where it is [m]."""
-        return self.link.m.placed(self)
-
-    xy = property(lambda self: self.xyz, doc="Where it is [m].")
-    x = property(lambda self: self.xyz[0], doc="Where it is along x [m].")
-    y = property(lambda self: self.xyz[1], doc="Where it is along y [m].")
-    z = property(lambda self: self.xyz[2], doc="Where it is along z [m].")
-
-
-@dataclass(eq=False)
-class SpaceLink:
-    """A rigid body with axes of its own."""
-
-    m: "SpatialDeclaration"
-    name: str
-    turns: Expr | None = None
-    guess: float | None = None
-    where: str = ""
-    part: Any = None  #: Of the tree, once it hangs there
-    angle: Expr | None = None  #: About z, of what has only turned about z
-    mass: Expr = O
-    centre: Vector = NONE
-    inertia: Matrix = (NONE, NONE, NONE)
-    flat: bool = False  #: Whether only its inertia about z is known
-
-    def __repr__(self) -> str:
-        return self.name
-
-    def at(self, x: Expr | float = 0, y: Expr | float = 0, z: Expr | float = 0) -> SpacePoint:
-        """A point of the link, in its own axes [m]."""
-        return SpacePoint(self, self.m._triple((x, y, z), "m", f"point of {self.name}", f"{self.name}_"))
-
-    def axis(self, direction: object, at: object = (0, 0, 0)) -> SpacePoint:
-        """A line of the link: "x", "-y" or three values along it, through a point [m]."""
-        point = at if isinstance(at, SpacePoint) else self.at(*_three(at))
-        return SpacePoint(self, point.at, self.m._direction(direction))
-
-    def line(self, u: Expr | float = 0, v: Expr | float = 0, *, angle: Expr | float = 0) -> SpacePoint:
-        """A line of the link in its x and y through a point [m] at an angle [rad]."""
-        tilt = self.m._sized(angle, "rad", f"{self.name}_tilt", "line")
-        return SpacePoint(self, self.at(u, v).at, (cos(tilt), sin(tilt), O))
-
-
-@dataclass(eq=False)
-class SpaceJoint:
-    """A joint in space."""
-
-    kind: str
-    name: str
-    first: SpacePoint
-    second: SpacePoint
-    given: tuple[Any, ...] = ()  #: Coordinates of the user's own
-    pose: Any = None
-    sequence: str = ""
-    lead: Expr = O
-    length: Expr = O
-    axes: SpaceLink | None = None  #: In whose axes its reactions are told; the frame's without
-    where: str = ""
-    child: SpaceLink | None = None  #: What it has placed
-    parts: tuple[Part, ...] = ()
-    freedoms: list[Freedom] = field(default_factory=list)
-    rows: dict[str, Row] = field(default_factory=dict)
-
-    @property
-    def sides(self) -> tuple[Side, Side]:
-        """Both points as the tree has them."""
-        first, second = (Side(s.link.part, s.at, s.direction or NONE) for s in (self.first, self.second))
-        return first, second
-
-    def coordinate(self, turns: bool, number: int = 0) -> Expr:
-        """A coordinate of the joint: of its turns [rad] or of its ways [m], the first where there are several."""
-        m = self.second.link.m
-        m.settle(self.second.link)
-        values = [f.value for f in self.freedoms if f.turns is turns]
-        if number >= len(values):
-            why = "closes a loop" if self.child is None else f"has {len(values)} of them"
-            refuse(
-                f"the {self.kind} joint {self.name!r} has no such coordinate: it {why}; name one by turns= or slides="
-            )
-        return values[number]
-
-    turn = property(lambda self: self.coordinate(True), doc="Its turn, of the second against the first [rad].")
-    slide = property(lambda self: self.coordinate(False), doc="Its way, of the second along the first [m].")
 
 
 class SpatialDeclaration(Declaration):
     """What a mechanism in space is made of."""
 
     tape: SharedSteps
+    solved_by: ClassVar[Callable[[Any], Any]]  #: Makes the equations, see space_equations.py
 
     def __init__(self, name: str, source: str = "own", about: str = "", *, space: int = 3) -> None:
         super().__init__(name, source, about)
@@ -141,16 +45,14 @@ class SpatialDeclaration(Declaration):
         self.places: dict[Symbol, tuple[SpacePoint, int]] = {}
         self.by_expression: dict[str, Expr] = {}
         self.own: dict[Symbol, float] = {}  # coordinates that joints have named, with their guesses
-        self.norms: dict[str, Row] = {}
+        self.norms: dict[str, ClosureRow] = {}
         self.watched: dict[str, Any] = {}
         self.gravity: Any = NONE
         self.words: list[str] = []  # what was decided, for `derive --explain`
 
     def own_equations(self) -> Any:
         """The equations, by recursions over the tree."""
-        from mechsym.derive.space_equations import equations
-
-        return equations(self)
+        return type(self).solved_by(self)
 
     def explained(self) -> list[str]:
         """How the tree hangs and what closes it, a line each."""
@@ -167,8 +69,8 @@ class SpatialDeclaration(Declaration):
 
         mass: [kg]. centre: of mass, in the body's axes [m]. inertia: about the centre of mass, along the body's axes
         [kg*m^2]: three moments, or six numbers (xx, yy, zz, xy, xz, yz) with the products as they stand in the matrix;
-        one number is about z, of what only turns about z. turns: its angle about z where it is pinned [rad]. guess,
-        pose: that angle, roughly. Returns link: its points are `link.at(x, y, z)`, its lines `link.axis("x", at=..)`.
+        one number is about z, of what only turns about z. turns: its angle about z where it is pinned [rad]. pose,
+        guess: that angle, roughly [rad]. Returns link: its points are `link.at(x, y, z)`, its lines `link.axis("x", at=..)`.
         """
         if name == "frame" or any(k.name == name for k in self.space_links):
             refuse(f"the link {name!r} is declared twice in {self.name}; give one of them another name")
@@ -182,6 +84,19 @@ class SpatialDeclaration(Declaration):
         new.inertia, new.flat = self._inertia(inertia, name)
         self.space_links.append(new)
         return new
+
+    def pose(self, **places: object) -> None:
+        """Say roughly how the mechanism stands: angles of pinned links and values of coordinates [rad, m]; other joints
+        have a pose= of their own."""
+        for name, value in places.items():
+            link = next((k for k in self.space_links if k.name == name), None)
+            if link is None and name not in {q.name for q in self.q}:
+                refuse(f"the pose names {name!r}, which is no link and no coordinate of {self.name}; joints have pose=")
+            posed = self._posed(value, "rad" if link else self.units[name], f"pose of {name}")
+            if link is None:
+                self.poses[name] = posed
+            else:
+                link.guess = posed
 
     def _inertia(self, value: object, name: str) -> tuple[Matrix, bool]:
         given = list(value) if isinstance(value, (tuple, list)) else [0, 0, value]
@@ -318,7 +233,7 @@ class SpatialDeclaration(Declaration):
             if value not in AXES:
                 refuse(f"{value!r} is no direction; there are {', '.join(AXES)}, or three values")
             return AXES[value]
-        x, y, z = (self._checked(v, "", "direction") for v in _three(value))
+        x, y, z = (self._checked(v, "", "direction") for v in three(value))
         return vec.unit((x, y, z), f"the direction {value}")
 
     # places
@@ -348,7 +263,7 @@ class SpatialDeclaration(Declaration):
         self.words.append(f"{way} ({named})" if named else way)
 
     def freedom(self, stem: str, joint: SpaceJoint, unit: str, guess: float) -> Symbol:
-        """A coordinate that a joint names."""
+        """A coordinate that a joint names, with where it starts [unit]."""
         symbol = self.coordinates(self.free_name(f"{stem}_{joint.name}"), unit)
         self.own[symbol] = guess
         return symbol
@@ -407,7 +322,7 @@ class SpatialDeclaration(Declaration):
     # words
 
     def _triple(self, value: object, unit: str, what: str, stem: str) -> Vector:
-        given = _three(value)
+        given = three(value)
         x, y, z = (self._sized(v, unit, f"{stem}{a}", what) for v, a in zip(given, "xyz", strict=True))
         return x, y, z
 
@@ -444,15 +359,6 @@ class SpatialDeclaration(Declaration):
 
 #: Across and up, of a view from the front, from the right and from above
 VIEW = ((sqrt(3) / 2, Integer(1) / 2, O), (-Integer(1) / 4, sqrt(3) / 4, sqrt(3) / 2))
-
-
-def _three(value: object) -> tuple[Any, Any, Any]:
-    """Three values, the third 0 where two are given."""
-    given = tuple(value) if isinstance(value, (tuple, list)) else (value,)
-    if len(given) not in (2, 3):
-        refuse(f"{value!r} is no place in space; write three values (x, y, z)")
-    x, y, *rest = given
-    return x, y, rest[0] if rest else 0
 
 
 Declaration.kinds[3] = SpatialDeclaration

@@ -14,11 +14,12 @@ from mechsym.derive.lagrange import Equations, generalized_force, multiplier
 from mechsym.derive.rates import curvature, velocity
 from mechsym.derive.refuse import refuse
 from mechsym.derive.roles import require_reactions
-from mechsym.derive.space import SpaceJoint, SpatialDeclaration
+from mechsym.derive.space import SpatialDeclaration
 from mechsym.derive.space_joints import KINDS, rows_of
-from mechsym.derive.space_rank import Choice, choose, difference
-from mechsym.derive.space_rows import Push, Row
-from mechsym.derive.space_tree import Column, Part, Wrench
+from mechsym.derive.space_parts import SpaceJoint
+from mechsym.derive.space_rank import ClosureChoice, choose, difference
+from mechsym.derive.space_rows import ClosureRow, Push
+from mechsym.derive.space_tree import Column, TreeBody, Wrench
 from mechsym.derive.vectors import NONE, O, Vector
 
 _HALF = Rational(1, 2)
@@ -26,8 +27,16 @@ _WRITTEN = tuple(
     {"title": title, "latex": left, "mathml": f"<mtext>{words}</mtext>"}
     for title, left, words in (
         ("velocities, from the frame on", r"\omega = E^T \omega_p + S_\omega \eta", "ω = Eᵀω_p + S_ω η"),
-        ("velocities, from the frame on", r"v = E^T (v_p + \omega_p \times p) + S_v \eta", "v = Eᵀ(v_p + ω_p × p) + S_v η"),
-        ("forces of a body", r"F = m a + \alpha \times h + \omega \times (\omega \times h)", "F = m a + α × h + ω × (ω × h)"),
+        (
+            "velocities, from the frame on",
+            r"v = E^T (v_p + \omega_p \times p) + S_v \eta",
+            "v = Eᵀ(v_p + ω_p × p) + S_v η",
+        ),
+        (
+            "forces of a body",
+            r"F = m a + \alpha \times h + \omega \times (\omega \times h)",
+            "F = m a + α × h + ω × (ω × h)",
+        ),
         ("forces of a body", r"N = I \alpha + \omega \times I \omega + h \times a", "N = I α + ω × I ω + h × a"),
         ("motion", r"M \ddot q + h = Q + J^T \mu", "M q̈ + h = Q + Jᵀ μ"),
         ("loops", r"J \ddot q + \gamma = 0", "J q̈ + γ = 0"),
@@ -78,7 +87,7 @@ def equations(m: SpatialDeclaration) -> Equations:
     return result
 
 
-def _rows(m: SpatialDeclaration) -> dict[str, Row]:
+def _rows(m: SpatialDeclaration) -> dict[str, ClosureRow]:
     """Rows of all joints that hang nothing, and of quaternions."""
     found = dict(m.norms)
     for joint in m.space_joints:
@@ -122,7 +131,7 @@ def _forces(m: SpatialDeclaration) -> list[Expr]:
     return [a + w for a, w in zip(applied, weight, strict=True)]
 
 
-def _weight(m: SpatialDeclaration, part: Part) -> Wrench:
+def _weight(m: SpatialDeclaration, part: TreeBody) -> Wrench:
     if part.mass == 0 or m.gravity == NONE:
         return NONE, NONE
     g = m.tape.vector(f"g_{part.name}", vec.back(part.world, m.gravity))
@@ -148,7 +157,7 @@ def _momentum(m: SpatialDeclaration) -> dict[str, Expr]:
     return rates | {"angular_momentum_rate": n[2]}
 
 
-def _take(m: SpatialDeclaration, chosen: Choice, closures: Mapping[str, Expr], kept: list[str]) -> None:
+def _take(m: SpatialDeclaration, chosen: ClosureChoice, closures: Mapping[str, Expr], kept: list[str]) -> None:
     """Let the declaration have what was chosen: dependent coordinates and rows; and say what is left out."""
     m.dependent_list = [q for q in m.q if q in chosen.dependents]
     m.guesses = {q.name: chosen.guesses[q] for q in m.dependent_list}
@@ -159,7 +168,7 @@ def _take(m: SpatialDeclaration, chosen: Choice, closures: Mapping[str, Expr], k
 
 
 def _reactions(
-    m: SpatialDeclaration, rows: Mapping[str, Row], pushes: Mapping[str, list[Push]], chosen: Choice
+    m: SpatialDeclaration, rows: Mapping[str, ClosureRow], pushes: Mapping[str, list[Push]], chosen: ClosureChoice
 ) -> dict[str, Expr]:
     """Six components at every joint, at the point of the second body; those that are not determined are left out."""
     tree, outer = m.tree, _outer(m)
@@ -205,7 +214,7 @@ def _without(m: SpatialDeclaration, value: Expr, absent: Mapping[Symbol, Expr]) 
     return value.xreplace(known)
 
 
-def _add(m: SpatialDeclaration, outer: dict[Part, Wrench], push: Push) -> None:
+def _add(m: SpatialDeclaration, outer: dict[TreeBody, Wrench], push: Push) -> None:
     part, force, moment, at = push
     if not part.path:
         return
@@ -216,14 +225,14 @@ def _add(m: SpatialDeclaration, outer: dict[Part, Wrench], push: Push) -> None:
     outer[part] = vec.add(before[0], n), vec.add(before[1], f)
 
 
-def _outer(m: SpatialDeclaration) -> dict[Part, Wrench]:
+def _outer(m: SpatialDeclaration) -> dict[TreeBody, Wrench]:
     """What acts on the bodies themselves: every element by the points that its displacement is made of."""
     elements = [(f.value, f.along) for f in m.forces]
     elements += [(-s.value * s.along, s.along) for s in m.springs]
     elements += [(-c.value * velocity(m, c.along), c.along) for c in m.dampers]
     elements += [(Integer(-1), energy) for energy in m.stores]
     elements += [(multiplier(m, n), g) for n, g in m.by_expression.items()]
-    outer: dict[Part, Wrench] = {}
+    outer: dict[TreeBody, Wrench] = {}
     for value, along in elements:
         expression = _of_points(m, along)
         for symbol in sorted(expression.free_symbols & m.places.keys(), key=lambda s: s.name):
@@ -250,7 +259,7 @@ def _closed(joint: SpaceJoint, pushes: Mapping[str, list[Push]]) -> tuple[Vector
     return force, moment
 
 
-def _borne(m: SpatialDeclaration, joint: SpaceJoint, carried: Mapping[Part, Wrench]) -> tuple[Vector, Vector]:
+def _borne(m: SpatialDeclaration, joint: SpaceJoint, carried: Mapping[TreeBody, Wrench]) -> tuple[Vector, Vector]:
     """The same of one that hangs a body, without what acts along its freedoms."""
     if joint.kind == "free":
         return NONE, NONE
@@ -291,3 +300,6 @@ def _draw(m: SpatialDeclaration) -> None:
         role = "crank" if any(j.given and j.child is link for j in m.space_joints) else "rod"
         if len(points) > 1:
             m.draw_line(*points, *(points[:1] if len(points) > 2 else ()), role=role)
+
+
+SpatialDeclaration.solved_by = equations

@@ -13,8 +13,8 @@ from sympy import Expr, Symbol, cos, pi, sin
 from mechsym.derive import vectors as vec
 from mechsym.derive.rates import curvature
 from mechsym.derive.refuse import refuse
-from mechsym.derive.space_rows import Along, Distance, Meet, Norm, Row, Square
-from mechsym.derive.space_tree import Column, Part
+from mechsym.derive.space_rows import AlongLine, ClosureRow, Distance, Meet, Norm, Square
+from mechsym.derive.space_tree import Column, TreeBody
 from mechsym.derive.vectors import AXES, EYE, NONE, O, Vector
 
 Joint = Any  # of space.py, which imports this module
@@ -40,7 +40,7 @@ class Move:
 
 
 @dataclass(frozen=True)
-class Kind:
+class JointKind:
     """What a kind of joint is: which sides need an axis, its freedoms where it may hang a body, its rows."""
 
     axes: tuple[bool, bool]
@@ -96,20 +96,20 @@ def _free(joint: Joint, d1: Vector, d2: Vector, v: list[Expr]) -> list[Move]:
     return [*(Move("T", e, e, (x,)) for e, x in zip(EYE, v[:3], strict=True)), Move("Q", values=tuple(v[3:]))]
 
 
-KINDS: dict[str, Kind] = {
-    "revolute": Kind((True, True), "R", lambda j, a, b, v: [Move("R", a, b, (v[0],))], "xyzuv"),
-    "pin": Kind((True, True), "R", lambda j, a, b, v: [Move("R", a, b, (v[0],))], "xyzuv"),
-    "prismatic": Kind((True, True), "T", lambda j, a, b, v: [Move("T", a, b, (v[0],))], "nbrst"),
-    "cylindrical": Kind((True, True), "RT", lambda j, a, b, v: [Move("C", a, b, (v[0], v[1]))], "nbuv"),
-    "screw": Kind((True, True), "R", _screw, "nbuv!"),
-    "spherical": Kind((False, False), "Q", _spherical, "xyz", moments=""),
-    "universal": Kind((True, True), "RR", _universal, "xyzw"),
-    "planar": Kind((True, True), "TTR", _planar, "duv"),
-    "fixed": Kind((False, False), "", lambda j, a, b, v: [Move("F", a, b)], "xyzrst"),
-    "free": Kind((False, False), "TTTQ", _free, "", "", ""),
-    "slot": Kind((True, False), "", lambda j, a, b, v: [], "nb", moments="", hangs=False),
-    "plane": Kind((True, False), "", lambda j, a, b, v: [], "d", moments="", hangs=False),
-    "strut": Kind((False, False), "", lambda j, a, b, v: [], "l", "n", "", hangs=False),
+KINDS: dict[str, JointKind] = {
+    "revolute": JointKind((True, True), "R", lambda j, a, b, v: [Move("R", a, b, (v[0],))], "xyzuv"),
+    "pin": JointKind((True, True), "R", lambda j, a, b, v: [Move("R", a, b, (v[0],))], "xyzuv"),
+    "prismatic": JointKind((True, True), "T", lambda j, a, b, v: [Move("T", a, b, (v[0],))], "nbrst"),
+    "cylindrical": JointKind((True, True), "RT", lambda j, a, b, v: [Move("C", a, b, (v[0], v[1]))], "nbuv"),
+    "screw": JointKind((True, True), "R", _screw, "nbuv!"),
+    "spherical": JointKind((False, False), "Q", _spherical, "xyz", moments=""),
+    "universal": JointKind((True, True), "RR", _universal, "xyzw"),
+    "planar": JointKind((True, True), "TTR", _planar, "duv"),
+    "fixed": JointKind((False, False), "", lambda j, a, b, v: [Move("F", a, b)], "xyzrst"),
+    "free": JointKind((False, False), "TTTQ", _free, "", "", ""),
+    "slot": JointKind((True, False), "", lambda j, a, b, v: [], "nb", moments="", hangs=False),
+    "plane": JointKind((True, False), "", lambda j, a, b, v: [], "d", moments="", hangs=False),
+    "strut": JointKind((False, False), "", lambda j, a, b, v: [], "l", "n", "", hangs=False),
 }
 
 _STEMS = {"R": ("turn", "rad"), "T": ("slide", "m")}
@@ -169,7 +169,7 @@ def _pinned(m: Declaration, joint: Joint, link: Any) -> Expr:
     return turn if link is joint.second.link else -turn
 
 
-def hung(m: Declaration, joint: Joint, child: Any) -> tuple[Part, ...]:
+def hung(m: Declaration, joint: Joint, child: Any) -> tuple[TreeBody, ...]:
     """Bodies that a joint adds to the tree: those between its steps, and what it hangs."""
     first, second = joint.sides
     values = _coordinates(m, joint)
@@ -181,13 +181,13 @@ def hung(m: Declaration, joint: Joint, child: Any) -> tuple[Part, ...]:
         if moves[0].letter == "Q":
             w, x, y, z = (-v for v in moves[0].values)
             moves = [Move("Q", values=(w, -x, -y, -z))]
-    parts: list[Part] = []
+    parts: list[TreeBody] = []
     before = one.part
     for k, move in enumerate(moves):
         last = k == len(moves) - 1
         name = child.name if last else f"{joint.name}{k + 1}"
         part = _part(
-            m, move, Part(name, before, joint=joint.name), one.at if k == 0 else NONE, other.at if last else NONE
+            m, move, TreeBody(name, before, joint=joint.name), one.at if k == 0 else NONE, other.at if last else NONE
         )
         parts.append(m.tree.hang(part))
         before = part
@@ -204,7 +204,7 @@ def _flat_turn(angle: Expr | None, d1: Vector, d2: Vector, sign: int) -> Expr | 
     return angle
 
 
-def _part(m: Declaration, move: Move, part: Part, a1: Vector, a2: Vector) -> Part:
+def _part(m: Declaration, move: Move, part: TreeBody, a1: Vector, a2: Vector) -> TreeBody:
     d1, d2, tape = move.axis, move.behind, m.tape
     columns: list[Column] = []
     if move.letter in "RC":
@@ -247,7 +247,7 @@ def _column(m: Declaration, turns: bool, axis: Vector, at: Vector, value: Expr) 
     return Column(turns, axis, at, by, curvature(m, value) if any(c.free_symbols for c in by.values()) else O)
 
 
-def rows_of(joint: Joint) -> dict[str, Row]:
+def rows_of(joint: Joint) -> dict[str, ClosureRow]:
     """The rows of a joint that closes a loop, by the names of its constraints."""
     first, second = joint.sides
     if joint.kind == "screw":
@@ -255,7 +255,7 @@ def rows_of(joint: Joint) -> dict[str, Row]:
                "hangs a body, and let another joint close", joint.where)  # fmt: skip
     if joint.kind == "strut":
         return {joint.name: Distance(first, second, joint.length)}
-    rows: dict[str, Row] = {}
+    rows: dict[str, ClosureRow] = {}
     letters = KINDS[joint.kind].rows
     n, b = vec.normals(first.axis) if first.axis != NONE else (NONE, NONE)
     level = _level(first.axis, second.axis, joint.name) if set("rst") & set(letters) else EYE
@@ -269,7 +269,7 @@ def rows_of(joint: Joint) -> dict[str, Row]:
         if letter in "xyz":
             rows[f"{letter}_{joint.name}"] = Meet(first, second, "xyz".index(letter))
         elif letter in directions:
-            rows[f"{letter}_{joint.name}"] = Along(first, second, directions[letter])
+            rows[f"{letter}_{joint.name}"] = AlongLine(first, second, directions[letter])
         else:
             rows[f"t{letter}_{joint.name}"] = Square(first, second, *squares[letter])
     return rows

@@ -16,7 +16,7 @@ from sympy import Expr, Symbol
 from mechsym.derive.printer import casadi_text
 from mechsym.derive.rates import accelerations, velocities
 from mechsym.derive.refuse import refuse
-from mechsym.derive.space_rows import Row
+from mechsym.derive.space_rows import ClosureRow
 from mechsym.derive.vectors import NONE
 from mechsym.quantities.units import Pure
 
@@ -29,7 +29,7 @@ _WANTED = 20
 
 
 @dataclass(frozen=True)
-class Choice:
+class ClosureChoice:
     """Which rows close the loops, and which coordinates they hold."""
 
     rows: list[str]
@@ -41,7 +41,7 @@ class Choice:
     names: tuple[str, ...] = ()
     redundant: list[str] = field(default_factory=list)
 
-    def open_reactions(self, m: Declaration, rows: Mapping[str, Row], found: Mapping[str, Expr]) -> list[str]:
+    def open_reactions(self, m: Declaration, rows: Mapping[str, ClosureRow], found: Mapping[str, Expr]) -> list[str]:
         """Names of reactions that self-balanced forces change; what is told of them goes into `redundant`."""
         if len(self.rows) == self.count:
             return []
@@ -81,7 +81,7 @@ def _evaluated(
 
 def choose(
     m: Declaration, closures: Mapping[str, Expr], jacobian: Mapping[str, list[Expr]], mass: list[list[Expr]]
-) -> Choice:
+) -> ClosureChoice:
     """Rows and dependent coordinates at closed poses. Raises BadInput: nothing closes, is open, or is held twice."""
     names, n = tuple(closures), len(m.q)
     flat = [e for row in jacobian.values() for e in row] + [e for row in mass for e in row]
@@ -105,7 +105,7 @@ def choose(
     require_held(m, [np.asarray(functions[1](x)) for x in poses], slopes)
     guesses = {**{q: m.guesses.get(q.name, 0.0) for q in m.dependent_list}, **m.own}
     free = [scipy.linalg.null_space(j.T, rcond=_TOLERANCE) for j in slopes]
-    return Choice(rows=[names[i] for i in rows], dependents=dependents, guesses=guesses, count=len(names),
+    return ClosureChoice(rows=[names[i] for i in rows], dependents=dependents, guesses=guesses, count=len(names),
                   free=free, poses=poses, names=names)  # fmt: skip
 
 
@@ -222,7 +222,7 @@ def _closed(function: ca.Function, x: np.ndarray, moves: np.ndarray) -> np.ndarr
     return x if np.abs(gap).max() < 1e-12 * max(1.0, np.abs(x).max()) else None
 
 
-def difference(m: Declaration, equations: Any, chosen: Choice) -> tuple[int, Pure]:
+def difference(m: Declaration, equations: Any, chosen: ClosureChoice) -> tuple[int, Pure]:
     """How far M qdd + h and the rows are from the derivatives of energy and closure that CasADi takes, relative."""
     u, a = velocities(m), accelerations(m)
     letters = [*m.q, *m.parameter_list, *u, *a]

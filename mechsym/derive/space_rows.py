@@ -15,14 +15,14 @@ from typing import Protocol
 from sympy import Expr, Symbol
 
 from mechsym.derive import vectors as vec
-from mechsym.derive.space_tree import Column, Part, Tree
+from mechsym.derive.space_tree import Column, Tree, TreeBody
 from mechsym.derive.vectors import EYE, HALF, NONE, O, Vector
 
 #: On a body: force, moment, and the place of the frame where the force acts
-Push = tuple[Part, Vector, Vector, Vector]
+Push = tuple[TreeBody, Vector, Vector, Vector]
 
 
-class Row(Protocol):
+class ClosureRow(Protocol):
     """One condition that closes a loop."""
 
     def value(self, tree: Tree) -> Expr:
@@ -39,15 +39,15 @@ class Row(Protocol):
 
 
 @dataclass(eq=False)
-class Side:
+class JointSide:
     """A point of a body, and perhaps a direction."""
 
-    part: Part
+    part: TreeBody
     at: Vector
     axis: Vector = NONE
 
 
-def _between(first: Part, second: Part) -> list[tuple[int, Part, Column]]:
+def _between(first: TreeBody, second: TreeBody) -> list[tuple[int, TreeBody, Column]]:
     """Freedoms that move the second body against the first: sign, body, freedom."""
     common = set(first.path) & set(second.path)
     sides = ((1, second.path), (-1, first.path))
@@ -63,11 +63,11 @@ def _collected(terms: list[tuple[int, Column, Expr]]) -> dict[Symbol, Expr]:
 
 
 @dataclass(eq=False)
-class Along:
+class AlongLine:
     """The points of two bodies meet along a direction of the first."""
 
-    first: Side
-    second: Side
+    first: JointSide
+    second: JointSide
     n: Vector
 
     def _places(self, tree: Tree) -> tuple[Vector, Vector, Vector]:
@@ -115,8 +115,8 @@ class Along:
 class Meet:
     """The points of two bodies meet along an axis of the frame."""
 
-    first: Side
-    second: Side
+    first: JointSide
+    second: JointSide
     axis: int
 
     def value(self, tree: Tree) -> Expr:
@@ -141,7 +141,7 @@ class Meet:
 
 
 def _ways(
-    tree: Tree, first: Side, second: Side, seen: Callable[[Part, Vector], Expr]
+    tree: Tree, first: JointSide, second: JointSide, seen: Callable[[TreeBody, Vector], Expr]
 ) -> list[tuple[int, Column, Expr]]:
     """What is seen of the way of each point by every freedom before it."""
     terms = []
@@ -158,8 +158,8 @@ def _ways(
 class Square:
     """A direction of the second body stays square to one of the first."""
 
-    first: Side
-    second: Side
+    first: JointSide
+    second: JointSide
     n: Vector
     d: Vector
 
@@ -202,8 +202,8 @@ class Square:
 class Distance:
     """Two points keep their distance, as a rod without mass holds them; its force is positive where it is pressed."""
 
-    first: Side
-    second: Side
+    first: JointSide
+    second: JointSide
     length: Expr
 
     def _line(self, tree: Tree) -> tuple[Vector, Vector, Vector]:

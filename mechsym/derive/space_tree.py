@@ -82,7 +82,7 @@ class Column:
 
 
 @dataclass(eq=False)
-class Part:
+class TreeBody:
     """A body of the tree, or a massless one between two freedoms of a joint."""
 
     name: str
@@ -96,7 +96,7 @@ class Part:
     inertia: Matrix = (NONE, NONE, NONE)  #: About the origin
     world: Matrix = EYE
     origin: Vector = NONE
-    path: "tuple[Part, ...]" = ()  #: From the first moving body to itself
+    path: "tuple[TreeBody, ...]" = ()  #: From the first moving body to itself
     points: dict[Vector, Vector] = field(default_factory=dict)
 
 
@@ -108,12 +108,12 @@ class Tree:
 
     def __init__(self, tape: SharedSteps, rate: Callable[[Symbol], Symbol], acceleration: Callable[[Symbol], Symbol]):
         self.tape, self._rate, self._acceleration = tape, rate, acceleration
-        self.frame = Part("frame")
-        self.parts: list[Part] = []
-        self._moving: dict[tuple[Part, bool], tuple[Vector, Vector]] = {}
-        self._rates: dict[Part, tuple[Vector, Vector]] = {}
+        self.frame = TreeBody("frame")
+        self.parts: list[TreeBody] = []
+        self._moving: dict[tuple[TreeBody, bool], tuple[Vector, Vector]] = {}
+        self._rates: dict[TreeBody, tuple[Vector, Vector]] = {}
 
-    def hang(self, part: Part) -> Part:
+    def hang(self, part: TreeBody) -> TreeBody:
         """Take a part whose joint is known."""
         before = part.before or self.frame
         part.before, name = before, part.name
@@ -125,18 +125,18 @@ class Tree:
         self.parts.append(part)
         return part
 
-    def place(self, part: Part, at: Vector) -> Vector:
+    def place(self, part: TreeBody, at: Vector) -> Vector:
         """Where a point of a body is in the frame."""
         if at not in part.points:
             here = vec.add(part.origin, vec.times(part.world, at))
             part.points[at] = self.tape.vector(f"p_of_{part.name}", here)
         return part.points[at]
 
-    def out(self, part: Part, v: Vector) -> Vector:
+    def out(self, part: TreeBody, v: Vector) -> Vector:
         """A vector of a body in the axes of the frame."""
         return self.tape.vector(f"of_{part.name}", vec.times(part.world, v))
 
-    def rates(self, part: Part) -> tuple[Vector, Vector]:
+    def rates(self, part: TreeBody) -> tuple[Vector, Vector]:
         """Angular velocity and velocity of the origin."""
         if not part.path:
             return NONE, NONE
@@ -151,7 +151,7 @@ class Tree:
             )
         return self._rates[part]
 
-    def _moved(self, part: Part) -> tuple[Vector, Vector]:
+    def _moved(self, part: TreeBody) -> tuple[Vector, Vector]:
         """Spin and way of a joint at its own rates."""
         spin = way = NONE
         for column in part.columns:
@@ -159,11 +159,11 @@ class Tree:
             spin, way = vec.add(spin, vec.scaled(eta, column.spin)), vec.add(way, vec.scaled(eta, column.way))
         return self.tape.vector(f"ws_{part.name}", spin), self.tape.vector(f"vs_{part.name}", way)
 
-    def rate_of(self, part: Part, column: Column) -> Expr:
+    def rate_of(self, part: TreeBody, column: Column) -> Expr:
         """The rate of one freedom of a joint."""
         return self.tape.step(f"eta_{part.name}", sum((c * self._rate(q) for q, c in column.by.items()), O))
 
-    def accelerated(self, part: Part, driven: bool) -> tuple[Vector, Vector]:
+    def accelerated(self, part: TreeBody, driven: bool) -> tuple[Vector, Vector]:
         """Angular acceleration and that of the origin; with no acceleration of a coordinate unless driven."""
         if not part.path:
             return NONE, NONE
@@ -188,32 +188,32 @@ class Tree:
             )
         return self._moving[key]
 
-    def _swept(self, part: Part, w: Vector, p: Vector) -> Vector:
+    def _swept(self, part: TreeBody, w: Vector, p: Vector) -> Vector:
         return self.tape.vector(f"sw_{part.name}", vec.cross(w, p))
 
-    def velocity(self, part: Part, at: Vector) -> Vector:
+    def velocity(self, part: TreeBody, at: Vector) -> Vector:
         """Velocity of a point of a body in the frame."""
         w, v = self.rates(part)
         return self.tape.vector(f"vp_{part.name}", vec.times(part.world, vec.add(v, self._swept(part, w, at))))
 
-    def acceleration(self, part: Part, at: Vector, driven: bool) -> Vector:
+    def acceleration(self, part: TreeBody, at: Vector, driven: bool) -> Vector:
         """Acceleration of a point of a body in the frame."""
         (w, _), (alpha, a) = self.rates(part), self.accelerated(part, driven)
         local = vec.add(a, vec.cross(alpha, at), vec.cross(w, self._swept(part, w, at)))
         return self.tape.vector(f"{'d' if driven else 'b'}vp_{part.name}", vec.times(part.world, local))
 
-    def spinning(self, part: Part) -> Vector:
+    def spinning(self, part: TreeBody) -> Vector:
         """Angular velocity in the axes of the frame."""
         return self.out(part, self.rates(part)[0])
 
-    def column(self, part: Part, column: Column, at: Vector) -> tuple[Vector, Vector]:
+    def column(self, part: TreeBody, column: Column, at: Vector) -> tuple[Vector, Vector]:
         """Angular velocity, and velocity of a place of the frame, at the rate 1 of a freedom; in the frame's axes."""
         axis = self.out(part, column.axis)
         if not column.turns:
             return NONE, axis
         return axis, vec.cross(axis, vec.less(at, self.place(part, column.at)))
 
-    def inertial(self, part: Part, driven: bool) -> Wrench:
+    def inertial(self, part: TreeBody, driven: bool) -> Wrench:
         """Moment about the origin and force that a body's own acceleration takes."""
         if part.mass == 0 and part.inertia == (NONE, NONE, NONE):
             return NONE, NONE
@@ -225,7 +225,7 @@ class Tree:
         stem = "d" if driven else "b"
         return tape.vector(f"{stem}M_{name}", moment), tape.vector(f"{stem}F_{name}", force)
 
-    def carried(self, wrenches: dict[Part, Wrench], stem: str) -> dict[Part, Wrench]:
+    def carried(self, wrenches: dict[TreeBody, Wrench], stem: str) -> dict[TreeBody, Wrench]:
         """What each joint takes of the wrenches on all bodies behind it, in axes of what it moves; the frame all."""
         total = dict(wrenches)
         for part in reversed(self.parts):
@@ -238,7 +238,7 @@ class Tree:
             total[part.before] = vec.add(before[0], n), vec.add(before[1], f)
         return total
 
-    def generalized(self, wrenches: dict[Part, Wrench], q: Sequence[Symbol], stem: str) -> list[Expr]:
+    def generalized(self, wrenches: dict[TreeBody, Wrench], q: Sequence[Symbol], stem: str) -> list[Expr]:
         """Generalised forces of wrenches on the bodies, one a coordinate."""
         total, forces = self.carried(wrenches, stem), dict.fromkeys(q, O)
         for part in self.parts:
@@ -289,7 +289,7 @@ class Tree:
         return [[self.tape.step(f"mass_{a}_{b}_", rows[i][j]) for j, b in enumerate(q)] for i, a in enumerate(q)]
 
     def _coupled(
-        self, part: Part, column: Column, wrench: Wrench, put: Callable[[Column, Column, Expr, bool], None]
+        self, part: TreeBody, column: Column, wrench: Wrench, put: Callable[[Column, Column, Expr, bool], None]
     ) -> None:
         """What a composite body has to do with the freedoms of all joints before it."""
         (n, f), at, tape = wrench, part, self.tape

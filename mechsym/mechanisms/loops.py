@@ -32,7 +32,7 @@ def split(mechanism: Mechanism, dependents: Sequence[str]) -> tuple[list[int], l
 
 
 def scaled(mechanism: Mechanism, jacobian: np.ndarray) -> np.ndarray:
-    """A Jacobian with columns alike in size, so that metres and radians compare; pure numbers, as of quaternions, do."""
+    """A Jacobian [SI] with columns alike in size, so that metres and radians compare, as pure numbers do."""
     sizes = np.abs(jacobian).max(axis=0)
     pure = np.array([mechanism.units.get(q) == "-" for q in mechanism.coordinates])
     return jacobian / np.where((sizes > 0) & ~pure, sizes, 1.0)
