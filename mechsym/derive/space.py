@@ -70,7 +70,7 @@ class SpatialDeclaration(Declaration):
         mass: [kg]. centre: of mass, in the body's axes [m]. inertia: about the centre of mass, along the body's axes
         [kg*m^2]: three moments, or six numbers (xx, yy, zz, xy, xz, yz) with the products as they stand in the matrix;
         one number is about z, of what only turns about z. turns: its angle about z where it is pinned [rad]. pose,
-        guess: that angle, roughly [rad]. Returns link: its points are `link.at(x, y, z)`, its lines `link.axis("x", at=..)`.
+        guess: that angle, roughly [rad]. Returns link: points `link.at(x, y, z)`, lines `link.axis("x", at=..)`.
         """
         if name == "frame" or any(k.name == name for k in self.space_links):
             refuse(f"the link {name!r} is declared twice in {self.name}; give one of them another name")
