@@ -13,7 +13,7 @@ from mechsym.quantities.results import declared, leaves
 RESULTS = {
     "audit": ("mechsym.audit.row:Compared", "mechsym.audit.hosts.paper:EquationPlace"),
     "balance": ("mechsym.jobs.balance:BalanceOfEngine",),
-    "compare": ("mechsym.cycle.compare:EngineComparison",),
+    "compare": ("mechsym.cycle.columns:EngineComparison",),
     "cycle": (
         "mechsym.cycle.columns:CycleColumns",
         "mechsym.jobs.measured:MeasuredDiagram",
