@@ -102,7 +102,7 @@ def choose(
                "only; free a link, or leave a joint away", m.where[m.name])  # fmt: skip
     rows = _rows(slopes, rank)
     dependents = _dependents(m, slopes[0][rows][:, loose], loose, rank)
-    require_held(m, [np.asarray(functions[1](x)) for x in poses], slopes)
+    _require_held(m, [np.asarray(functions[1](x)) for x in poses], slopes)
     guesses = {**{q: m.guesses.get(q.name, 0.0) for q in m.dependent_list}, **m.own}
     free = [scipy.linalg.null_space(j.T, rcond=_TOLERANCE) for j in slopes]
     return ClosureChoice(rows=[names[i] for i in rows], dependents=dependents, guesses=guesses, count=len(names),
@@ -154,7 +154,7 @@ def _unasked(joint: Any) -> list[Expr]:
     return [f.value for f in joint.freedoms] if joint.kind == "free" or joint.kind == "spherical" else []
 
 
-def require_held(m: Declaration, masses: list[np.ndarray], slopes: list[np.ndarray]) -> None:
+def _require_held(m: Declaration, masses: list[np.ndarray], slopes: list[np.ndarray]) -> None:
     """Refuse what moves without mass: a rod that spins between two spheres with no inertia about its line."""
     for M, J in zip(masses, slopes, strict=True):
         ways = scipy.linalg.null_space(J, rcond=_TOLERANCE) if len(J) else np.eye(len(M))

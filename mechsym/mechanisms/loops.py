@@ -16,6 +16,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.mechanisms.arrays import solved
 from mechsym.mechanisms.record import Mechanism, accelerations, velocities
 from mechsym.quantities.units import Metre, Radian
 
@@ -47,7 +48,7 @@ def closed(mechanism: Mechanism, q: ca.SX, dependents: Sequence[str], steps: int
     for _ in range(steps if held else 0):
         gap, jacobian, _ = mechanism.functions["constraints"](*ca.vertsplit(q), *([0] * q.numel()))
         moved = ca.SX(q)
-        moved[held] = q[held] - ca.solve(jacobian[:, held], gap)
+        moved[held] = q[held] - solved(jacobian[:, held], gap)
         q = moved
     return q
 
@@ -65,10 +66,10 @@ def motion(mechanism: Mechanism, q: ca.SX, u: ca.SX, dependents: Sequence[str]) 
     _, jacobian, _ = mechanism.functions["constraints"](*ca.vertsplit(q), *([0] * n))
     T = ca.SX(n, len(free))
     T[free, :] = ca.SX.eye(len(free))
-    T[held, :] = -ca.solve(jacobian[:, held], jacobian[:, free])
+    T[held, :] = -solved(jacobian[:, held], jacobian[:, free])
     _, _, gamma = mechanism.functions["constraints"](*ca.vertsplit(q), *ca.vertsplit(ca.mtimes(T, u)))
     c = ca.SX(n, 1)
-    c[held] = -ca.solve(jacobian[:, held], gamma)
+    c[held] = -solved(jacobian[:, held], gamma)
     return T, c
 
 

@@ -28,7 +28,7 @@ class MechanismState:
     rate: str
 
 
-_UNITS = {"rad": ("kg*m^2", "N*m", "rad/s^2"), "m": ("kg", "N", "m/s^2")}
+_UNITS = {"rad": ("kg*m^2", "N*m", "rad/s^2"), "m": ("kg", "N", "m/s^2"), "-": ("kg*m^2", "N*m", "1/s^2")}
 _MIXED = ("of its coordinates",) * 3
 
 
