@@ -18,9 +18,10 @@ from mechsym import mechanisms
 from mechsym.cycle.chamber import Motion
 from mechsym.cycle.friction import Friction, NoFriction
 from mechsym.cycle.gas import Gas
-from mechsym.cycle.motion import one_coordinate, piston_motion, piston_travel, pistons_of, slopes
+from mechsym.cycle.motion import piston_motion, piston_travel, pistons_of, slopes
 from mechsym.errors import BadInput
 from mechsym.files import Json
+from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.plan import plan_of
 from mechsym.quantities import record
 from mechsym.quantities.records import Record
