@@ -20,7 +20,7 @@ from mechsym.files import Json
 from mechsym.quantities.display import key_words
 
 if TYPE_CHECKING:
-    from mechsym.cycle.compare import ComparedValue, EngineComparison
+    from mechsym.cycle.columns import ComparedValue, EngineComparison
 
 
 @click.command(short_help="Two engines side by side over the speeds.")
@@ -41,7 +41,7 @@ def compare(
     import numpy as np
 
     from mechsym.cases.needs import SPEEDS, require
-    from mechsym.cycle.compare import compare as side_by_side
+    from mechsym.cycle.columns import compare as side_by_side
     from mechsym.cycle.engine import columns, over_speeds
     from mechsym.jobs.cycle import engine, speed_range
 

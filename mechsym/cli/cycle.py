@@ -147,7 +147,7 @@ def _show_loop(case: Case, cycles: float, as_json: bool, out: Path | None) -> No
 
 def _show_figures(case: Case, omega: list[float], over: str | None, as_json: bool, out: Path | None) -> None:
     from mechsym.cases.outcomes import of_cycle
-    from mechsym.cycle.cylinder import ENGINE_PAGE
+    from mechsym.cycle.source import ENGINE_PAGE
     from mechsym.jobs.cycle import cycle
     from mechsym.jobs.gas import one_cylinder
     from mechsym.jobs.gas import source as source_of
@@ -173,7 +173,7 @@ def _over(case: Case, omega: list[float], over: str) -> tuple[Json, dict[str, st
     from mechsym.cycle.kinds import kind_of
     from mechsym.jobs.cycle import cylinders, engine, of_engine
     from mechsym.jobs.gas import one_cylinder
-    from mechsym.optimise.problem import design_units
+    from mechsym.optimise.solver import design_units
 
     cylinders(case)  # what is wrong with them is said before the work begins
     if not kind_of(case.need("cycle")).closed:

@@ -9,7 +9,7 @@ import numpy as np
 
 from mechsym.cli.common import heads, table
 from mechsym.cycle.columns import AFTER_FRICTION, WORDS
-from mechsym.cycle.cylinder import BRAKE, IN_CYLINDER, INDICATED
+from mechsym.cycle.source import BRAKE, IN_CYLINDER, INDICATED
 from mechsym.files import Json
 from mechsym.quantities.display import figure, quantity_text, shown_in
 from mechsym.quantities.results import Columns, tell

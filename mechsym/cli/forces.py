@@ -68,7 +68,7 @@ def forces(
     from mechsym.jobs.forces import told, write
     from mechsym.jobs.gas import measured
     from mechsym.page import ranked
-    from mechsym.torsion import train
+    from mechsym.torsion import twist
     from mechsym.torsion.shown import criticals
 
     loaded = case_of(case, pairs(overrides))
@@ -82,7 +82,7 @@ def forces(
     found = run(loaded, comparison)
     numbers = told(loaded, found, parse_speeds(law, "--law") if law else None)
     report = tell(numbers)
-    doubts = of_forces(loaded, found) + (train.doubts(numbers.vibration) if numbers.vibration else ())
+    doubts = of_forces(loaded, found) + (twist.doubts(numbers.vibration) if numbers.vibration else ())
     report["doubts"] = doubts
     findings = ranked([*found.view.findings(), *criticals(numbers.vibration)])
     report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out, findings)]

@@ -13,7 +13,7 @@ from mechsym.quantities.results import declared, leaves
 RESULTS = {
     "audit": ("mechsym.audit.row:Compared", "mechsym.audit.hosts.paper:EquationPlace"),
     "balance": ("mechsym.jobs.balance:BalanceOfEngine",),
-    "compare": ("mechsym.cycle.compare:EngineComparison",),
+    "compare": ("mechsym.cycle.columns:EngineComparison",),
     "cycle": (
         "mechsym.cycle.columns:CycleColumns",
         "mechsym.jobs.measured:MeasuredDiagram",
@@ -25,7 +25,7 @@ RESULTS = {
     "optimise": ("mechsym.optimise.solver:Optimised",),
     "study": ("mechsym.sweep.numbers:StudyNumbers",),
     "sweep": ("mechsym.sweep.numbers:SweepNumbers",),
-    "simulate": ("mechsym.torsion.startup:FinishedRun",),
+    "simulate": ("mechsym.torsion.startup:FinishedRun", "mechsym.simulate.rest:RestPoses"),
     "hinge": ("mechsym.hinge.summary:HingeNumbers",),
     "codesign": ("mechsym.codesign.result:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
     "flywheel": ("mechsym.jobs.flywheel:FlywheelDesign",),

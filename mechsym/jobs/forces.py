@@ -27,9 +27,9 @@ from mechsym.page import Finding
 from mechsym.quantities.results import part, quantity
 from mechsym.quantities.results import result as result_record
 from mechsym.quantities.units import RadPerSecond
-from mechsym.torsion import train
-from mechsym.torsion.train import ShaftLimits, TrainVibration, operating_range
-from mechsym.torsion.train import vibration as vibration_of
+from mechsym.torsion import twist
+from mechsym.torsion.twist import ShaftLimits, TrainVibration, operating_range
+from mechsym.torsion.twist import vibration as vibration_of
 
 
 @result_record
@@ -98,7 +98,7 @@ def told(case: Case, found: Forces, law: Sequence[RadPerSecond] | None = None) -
     """The forces of a case in numbers. law: speeds over which the friction is fitted as a law of the cycle."""
     numbers, shaking = summary(found, case.name, case.source), vibration(case, found.turn)
     if shaking is not None:
-        numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *train.words(shaking)])
+        numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *twist.words(shaking)])
     return ForceReport(numbers=numbers, vibration=shaking, friction_law=None if law is None else _law(case, law))
 
 

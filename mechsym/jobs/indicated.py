@@ -7,7 +7,7 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.forces.indicated import (
+from mechsym.forces.textbook import (
     NORMAL_95,
     CrankTorque,
     IndicatedPressure,

@@ -14,8 +14,8 @@ from mechsym.cases.outcomes import of_run
 from mechsym.cases.runs import count_loop, guesses, settings_of, simulation_of
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.gas import piston_motion, travel_of
 from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.motion import piston_motion, travel_of
 from mechsym.errors import BadInput
 from mechsym.forces.turn import gas_faces
 from mechsym.jobs.cycle import engine
@@ -37,12 +37,21 @@ from mechsym.simulate.loop.events import CYCLE
 from mechsym.simulate.loop.run import simulate_loop
 from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
+from mechsym.simulate.rest import RestPoses, rests
 from mechsym.simulate.result import RunNumbers, final_state, summary
 from mechsym.simulate.steady import steady_state
 from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
 from mechsym.torsion.startup import numbers as start_numbers
-from mechsym.torsion.train import doubts, twist_words, words
-from mechsym.torsion.twist import Settling, natural_frequencies, sections, sentences, settling
+from mechsym.torsion.twist import (
+    Settling,
+    doubts,
+    natural_frequencies,
+    sections,
+    sentences,
+    settling,
+    twist_words,
+    words,
+)
 
 
 def in_loop(case: Case) -> bool:
@@ -207,6 +216,16 @@ def run_of(case: Case, settings: Settings) -> tuple[Result, RunNumbers, float]:
         result = simulate(problem, settings)
     period = period_of(problem)
     return result, summary(result, problem.mechanism.coordinates, window_of(case, problem), period), period
+
+
+def at_rest(case: Case) -> RestPoses:
+    """Where a case stays at rest, under its constant forces, and whether it comes back there."""
+    if in_loop(case):
+        raise BadInput(f"{case.file}: the gas of an engine that runs has no pose at rest; leave [cycle] out")
+    try:
+        return rests(problem_of(beyond(case)), case.name)
+    except BadInput as error:
+        raise BadInput(f"{case.file}: {error}") from None
 
 
 def _rubbing(result: Result) -> tuple[str, ...]:
