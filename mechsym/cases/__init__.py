@@ -18,6 +18,7 @@ from typing import Any
 from mechsym.cases import schema
 from mechsym.cases.doubts import acceptances, judged
 from mechsym.cases.laws import Records
+from mechsym.cases.older import renewed
 from mechsym.cases.values import Place, convert, override, paths, place, without_unit
 from mechsym.errors import BadInput, MissingSection, shown, suggest
 from mechsym.files import Json
@@ -109,7 +110,8 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
     """
     file, head, sections = _raw(name, overrides)
     try:
-        accepted = acceptances(_tables(*_read(name)).get("doubts", {}))
+        tables, notes = renewed(_tables(*_read(name)))
+        accepted = acceptances(tables.get("doubts", {}))
         records = {key: _beside(_section(head["mechanism"], key, table), name) for key, table in sections.items()}
         doubts = judged(records, head["mechanism"])
     except BadInput as error:
@@ -125,7 +127,7 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
         sections=records,
         path=name,
         overrides=overrides or {},
-        doubts=doubts,
+        doubts=(*doubts, *notes),
         acceptances=accepted,
     )
 
@@ -170,7 +172,7 @@ def locate(name: str, key: str, overrides: Mapping[str, object] | None = None, o
 def _raw(name: str, overrides: Mapping[str, object] | None) -> tuple[str, dict[str, str], Json]:
     """File, head and sections of a case with what is replaced, not yet checked."""
     file, content = _read(name)
-    tables = _tables(file, content)
+    tables, _ = renewed(_tables(file, content))
     usual = {"source": "own", "about": ""} if own.is_file(str(tables.get("mechanism"))) else {}
     head = {key: _head(usual | tables, key, file) for key in _HEAD}
     head["mechanism"] = own.located(head["mechanism"], Path(name).parent)

@@ -12,7 +12,7 @@ import click
 # before numpy is there: threads of BLAS would wait for small matrices with a processor each
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from mechsym import interrupts  # noqa: E402
+from mechsym import __version__, interrupts  # noqa: E402
 from mechsym.errors import BadInput, suggest  # noqa: E402
 from mechsym.quantities import load  # noqa: E402
 from mechsym.transaction import forget  # noqa: E402
@@ -60,6 +60,7 @@ GROUPS = {
         "prove": "mechsym.cli.prove:prove",
         "derive": "mechsym.cli.derive:derive",
         "native": "mechsym.cli.native:native",
+        "cite": "mechsym.cli.cite:cite",
     },
 }
 COMMANDS = {name: place for group in GROUPS.values() for name, place in group.items()}
@@ -190,7 +191,7 @@ def _units(ctx: click.Context, _: click.Parameter, wanted: str | None) -> None:
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
-@click.version_option(package_name="mechsym", prog_name="mechsym")
+@click.version_option(__version__, prog_name="mechsym")
 def mechsym() -> None:
     """From a mechanism on paper to verified machine code.
 

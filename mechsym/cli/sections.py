@@ -8,7 +8,12 @@ from mechsym.files import Json
 
 @click.command(short_help="Every section and key of a case, or a schema for editors.")
 @click.argument("name", required=False)
-@click.option("--schema", "as_schema", is_flag=True, help="Print the JSON Schema of case files, for editors.")
+@click.option(
+    "--schema",
+    "as_schema",
+    is_flag=True,
+    help="Print the JSON Schema of case files; with --results that of what commands tell.",
+)
 @click.option("--results", "of_results", is_flag=True, help="What commands tell: with NAME the numbers of one command.")
 @json_option
 def sections(name: str | None, as_schema: bool, of_results: bool, as_json: bool) -> None:
@@ -19,6 +24,7 @@ def sections(name: str | None, as_schema: bool, of_results: bool, as_json: bool)
               mechsym sections spring
               mechsym sections --schema > mechsym.schema.json
               mechsym sections --results flywheel
+              mechsym sections --results --schema flywheel
     """
     from mechsym.cases.keys import json_schema, keys
     from mechsym.cli import results
@@ -26,7 +32,9 @@ def sections(name: str | None, as_schema: bool, of_results: bool, as_json: bool)
     if as_schema:
         from mechsym.files import to_json
 
-        click.echo(to_json(json_schema()))
+        commands = [name] if name else sorted([*results.RESULTS, *results.WORDS])
+        told = {one: results.schema(one) for one in commands} if of_results else {}
+        click.echo(to_json((told[name] if name else told) if of_results else json_schema()))
         return
     if of_results:
         numbers = results.rows(name)

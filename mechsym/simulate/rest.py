@@ -120,7 +120,10 @@ def _round(motion: _Motion, start: np.ndarray) -> list[np.ndarray]:
     for (p, a), (r, b) in itertools.pairwise(rows):
         if p is None or r is None or not a * b <= 0 or a == b == 0 or (b == 0 and r is not rows[-1][0]):
             continue
-        angle = scipy.optimize.brentq(lambda x, p=p: _along(motion, x, p), p[i], r[i], xtol=1e-14)
+        try:
+            angle = scipy.optimize.brentq(lambda x, p=p: _along(motion, x, p), p[i], r[i], xtol=1e-14)
+        except ValueError:  # the loop opens in between
+            continue
         pose = motion.close(np.array([angle]), p)
         if pose is not None and abs(motion.at(pose)[0]) <= 1e-6 * largest:
             found.append(pose)

@@ -3,7 +3,6 @@
 The token is made from the sources: the same model gives the same token and, without binaries, the same file.
 """
 
-import importlib.metadata
 import importlib.util
 import platform
 import sys
@@ -15,6 +14,7 @@ from importlib import resources
 from io import BytesIO
 from pathlib import Path
 
+import mechsym
 from mechsym.errors import BadInput
 from mechsym.files import write_bytes
 from mechsym.native import compiler
@@ -87,7 +87,7 @@ def fmu(
     sources["identity.h"] = f'#define TOKEN "{token}"\n' + (prefix if version == 2 else "")
     files: dict[str, str | bytes] = {f"sources/{name}": text for name, text in sources.items()}
     main = [f"fmi{version}.c"]
-    tool = f"mechsym {importlib.metadata.version('mechsym')}"
+    tool = f"mechsym {mechsym.__version__}"
     files["modelDescription.xml"] = description(block, version, token, main, tool)
     if version == 3:
         files["sources/buildDescription.xml"] = build_description(block, main)
