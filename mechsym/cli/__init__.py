@@ -50,8 +50,8 @@ GROUPS = {
     "Give": {
         "report": "mechsym.cli.report:report",
         "app": "mechsym.cli.app:app",
-        "page": "mechsym.cli.page:page",
-        "fmu": "mechsym.cli.fmu:fmu",
+        "page": "mechsym.cli.export:page",
+        "fmu": "mechsym.cli.export:fmu",
         "export": "mechsym.cli.export:export",
     },
     "Verify": {
@@ -59,7 +59,7 @@ GROUPS = {
         "reproduce": "mechsym.cli.reproduce:reproduce",
         "prove": "mechsym.cli.prove:prove",
         "derive": "mechsym.cli.derive:derive",
-        "native": "mechsym.cli.native:native",
+        "native": "mechsym.cli.catalogue:native",
     },
 }
 COMMANDS = {name: place for group in GROUPS.values() for name, place in group.items()}

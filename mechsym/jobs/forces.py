@@ -9,7 +9,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import require
-from mechsym.cases.runs import guesses
+from mechsym.cases.settings import guesses
 from mechsym.cycle.friction import Friction, MechanismFriction
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput

@@ -14,7 +14,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cases.runs import guesses
+from mechsym.cases.settings import guesses
 from mechsym.cycle.chamber import Chamber, motion_over, piston_area
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.friction import Friction, NoFriction

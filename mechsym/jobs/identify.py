@@ -9,7 +9,7 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.cases.needs import require
-from mechsym.cases.runs import guesses
+from mechsym.cases.settings import guesses
 from mechsym.errors import BadInput, suggest
 from mechsym.jobs.machine import constants, drive_on
 from mechsym.mechanisms import parameters_class

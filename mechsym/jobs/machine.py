@@ -14,7 +14,7 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cases import Case
-from mechsym.cases.runs import guesses
+from mechsym.cases.settings import guesses
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
 from mechsym.forces.friction import FittedLaw, NoRings, fit

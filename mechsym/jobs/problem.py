@@ -19,7 +19,7 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cases import Case
-from mechsym.cases.runs import TURN_POINTS, count_times, count_turns, guesses, simulation_of
+from mechsym.cases.settings import TURN_POINTS, count_times, count_turns, guesses, simulation_of
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
 from mechsym.hinge.guide import Guide, cut, fitted

@@ -11,7 +11,7 @@ from mechsym.cases import Case
 from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import require
 from mechsym.cases.outcomes import of_run
-from mechsym.cases.runs import count_loop, guesses, settings_of, simulation_of
+from mechsym.cases.settings import count_loop, guesses, settings_of, simulation_of
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.kinds import kind_of

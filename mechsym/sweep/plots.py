@@ -13,7 +13,7 @@ from mechsym.quantities.display import key_words, without_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
 from mechsym.style.panels import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
-from mechsym.sweep.sensitivity import indices
+from mechsym.sweep.data import indices
 
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own

@@ -5,7 +5,6 @@ controller.py the pressure controller of a hinge
 compare.py    an FMU against the simulation        fmi2.c, fmi3.c   the interface of c/core.h
 """
 
-from mechsym.out.fmi.build import Unit, fmu, write
-from mechsym.out.fmi.controller import controller
+from mechsym.out.fmi.build import Unit, controller, fmu, write
 
 __all__ = ["Unit", "controller", "fmu", "write"]

@@ -12,8 +12,7 @@ from mechsym.native.integrators import dop853_numbers
 from mechsym.native.tape import Tape, read
 from mechsym.out.block import Block, Curve
 from mechsym.out.fmi.describe import identifier, variables
-from mechsym.out.text.dialects import C99, number, statements
-from mechsym.out.text.programs import Written, told
+from mechsym.out.text.dialects import C99, Written, number, statements, told
 
 
 def function(tape: Tape, name: str, kind: str = "static void") -> str:

@@ -4,7 +4,6 @@ build.py   C to WebAssembly, and the page        page.c     what the page calls
 page.html  sliders and curves    live.py    the page inside a report
 """
 
-from mechsym.out.web.build import page
-from mechsym.out.web.live import LiveRun, with_live
+from mechsym.out.web.build import LiveRun, page, with_live
 
 __all__ = ["LiveRun", "page", "with_live"]

@@ -2,6 +2,7 @@
 
 import base64
 import errno
+import html
 import importlib.util
 import json
 import math
@@ -11,15 +12,18 @@ from collections.abc import Callable, Sequence
 from importlib import resources
 from pathlib import Path
 
-from mechsym.errors import MissingExtra
+from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import Json
+from mechsym.jobs.problem import Ready
 from mechsym.mechanisms.turning import rules
 from mechsym.native.compiler import NoCompiler, call, forecast
 from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block, Port
 from mechsym.out.fmi.describe import variables
+from mechsym.out.laws import block_of
 from mechsym.out.text.language_c import model
 from mechsym.page import page as template
+from mechsym.quantities import record
 from mechsym.quantities.display import chosen
 from mechsym.quantities.results import part, quantity, result
 from mechsym.style import DARK, GRID, QUIET, SERIES, axis_unit
@@ -173,3 +177,35 @@ def _slider(port: Port, low: float, high: float) -> Json:
         "name": port.name, "unit": port.unit, "start": port.start, "low": ends[0], "high": ends[1],
         "about": port.about or port.name, "sets": [port.name],
     }  # fmt: skip
+
+
+_END = "</body>"
+# as high as what it shows, which changes with the width of the page
+_FIT = "const b=this.contentDocument.body;new ResizeObserver(()=>{this.style.height=b.scrollHeight+48+'px'}).observe(b)"
+
+
+@record
+class LiveRun:
+    """A run that a report is to carry."""
+
+    name: str
+    about: str
+    ready: Callable[[], Ready]  #: makes it ready, or refuses
+
+
+def with_live(text: str, runs: Sequence[LiveRun]) -> str:
+    """The text of a report with a section for each run at its end."""
+    head, end, tail = text.rpartition(_END)
+    return "".join([head, *map(section, runs), end, tail])
+
+
+def section(run: LiveRun) -> str:
+    """A section in which a machine simulates; where it cannot, what is missing."""
+    name = html.escape(run.name)
+    title = f'<h2 id="live-{name}">Try it: {name} simulates here</h2>'
+    try:
+        made = page(block_of(run.name, run.about, run.ready()))
+    except (MissingExtra, BadInput) as missing:
+        return f'{title}<p class="note">Not in this report: {html.escape(str(missing))}</p>\n'
+    frame = f'<iframe title="{name} simulates" srcdoc="{html.escape(made)}"'
+    return f'{title}{frame} style="width:100%;height:56rem;border:0" onload="{_FIT}"></iframe>\n'

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mechsym.cases import load
-from mechsym.papers.chmielewski2015.computed import (
+from mechsym.papers.chmielewski2015.rows import (
     CASE,
     CLAIMED_SPEED,
     CLAIMED_TIME,
