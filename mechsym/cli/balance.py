@@ -12,7 +12,7 @@ from mechsym.files import Json
 from mechsym.quantities.display import figure, quantity_text
 
 if TYPE_CHECKING:
-    from mechsym.jobs.balance import BalanceOfEngine, WeightNumbers
+    from mechsym.jobs.forces import BalanceOfEngine, WeightNumbers
 
 _SEEN = 1e-6  # of the largest order: a lower one is not listed
 
@@ -43,8 +43,8 @@ def balance(
     Examples: mechsym balance opposed-pistons --shafts 1
               mechsym balance zotov-89 --weights none --shafts 1,2 --out balance
     """
-    from mechsym.jobs.balance import balance as run
-    from mechsym.jobs.balance import numbers, write
+    from mechsym.jobs.forces import balance as run
+    from mechsym.jobs.forces import numbers, write_balance
     from mechsym.mechanisms import listing
     from mechsym.quantities import parse
 
@@ -57,7 +57,7 @@ def balance(
     turning = tuple(dict.fromkeys(map(int, orders)))
     one = run(case, weights, turning, least, most, parse(apart, "m", "--apart"))
     told = numbers(case, one)
-    files = write(one, told, out, case.about or listing(case.mechanism)["about"]) if out else []
+    files = write_balance(one, told, out, case.about or listing(case.mechanism)["about"]) if out else []
     emit(told, lambda: _text(told), files=files)
 
 

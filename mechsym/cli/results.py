@@ -11,7 +11,7 @@ from mechsym.quantities.results import declared, leaves
 #: Command: the results that it may give, each "module:class"
 RESULTS = {
     "audit": ("mechsym.audit.row:Compared", "mechsym.audit.hosts.paper:EquationPlace"),
-    "balance": ("mechsym.jobs.balance:BalanceOfEngine",),
+    "balance": ("mechsym.jobs.forces:BalanceOfEngine",),
     "compare": ("mechsym.cycle.compare:EngineComparison",),
     "cycle": ("mechsym.cycle.columns:CycleColumns", "mechsym.jobs.measured:MeasuredDiagram",
               "mechsym.jobs.indicated:TorquePressure", "mechsym.simulate.loop.run:LoopNumbers"),

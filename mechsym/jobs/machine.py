@@ -17,20 +17,9 @@ from mechsym.cases import Case
 from mechsym.cases.settings import guesses
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
+from mechsym.forces import turn as physics
 from mechsym.forces.friction import FittedLaw, NoRings, fit
-from mechsym.forces.turn import (
-    Acting,
-    CrankDrive,
-    GasFace,
-    Turn,
-    acting,
-    angles,
-    at,
-    drive_with,
-    period_of,
-    pushes,
-    shaft_torque,
-)
+from mechsym.forces.turn import Acting, CrankDrive, GasFace, Turn, period_of, pushes
 from mechsym.jobs.gas import at_recorded_speed, common_period, gas, kinks_of, of, pistons, shaft_curve
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import AngleForce, Machine, firing_of
@@ -82,8 +71,15 @@ def machine(case: Case, diagram: str | None = None, inertia: Inertia = 0.0) -> M
 
 
 def turned_by(case: Case, mechanism: Mechanism) -> Machine:
-    """A mechanism with one coordinate under the gas of `[cycle]`, or the torque of `[torque]`, alone."""
-    return _with_gas(case, mechanism) if "cycle" in case.sections else _with_torque_curve(case, mechanism)
+    """A mechanism with one coordinate under the gas of `[cycle]`, or the torque of `[torque]`, or nothing."""
+    if "cycle" in case.sections:
+        return _with_gas(case, mechanism)
+    if "torque" not in case.sections:
+        return _bare(case, mechanism)
+    curve, period = shaft_curve(case, mechanism, case.need("operation").speed)
+    name, sign = shaft_input(case, mechanism)
+    force = AngleForce(name="torque", input=name, value=lambda phi: sign * curve(phi))
+    return _bare(case, mechanism, forces=(force,), period=period)
 
 
 def _bare(case: Case, mechanism: Mechanism, **acting: Any) -> Machine:
@@ -95,42 +91,36 @@ def _bare(case: Case, mechanism: Mechanism, **acting: Any) -> Machine:
 
 def _with_gas(case: Case, mechanism: Mechanism) -> Machine:
     """A machine whose pistons the gas of `[cycle]` pushes."""
+    burns = kind_of(case.need("cycle")).fired
     if not mechanisms.roles_of(case.mechanism).pistons:
-        return _with_shared_gas(case, mechanism)
+        return _with_shared_gas(case, mechanism, burns)
     first, *others = acting = pistons(case, mechanism)
     # from a dead centre at the angle 0 on, a turn without combustion is known too
     if not others and first.start == 0.0:
         return _bare(case, mechanism, gas=first.gas, gas_input=first.input)
     names = [f"gas_{p.name}" if others else "gas" for p in acting]
     forces = tuple(AngleForce(name=n, input=p.input, value=p.force) for n, p in zip(names, acting, strict=True))
+    several = tuple(firing_of(p.gas, p.input, p.start) for p in acting) if burns else ()
     period, kinks = common_period(acting), kinks_of(acting)
-    several = tuple(firing_of(p.gas, p.input, p.start) for p in acting) if _burns(case) else ()
-    return _bare(
-        case, mechanism, gas=first.gas, gas_input="", forces=forces, period=period, kinks=kinks, several=several
-    )
+    by = {"period": period, "kinks": kinks, "several": several}
+    return _bare(case, mechanism, gas=first.gas, gas_input="", forces=forces, **by)
 
 
-def _burns(case: Case) -> bool:
-    return kind_of(case.need("cycle")).fired
-
-
-def _with_shared_gas(case: Case, mechanism: Mechanism) -> Machine:
+def _with_shared_gas(case: Case, mechanism: Mechanism, burns: bool) -> Machine:
     """The same where the faces of a case, or the throws of a train, say which way the gas of one cylinder pushes."""
     acts = acting_on(case, drive_of(case))
-    found = acts[0].gas
-    period = found.pressure.period
+    period = acts[0].gas.pressure.period
     starts = {one.face.fires for one in acts}
-    kinks = sorted({(k + start) % period for start in starts for k in found.pressure.kinks})
+    kinks = sorted({(k + start) % period for start in starts for k in acts[0].gas.pressure.kinks})
 
     def force(key: str) -> AngleForce:
         return AngleForce(name=f"gas_{key}", input=key, value=lambda phi: pushes(acts, phi)[key])
 
-    return _bare(
-        case, mechanism, gas=found, gas_input="", forces=tuple(map(force, pushes(acts, np.zeros(1)))),
-        period=period, kinks=tuple(kinks),
-        several=tuple(firing_of(a.gas, a.face.input, a.face.fires, a.face.area, a.face.sense) for a in acts)
-        if _burns(case) else (),
-    )  # fmt: skip
+    forces = tuple(map(force, pushes(acts, np.zeros(1))))
+    fired = acts if burns else ()
+    several = tuple(firing_of(a.gas, a.face.input, a.face.fires, a.face.area, a.face.sense) for a in fired)
+    by = {"period": period, "kinks": tuple(kinks), "several": several}
+    return _bare(case, mechanism, gas=acts[0].gas, gas_input="", forces=forces, **by)
 
 
 def drive_of(case: Case) -> CrankDrive:
@@ -142,7 +132,7 @@ def drive_of(case: Case) -> CrankDrive:
         faces = case.need("faces") if "cycle" in case.sections else case.sections.get("faces")
     mechanism = one_coordinate(case)
     with of(case):
-        return drive_with(mechanism, case.mechanism, parameters, faces, closing)
+        return physics.drive_with(mechanism, case.mechanism, parameters, faces, closing)
 
 
 def acting_on(case: Case, drive: CrankDrive) -> tuple[Acting, ...]:
@@ -150,22 +140,12 @@ def acting_on(case: Case, drive: CrankDrive) -> tuple[Acting, ...]:
     if drive.roles.faces:
         found = gas(case)
         with of(case):
-            return acting(drive, found)
+            return physics.acting(drive, found)
     travels = {role.force: role.travel for role in drive.roles.pistons}
     return tuple(
         Acting(gas=one.gas, face=GasFace(input=one.input, travel=travels[one.input], fires=one.start))
         for one in pistons(case, drive.mechanism)
     )
-
-
-def _with_torque_curve(case: Case, mechanism: Mechanism) -> Machine:
-    """A machine that no gas turns: the torque of `[torque]` acts on the shaft, or none."""
-    if "torque" not in case.sections:
-        return _bare(case, mechanism)
-    curve, period = shaft_curve(case, mechanism, case.need("operation").speed)
-    name, sign = shaft_input(case, mechanism)
-    force = AngleForce(name="torque", input=name, value=lambda phi: sign * curve(phi))
-    return _bare(case, mechanism, forces=(force,), period=period)
 
 
 def _with_besides(plain: Machine, inputs: Mapping[str, float], driven: bool) -> Machine:
@@ -329,8 +309,15 @@ def turn(case: Case) -> Turn:
 def _turn(case: Case) -> Turn:
     drive, omega = drive_of(case), case.need("operation").speed
     acts, period, held = _what_acts(case, drive, omega)
-    found = at(drive, acts, omega, angles(period), held, period)
-    _require_closed(case, found)
+    found = physics.at(drive, acts, omega, physics.angles(period), held, period)
+    curves: Mapping[str, np.ndarray] = {**found.kinematics, **found.reactions, "torque": found.torque}
+    opened = ~np.all([np.isfinite(v) for v in curves.values()], axis=0)
+    if opened.any():
+        (q,) = drive.mechanism.coordinates
+        at_angle = f"{q} = {np.degrees(found.phi[np.argmax(opened)]):.3f} deg"
+        raise BadInput(
+            f"{case.file}: the loop opens at {at_angle}: links too short, or a wrong branch; it cannot turn round"
+        )
     return found
 
 
@@ -338,37 +325,21 @@ def torque(case: Case) -> np.ndarray:
     """Torque for the load over one cycle of a case, without the reactions: shape (n,) [N*m]."""
     drive, omega = drive_of(case), case.need("operation").speed
     acts, period, held = _what_acts(case, drive, omega)
-    return shaft_torque(drive, acts, omega, angles(period), held)
+    return physics.shaft_torque(drive, acts, omega, physics.angles(period), held)
 
 
 def _what_acts(case: Case, drive: CrankDrive, omega: float) -> tuple[tuple[Acting, ...], float, dict[str, np.ndarray]]:
     """Cylinders, the period of all that acts [rad], and what acts besides by input."""
     acts, (curve, of_curve) = acting_on(case, drive), shaft_curve(case, drive.mechanism, omega)
-    period = max(period_of(acts), of_curve) * _turns(case)
-    phi = angles(period)
+    # a mechanism with loops may repeat after several turns of its first coordinate only
+    looped = mechanisms.listing(case.mechanism).get("dependents")
+    period = max(period_of(acts), of_curve) * (along_turn(mechanism_of(case))[1] if looped else 1)
+    phi = physics.angles(period)
     held = {name: np.full_like(phi, value) for name, value in constants(case).items() if value}
     if "torque" in case.sections:
         name, sign = shaft_input(case, drive.mechanism)
         held[name] = held.get(name, np.zeros_like(phi)) + sign * curve(phi)
     return acts, period, held
-
-
-def _turns(case: Case) -> int:
-    """Turns of the first coordinate after which a mechanism with loops repeats."""
-    if not mechanisms.listing(case.mechanism).get("dependents"):
-        return 1
-    return along_turn(mechanism_of(case))[1]
-
-
-def _require_closed(case: Case, found: Turn) -> None:
-    curves: Mapping[str, np.ndarray] = {**found.kinematics, **found.reactions, "torque": found.torque}
-    opened = ~np.all([np.isfinite(v) for v in curves.values()], axis=0)
-    if opened.any():
-        (q,) = found.drive.mechanism.coordinates
-        at_angle = f"{q} = {np.degrees(found.phi[np.argmax(opened)]):.3f} deg"
-        raise BadInput(
-            f"{case.file}: the loop opens at {at_angle}: links too short, or a wrong branch; it cannot turn round"
-        )
 
 
 def fitted_law(case: Case, omega: Sequence[RadPerSecond]) -> FittedLaw:

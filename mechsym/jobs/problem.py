@@ -24,19 +24,9 @@ from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
 from mechsym.hinge.guide import Guide, cut, fitted
 from mechsym.hinge.torque import Hinge, torque
+from mechsym.jobs import machine as machines
 from mechsym.jobs.gas import at_recorded_speed
-from mechsym.jobs.machine import (
-    acting_on,
-    constants,
-    drive_of,
-    drive_on,
-    load_input,
-    machine,
-    mechanism_of,
-    turn,
-    turned_by,
-    turning,
-)
+from mechsym.jobs.machine import acting_on, drive_of, load_input, machine, mechanism_of
 from mechsym.machine.loads import Load, PropellerLoad, settle
 from mechsym.machine.record import Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.beyond import by_constraint, meets
@@ -115,12 +105,28 @@ def ready(case: Case) -> Ready:
     case = at_recorded_speed(case)
     wanted, mechanism = simulation_of(case), mechanism_of(case)
     driving = driving_of(case)
-    drive = drive_on(case, mechanism) if "drive" in case.sections else None
-    shaft = _shaft(case, mechanism, bool(driving.parts) or is_hinged(case), drive is not None)
-    speed = _speed(case, wanted, shaft)
+    drive = machines.drive_on(case, mechanism) if "drive" in case.sections else None
+    declared = [r.angle for r in mechanisms.roles_of(case.mechanism).rotors if r.load]
+    shaft = _Shaft(
+        coordinate=next((q for q in declared if q in mechanism.coordinates), mechanism.coordinates[0]),
+        twists=sum(q not in mechanism.dependents for q in mechanism.coordinates) > 1,
+        engine=bool(driving.parts) or is_hinged(case),
+        driven=drive is not None,
+    )
+    speed = wanted.speed_start
+    if speed is None:
+        speed = case.need("operation").speed if shaft.running else 0.0
     law = _law(case, driving.torque + (drive.driving if drive else 0.0), speed, shaft)
-    parts = [_switched(case, drive.input, drive.value)] if drive else []
-    parts += [*driving.parts, *_constant(case, {part.input for part in (*parts, *driving.parts)})]
+    parts = []
+    if drive:
+        time = case.need("drive").time
+        steps = Steps(times=(time,), values=(0.0, drive.value)) if time > 0 else Steps(values=(drive.value,))
+        parts.append(Part(name="drive", input=drive.input, value=steps))
+    parts += driving.parts
+    taken = {part.input for part in parts}
+    for name, value in machines.constants(case).items():  # on what nothing else acts on
+        if value and name not in taken:
+            parts.append(Part(name=f"input_{name}", input=name, value=Steps(values=(value,))))
     guide = None
     if is_hinged(case) and not shaft.twists:
         engine, hinge, guide = guide_of(case)
@@ -146,19 +152,6 @@ def ready(case: Case) -> Ready:
     return Ready(problem=problem, guide=guide, load=law)
 
 
-def _shaft(case: Case, mechanism: Mechanism, engine: bool, driven: bool) -> _Shaft:
-    declared = [r.angle for r in mechanisms.roles_of(case.mechanism).rotors if r.load]
-    free = [q for q in mechanism.coordinates if q not in mechanism.dependents]
-    angle = next((q for q in declared if q in mechanism.coordinates), mechanism.coordinates[0])
-    return _Shaft(coordinate=angle, twists=len(free) > 1, engine=engine, driven=driven)
-
-
-def _speed(case: Case, wanted: Simulation, shaft: _Shaft) -> float:
-    if wanted.speed_start is not None:
-        return wanted.speed_start
-    return case.need("operation").speed if shaft.running else 0.0
-
-
 def _unsettled(case: Case, shaft: _Shaft) -> Load | None:
     """The law of the load as the case gives it: without one an engine drives a propeller."""
     return case.sections.get("load", PropellerLoad() if shaft.running else None)
@@ -177,18 +170,6 @@ def _law(case: Case, mean: float, speed: float, shaft: _Shaft) -> Load | None:
         )
     known = blank or "operation" in case.sections
     return settle(law, mean, case.need("operation").speed if known else math.nan)
-
-
-def _switched(case: Case, name: str, value: float) -> Part:
-    time = case.need("drive").time
-    steps = Steps(times=(time,), values=(0.0, value)) if time > 0 else Steps(values=(value,))
-    return Part(name="drive", input=name, value=steps)
-
-
-def _constant(case: Case, taken: set[str]) -> list[Part]:
-    """Constants of `[inputs]`, on what nothing else acts on."""
-    given = {name: value for name, value in constants(case).items() if value and name not in taken}
-    return [Part(name=f"input_{name}", input=name, value=Steps(values=(value,))) for name, value in given.items()]
 
 
 def _at(machine: Machine, name: str) -> Part:
@@ -283,7 +264,7 @@ def driving_of(case: Case) -> Driving:
     whole = mechanism_of(case)
     if len(whole.coordinates) - len(whole.dependents) > 1:
         return _on_throws(case, whole)
-    plain = turned_by(case, turning(case))
+    plain = machines.turned_by(case, machines.turning(case))
     (q,) = plain.mechanism.coordinates
     still = replace(plain, mechanism=at_rest(plain.mechanism))
     angles = kinks_of(plain)
@@ -317,4 +298,4 @@ def _on_throws(case: Case, mechanism: Mechanism) -> Driving:
         value = Periodic(coordinate=name, value=one.force, period=period, kinks=angles)
         parts.append(Part(name=f"gas_{number}", input=one.face.input, value=value))
     kinks = (Kinks(coordinate=q, angles=tuple(sorted(found)), period=period) for q, found in bends.items() if found)
-    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(turn(case).torque)))
+    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(machines.turn(case).torque)))
