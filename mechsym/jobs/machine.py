@@ -17,9 +17,20 @@ from mechsym.cases import Case
 from mechsym.cases.settings import guesses
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
-from mechsym.forces import turn as physics
 from mechsym.forces.friction import FittedLaw, NoRings, fit
-from mechsym.forces.turn import Acting, CrankDrive, GasFace, Turn, period_of, pushes
+from mechsym.forces.turn import (
+    Acting,
+    CrankDrive,
+    GasFace,
+    Turn,
+    acting,
+    angles,
+    at,
+    drive_with,
+    period_of,
+    pushes,
+    shaft_torque,
+)
 from mechsym.jobs.gas import at_recorded_speed, common_period, gas, kinks_of, of, pistons, shaft_curve
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.machine.record import AngleForce, Machine, firing_of
@@ -132,7 +143,7 @@ def drive_of(case: Case) -> CrankDrive:
         faces = case.need("faces") if "cycle" in case.sections else case.sections.get("faces")
     mechanism = one_coordinate(case)
     with of(case):
-        return physics.drive_with(mechanism, case.mechanism, parameters, faces, closing)
+        return drive_with(mechanism, case.mechanism, parameters, faces, closing)
 
 
 def acting_on(case: Case, drive: CrankDrive) -> tuple[Acting, ...]:
@@ -140,7 +151,7 @@ def acting_on(case: Case, drive: CrankDrive) -> tuple[Acting, ...]:
     if drive.roles.faces:
         found = gas(case)
         with of(case):
-            return physics.acting(drive, found)
+            return acting(drive, found)
     travels = {role.force: role.travel for role in drive.roles.pistons}
     return tuple(
         Acting(gas=one.gas, face=GasFace(input=one.input, travel=travels[one.input], fires=one.start))
@@ -309,7 +320,7 @@ def turn(case: Case) -> Turn:
 def _turn(case: Case) -> Turn:
     drive, omega = drive_of(case), case.need("operation").speed
     acts, period, held = _what_acts(case, drive, omega)
-    found = physics.at(drive, acts, omega, physics.angles(period), held, period)
+    found = at(drive, acts, omega, angles(period), held, period)
     curves: Mapping[str, np.ndarray] = {**found.kinematics, **found.reactions, "torque": found.torque}
     opened = ~np.all([np.isfinite(v) for v in curves.values()], axis=0)
     if opened.any():
@@ -325,7 +336,7 @@ def torque(case: Case) -> np.ndarray:
     """Torque for the load over one cycle of a case, without the reactions: shape (n,) [N*m]."""
     drive, omega = drive_of(case), case.need("operation").speed
     acts, period, held = _what_acts(case, drive, omega)
-    return physics.shaft_torque(drive, acts, omega, physics.angles(period), held)
+    return shaft_torque(drive, acts, omega, angles(period), held)
 
 
 def _what_acts(case: Case, drive: CrankDrive, omega: float) -> tuple[tuple[Acting, ...], float, dict[str, np.ndarray]]:
@@ -334,7 +345,7 @@ def _what_acts(case: Case, drive: CrankDrive, omega: float) -> tuple[tuple[Actin
     # a mechanism with loops may repeat after several turns of its first coordinate only
     looped = mechanisms.listing(case.mechanism).get("dependents")
     period = max(period_of(acts), of_curve) * (along_turn(mechanism_of(case))[1] if looped else 1)
-    phi = physics.angles(period)
+    phi = angles(period)
     held = {name: np.full_like(phi, value) for name, value in constants(case).items() if value}
     if "torque" in case.sections:
         name, sign = shaft_input(case, drive.mechanism)

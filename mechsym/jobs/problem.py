@@ -24,9 +24,19 @@ from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
 from mechsym.hinge.guide import Guide, cut, fitted
 from mechsym.hinge.torque import Hinge, torque
-from mechsym.jobs import machine as machines
 from mechsym.jobs.gas import at_recorded_speed
-from mechsym.jobs.machine import acting_on, drive_of, load_input, machine, mechanism_of
+from mechsym.jobs.machine import (
+    acting_on,
+    constants,
+    drive_of,
+    drive_on,
+    load_input,
+    machine,
+    mechanism_of,
+    turn,
+    turned_by,
+    turning,
+)
 from mechsym.machine.loads import Load, PropellerLoad, settle
 from mechsym.machine.record import Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.beyond import by_constraint, meets
@@ -105,7 +115,7 @@ def ready(case: Case) -> Ready:
     case = at_recorded_speed(case)
     wanted, mechanism = simulation_of(case), mechanism_of(case)
     driving = driving_of(case)
-    drive = machines.drive_on(case, mechanism) if "drive" in case.sections else None
+    drive = drive_on(case, mechanism) if "drive" in case.sections else None
     declared = [r.angle for r in mechanisms.roles_of(case.mechanism).rotors if r.load]
     shaft = _Shaft(
         coordinate=next((q for q in declared if q in mechanism.coordinates), mechanism.coordinates[0]),
@@ -124,7 +134,7 @@ def ready(case: Case) -> Ready:
         parts.append(Part(name="drive", input=drive.input, value=steps))
     parts += driving.parts
     taken = {part.input for part in parts}
-    for name, value in machines.constants(case).items():  # on what nothing else acts on
+    for name, value in constants(case).items():  # on what nothing else acts on
         if value and name not in taken:
             parts.append(Part(name=f"input_{name}", input=name, value=Steps(values=(value,))))
     guide = None
@@ -264,7 +274,7 @@ def driving_of(case: Case) -> Driving:
     whole = mechanism_of(case)
     if len(whole.coordinates) - len(whole.dependents) > 1:
         return _on_throws(case, whole)
-    plain = machines.turned_by(case, machines.turning(case))
+    plain = turned_by(case, turning(case))
     (q,) = plain.mechanism.coordinates
     still = replace(plain, mechanism=at_rest(plain.mechanism))
     angles = kinks_of(plain)
@@ -298,4 +308,4 @@ def _on_throws(case: Case, mechanism: Mechanism) -> Driving:
         value = Periodic(coordinate=name, value=one.force, period=period, kinks=angles)
         parts.append(Part(name=f"gas_{number}", input=one.face.input, value=value))
     kinks = (Kinks(coordinate=q, angles=tuple(sorted(found)), period=period) for q, found in bends.items() if found)
-    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(machines.turn(case).torque)))
+    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(turn(case).torque)))
