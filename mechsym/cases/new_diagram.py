@@ -49,13 +49,17 @@ def diagram_case(
     text = resources.files("mechsym.cases").joinpath("starts/diagram.toml").read_text("utf-8")
     n_c, about = (1.30, "mixture with fuel") if ratio < _SPARK else (1.34, "air")
     named = f'recorded_speed = "{speed / RPM:.6g} rpm"   # the file has times and no angles: its speed, even\n'
+    try:  # the path of the file as a case in the folder names it
+        file = Path(os.path.relpath(trace.resolve(), folder.resolve())).as_posix()
+    except ValueError:  # another drive
+        file = trace.resolve().as_posix()
     filled = fill(
         text, trace=trace.name, bore=1e3 * sizes.bore, stroke=1e3 * sizes.stroke, radius=1e3 * radius, l1=1e3 * l1,
         l2=1e3 * l2, crank=crank, rod=rod, pin=0.2 * PISTON_MASS * cube, piston=0.8 * PISTON_MASS * cube,
         I01=crank * radius**2, IC2=0.8 * rod * l1 * l2, speed=speed / RPM,
         speed_from="as given" if sizes.speed else "by the times of the file", working=working, ratio=ratio,
         ratio_from="as given" if sizes.compression else "ASSUMED, usual for the bore: dead centre and heat hang on it",
-        file=_from(folder, trace), columns=named if by_time else "", n_c=n_c, n_from=f"{about}, to 0.06", scale=scale,
+        file=file, columns=named if by_time else "", n_c=n_c, n_from=f"{about}, to 0.06", scale=scale,
         scale_from=_SCALES[scale],
     )  # fmt: skip
     lines = (re.match(r"^(.*?\S) {2,}(# .*)$", line) for line in filled.splitlines())
@@ -67,14 +71,6 @@ _SCALES = {
     "checked": "as read; refused where compression starts from a pressure that no engine has",
     "exhaust": "AS READ IT FITS NO ENGINE: scaled so that the exhaust stroke has 1.05 bar; calibrate the sensor",
 }
-
-
-def _from(folder: Path, trace: Path) -> str:
-    """The path of a file as a case in a folder names it."""
-    try:
-        return Path(os.path.relpath(trace.resolve(), folder.resolve())).as_posix()
-    except ValueError:  # another drive
-        return trace.resolve().as_posix()
 
 
 def write_diagram(text: str, folder: Path, name: str) -> list[Path]:

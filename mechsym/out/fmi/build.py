@@ -86,16 +86,20 @@ def fmu(
     for name in platforms:
         if name not in PLATFORMS:
             raise BadInput(f"--platforms {name!r} is not known; allowed are {', '.join(PLATFORMS)}")
+    room = resources.files("mechsym.out")
     if not code:
-        core = (resources.files("mechsym.out") / "c" / "core.h").read_text(encoding="utf-8")
+        core = (room / "c" / "core.h").read_text(encoding="utf-8")
         code = {"core.h": core, "model.h": model(block), "method.h": dop853_numbers() + "\n"}
-    sources = _sources(version, code)
+    main = [f"fmi{version}.c"]
+    sources = {main[0]: (room / "fmi" / main[0]).read_text(encoding="utf-8"), **code}
+    for header in sorted(p.name for p in (room / "fmi" / "headers").iterdir()):
+        if header.startswith(f"fmi{version}"):
+            sources[header] = (room / "fmi" / "headers" / header).read_text(encoding="utf-8")
     token = "{" + str(uuid.uuid5(_NAMESPACE, "\n".join(f"{k}\n{v}" for k, v in sources.items()))) + "}"
     prefix = f"#ifndef FMI2_FUNCTION_PREFIX\n#define FMI2_FUNCTION_PREFIX {identifier(block.name)}_\n#endif\n"
     # FMI 3.0 leaves the prefix to who links statically; tools that build a library from sources count on that
     sources["identity.h"] = f'#define TOKEN "{token}"\n' + (prefix if version == 2 else "")
     files: dict[str, str | bytes] = {f"sources/{name}": text for name, text in sources.items()}
-    main = [f"fmi{version}.c"]
     tool = f"mechsym {importlib.metadata.version('mechsym')}"
     files["modelDescription.xml"] = description(block, version, token, main, tool)
     if version == 3:
@@ -110,15 +114,6 @@ def fmu(
 def write(unit: Unit, path: Path) -> Path:
     """Write an FMU to a file, under a temporary name first."""
     return write_bytes(path, unit.data)
-
-
-def _sources(version: int, code: Mapping[str, str]) -> dict[str, str]:
-    room = resources.files("mechsym.out")
-    texts = {f"fmi{version}.c": (room / "fmi" / f"fmi{version}.c").read_text(encoding="utf-8"), **code}
-    for header in sorted(p.name for p in (room / "fmi" / "headers").iterdir()):
-        if header.startswith(f"fmi{version}"):
-            texts[header] = (room / "fmi" / "headers" / header).read_text(encoding="utf-8")
-    return texts
 
 
 def _binaries(
@@ -185,30 +180,31 @@ def controller(name: str, wanted: Hinge, guide: Guide, load: Load) -> tuple[Bloc
     """
     if guide.spring.state:
         raise BadInput("the pressure controller takes springs whose force follows from the closing alone")
+    (letter, unit), set_to = guide.spring.setting, float(setting_of(guide.spring))
+    # inertia, energy of the spring for each unit of its setting, and the work that is missing by design
+    missing = periodic.antiderivative(balance(wanted, guide.parameters.balance).rest)
+    curves = {"inertia": wanted.inertia, "unit": _unit_energy(wanted, guide), "design": missing}
     made = Block(
         name=f"{name}-controller", about=f"sets the spring of {name} once in a period, from crank angle and speed",
-        states=(), inputs=_inputs(wanted), parameters=_parameters(guide, load), outputs=_outputs(guide),
-        curves=_curves(wanted, guide), switches=(), kinks=(), stops=(), t_end=_TURNS * 2 * np.pi / wanted.omega,
-        rates=ca.Function("rates", [], []), observed=ca.Function("observed", [], []),
+        states=(), parameters=_parameters(letter, unit, set_to, load), switches=(), kinks=(), stops=(),
+        inputs=(
+            Port(name="phi", unit="rad", about="crank angle, that of the machine"),
+            Port(name="phid", unit="rad/s", start=wanted.omega, about="speed of the crank"),
+        ),
+        outputs=(
+            Port(name=letter, unit=unit, start=set_to, about="setting of the spring"),
+            Port(name=f"{letter}_error", unit=unit, about="by how much the last period was off the design"),
+            Port(name="periods", unit="-", about="periods that are over"),
+        ),
+        curves=tuple(Curve(name=name, state=0, poly=poly) for name, poly in curves.items()),
+        t_end=_TURNS * 2 * np.pi / wanted.omega, rates=ca.Function("rates", [], []),
+        observed=ca.Function("observed", [], []),
     )  # fmt: skip
     core = (resources.files("mechsym.out") / "c" / "controller.h").read_text(encoding="utf-8")
     return made, {"model.h": _model(made, wanted), "core.h": core, "method.h": "\n"}
 
 
-def _letter(guide: Guide) -> tuple[str, str]:
-    return guide.spring.setting
-
-
-def _inputs(wanted: Hinge) -> tuple[Port, ...]:
-    return (
-        Port(name="phi", unit="rad", about="crank angle, that of the machine"),
-        Port(name="phid", unit="rad/s", start=wanted.omega, about="speed of the crank"),
-    )
-
-
-def _parameters(guide: Guide, load: Load) -> tuple[Port, ...]:
-    letter, unit = _letter(guide)
-    set_to = float(setting_of(guide.spring))
+def _parameters(letter: str, unit: str, set_to: float, load: Load) -> tuple[Port, ...]:
     match load:
         case ConstantLoad(torque=float(torque)):
             speed, power = 1.0, 0.0
@@ -225,22 +221,6 @@ def _parameters(guide: Guide, load: Load) -> tuple[Port, ...]:
         Port(name="load_speed", unit="rad/s", start=speed, about="speed of reference of the load"),
         Port(name="load_power", unit="-", start=power, about="power of the speed with which the load grows"),
     )
-
-
-def _outputs(guide: Guide) -> tuple[Port, ...]:
-    letter, unit = _letter(guide)
-    return (
-        Port(name=letter, unit=unit, start=float(setting_of(guide.spring)), about="setting of the spring"),
-        Port(name=f"{letter}_error", unit=unit, about="by how much the last period was off the design"),
-        Port(name="periods", unit="-", about="periods that are over"),
-    )
-
-
-def _curves(wanted: Hinge, guide: Guide) -> tuple[Curve, ...]:
-    """Inertia, energy of the spring for each unit of its setting, and the work that is missing by design."""
-    missing = periodic.antiderivative(balance(wanted, guide.parameters.balance).rest)
-    curves = {"inertia": wanted.inertia, "unit": _unit_energy(wanted, guide), "design": missing}
-    return tuple(Curve(name=name, state=0, poly=poly) for name, poly in curves.items())
 
 
 def _unit_energy(wanted: Hinge, guide: Guide) -> PPoly:

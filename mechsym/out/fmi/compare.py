@@ -12,7 +12,6 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -121,7 +120,10 @@ def _pointer(values: np.ndarray) -> "ctypes._Pointer[ctypes.c_double]":
 @contextlib.contextmanager
 def driven(path: Path, kind: str, tolerance: float = _TOLERANCE) -> Iterator[Driven]:
     """An FMU unpacked, loaded and initialised as model exchange (`me`) or co-simulation (`cs`), to a tolerance [-]."""
-    fmpy = _fmpy()
+    try:
+        import fmpy
+    except ImportError:
+        raise MissingExtra("running an FMU needs the extra fmu: pip install 'mechsym[fmu]'") from None
     from fmpy import fmi2, fmi3
 
     with tempfile.TemporaryDirectory() as folder:
@@ -154,14 +156,6 @@ def driven(path: Path, kind: str, tolerance: float = _TOLERANCE) -> Iterator[Dri
             unit.freeInstance()
 
 
-def _fmpy() -> ModuleType:
-    try:
-        import fmpy
-    except ImportError:
-        raise MissingExtra("running an FMU needs the extra fmu: pip install 'mechsym[fmu]'") from None
-    return fmpy
-
-
 TOLERANCE = 1e-13  # of all runs that are compared
 _MEETING = 1e-10  # where two motions meet, beside which rounding is larger
 POINTS = 200
@@ -190,24 +184,17 @@ def compare(path: Path, problem: Problem, kinds: tuple[str, ...] = ("me", "cs"))
     tolerance = _MEETING if meets else TOLERANCE
     q = problem.mechanism.coordinates
     wanted = np.array([result.columns[n] for n in (*q, *(f"{c}d" for c in q))]).T
-    rows = {kind: _RUNS[kind](path, t, tolerance) for kind in kinds}
-    return tuple(
-        Difference(
-            kind=kind,
-            largest=_largest(found, wanted, problem.mechanism.state_units),
-            t_end=t_end,
-            points=len(found),
-            allowed=1e-6 if meets else ALLOWED,
-        )
-        for kind, found in rows.items()
-    )
-
-
-def _largest(found: np.ndarray, wanted: np.ndarray, units: Sequence[str]) -> float:
-    count, peaks = min(len(found), len(wanted)), np.abs(wanted).max(axis=0)
+    rows, units = [], problem.mechanism.state_units
+    peaks = np.abs(wanted).max(axis=0)
     # what stands still beside others of its unit is measured by them
     alike = [max(p for p, other in zip(peaks, units, strict=True) if other == unit) for unit in units]
-    return float(np.max(np.abs(found[:count] - wanted[:count]) / np.maximum(peaks, np.array(alike) * _STILL)))
+    sizes, allowed = np.maximum(peaks, np.array(alike) * _STILL), 1e-6 if meets else ALLOWED
+    for kind in kinds:
+        run = _RUNS[kind](path, t, tolerance)
+        count = min(len(run), len(wanted))
+        largest = float(np.max(np.abs(run[:count] - wanted[:count]) / sizes))
+        rows.append(Difference(kind=kind, largest=largest, t_end=t_end, points=len(run), allowed=allowed))
+    return tuple(rows)
 
 
 def _exchange(path: Path, t: np.ndarray, tolerance: float) -> np.ndarray:
@@ -295,9 +282,8 @@ def main(arguments: list[str]) -> int:
     run = named(name, dict(text.split("=", 1) for text in settings))
     found = compare(Path(path), run.problem)
     for d in found:
-        print(
-            f"{d.kind}: largest difference {d.largest:.2g} of the largest value, {d.points} points to {d.t_end:.6g} s"
-        )
+        told = f"largest difference {d.largest:.2g} of the largest value"
+        print(f"{d.kind}: {told}, {d.points} points to {d.t_end:.6g} s")
     return int(any(d.largest > d.allowed for d in found))
 
 
