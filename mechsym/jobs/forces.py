@@ -75,8 +75,10 @@ def forces(case: Case, comparison: bool = False) -> Forces:
     require(case, "forces")
     one, given = turn(case), case.sections
     friction, rings = given.get("friction"), given.get("rings", NoRings())
-    kind, law = kind_of(case.need("cycle")) if "cycle" in given else None, given.get("friction_pressure")
-    if kind is None or kind.shared or kind.measured or isinstance(law, MechanismFriction):
+    kind, law = kind_of(case.need("cycle")) if "cycle" in given else None, None
+    if kind is not None and not (kind.shared or kind.measured):
+        law = given.get("friction_pressure")
+    if isinstance(law, MechanismFriction):
         law = None  # the friction of the whole engine is the sum of its joints
     found = result.forces(one, friction, rings, given.get("shaking"), given.get("shaft"), law)
     if not comparison:

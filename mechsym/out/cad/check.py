@@ -52,11 +52,15 @@ def measured(path: Path, rho: "scipy.interpolate.PPoly", radius: float) -> tuple
     document = ezdxf.readfile(path)
     if document.units != ezdxf.units.MM:
         raise BadInput(f"{path}: units are not millimetres")
-    # length [m] and area [m^2] of the exact curve by layer, as the text states them
-    texts = [_STATED.fullmatch(e.dxf.text) for e in document.modelspace().query("TEXT")]
-    stated = {found[1]: (1e-3 * float(found[2]), 1e-6 * float(found[3])) for found in texts if found}
-    rows = [_curve(e, rho, radius, stated) for e in document.modelspace().query("SPLINE")]
+    exact = stated([e.dxf.text for e in document.modelspace().query("TEXT")])
+    rows = [_curve(e, rho, radius, exact) for e in document.modelspace().query("SPLINE")]
     return rows, len(document.audit().errors)
+
+
+def stated(texts: list[str]) -> dict[str, tuple[float, float]]:
+    """Length [m] and area [m^2] of the exact curve by layer, as the text states them."""
+    lines = [_STATED.fullmatch(text) for text in texts]
+    return {line[1]: (1e-3 * float(line[2]), 1e-6 * float(line[3])) for line in lines if line}
 
 
 def _curve(
