@@ -31,9 +31,8 @@ class TraceSizes:
 
 
 def diagram_case(
-    trace: Path, sizes: TraceSizes, folder: Path, recorded: RadPerSecond | None, working: str, scale: str,
-    by_time: bool,
-) -> str:  # fmt: skip
+    trace: Path, sizes: TraceSizes, folder: Path, recorded: RadPerSecond | None, working: str, scale: str, by_time: bool
+) -> str:
     """Text of the case.
 
     folder: where it will stand; the path of the file starts there. recorded: speed by the file's times, None without.

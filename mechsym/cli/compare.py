@@ -5,17 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import (
-    case_of,
-    emit,
-    json_option,
-    judge_ends,
-    out_option,
-    pairs,
-    parse_speeds,
-    set_option,
-    table,
-)  # fmt: skip
+from mechsym.cli import common
+from mechsym.cli.common import case_of, emit, judge_ends, pairs, parse_speeds, table
 from mechsym.files import Json
 from mechsym.quantities.display import key_words
 
@@ -27,9 +18,9 @@ if TYPE_CHECKING:
 @click.argument("case_a", metavar="CASE")
 @click.argument("case_b", metavar="CASE")
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the first case's [speeds].")
-@json_option
-@out_option
-@set_option
+@common.json_option
+@common.out_option
+@common.set_option
 def compare(case_a: str, case_b: str, speeds: str | None, out: Path | None, overrides: tuple[str, ...]) -> None:
     """Two engines over the speeds: crossover of the mean torque, table, curves. --set acts on both.
 

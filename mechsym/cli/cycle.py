@@ -10,18 +10,8 @@ import click
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cli.common import (
-    case_command,
-    emit,
-    heads,
-    judge_ends,
-    only_of,
-    out_option,
-    parse_over,
-    parse_speeds,
-    progress,
-    table,
-)  # fmt: skip
+from mechsym.cli import common
+from mechsym.cli.common import emit, heads, judge_ends, only_of, parse_over, parse_speeds, progress, table
 from mechsym.cycle.columns import AFTER_FRICTION, UNITS, WORDS
 from mechsym.cycle.cylinder import BRAKE, IN_CYLINDER, INDICATED
 from mechsym.errors import BadInput
@@ -36,7 +26,7 @@ if TYPE_CHECKING:
     from mechsym.simulate.loop.run import LoopNumbers
 
 
-@case_command("Engine cycle at one or many speeds.", out_option)
+@common.case_command("Engine cycle at one or many speeds.", common.out_option)
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the case's operating speed.")
 @click.option("--over", metavar="NAME=A:B:STEP", help="Run over another value of the engine, at one speed.")
 @click.option(

@@ -7,19 +7,8 @@ import click
 
 from mechsym import cases
 from mechsym.cases import Case
-from mechsym.cli.common import (
-    budget_option,
-    case_command,
-    case_of,
-    diagram_option,
-    emit,
-    file_in,
-    file_option,
-    json_option,
-    out_option,
-    pairs,
-    set_option,
-)  # fmt: skip
+from mechsym.cli import common
+from mechsym.cli.common import case_of, emit, file_in, pairs
 from mechsym.errors import BadInput
 from mechsym.files import make_folder, together, write_text
 from mechsym.inputs import reads
@@ -29,10 +18,10 @@ from mechsym.quantities.display import ratio_text
 @click.command(short_help="Write C, Modelica, Julia, MATLAB or JAX.")
 @click.argument("name")
 @click.option("--to", "languages", required=True, metavar="NAMES", help="c, modelica, julia, matlab, jax; or several.")
-@diagram_option
-@set_option
-@out_option
-@json_option
+@common.diagram_option
+@common.set_option
+@common.out_option
+@common.json_option
 def export(name: str, languages: str, diagram: str | None, overrides: tuple[str, ...], out: Path | None) -> None:
     """Write NAME, a mechanism or a case, as text: all languages from the one program that mechsym itself compiles.
 
@@ -61,9 +50,9 @@ def export(name: str, languages: str, diagram: str | None, overrides: tuple[str,
     emit({"written": paths, "checks": {}}, lambda: "", files=paths)
 
 
-@case_command("Write a page that simulates, without a server.", file_option("CASE.html", ".html"))
-@diagram_option
-@budget_option
+@common.case_command("Write a page that simulates, without a server.", common.file_option("CASE.html", ".html"))
+@common.diagram_option
+@common.budget_option
 def page(case: Case, out: Path | None, diagram: str | None) -> None:
     """Write the machine of CASE as one HTML file with sliders, which simulates in the browser and asks nobody.
 
@@ -88,7 +77,7 @@ def page(case: Case, out: Path | None, diagram: str | None) -> None:
 _WAYS = {"me": "model exchange", "cs": "co-simulation"}
 
 
-@case_command("Write a functional mock-up unit (FMI 2.0 or 3.0).", file_option("CASE.fmu", ".fmu"))
+@common.case_command("Write a functional mock-up unit (FMI 2.0 or 3.0).", common.file_option("CASE.fmu", ".fmu"))
 @click.option("--fmi", "version", type=click.Choice(["2", "3"]), default="2", help="Version of the standard.")
 @click.option(
     "--part", type=click.Choice(["machine", "controller"]), default="machine",
@@ -97,9 +86,9 @@ _WAYS = {"me": "model exchange", "cs": "co-simulation"}
 @click.option(
     "--platforms", metavar="NAMES", help="Binaries for linux64, win64, or none; all for which there is a compiler."
 )
-@diagram_option
+@common.diagram_option
 @click.option("--compare", "compared", is_flag=True, help="Run it and compare with the simulation (extra fmu).")
-@budget_option
+@common.budget_option
 def fmu(
     case: Case, version: str, part: str, platforms: str | None, diagram: str | None, compared: bool, out: Path | None
 ) -> None:

@@ -8,16 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from mechsym.cases import Case
-from mechsym.cli.common import (
-    case_command,
-    diagram_option,
-    emit,
-    heads,
-    in_rows,
-    out_option,
-    parse_speeds,
-    table,
-)  # fmt: skip
+from mechsym.cli import common
+from mechsym.cli.common import emit, heads, in_rows, parse_speeds, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
@@ -32,8 +24,8 @@ _SPLITS = {"two_mass": "its centre of mass kept", "terskih": "after Terskih"}
 _LETTERS = {"N": "side force", "Z": "force towards the shaft", "T": "tangential force", "M": "torque"}
 
 
-@case_command("Force chain over one cycle at constant speed.", out_option)
-@diagram_option
+@common.case_command("Force chain over one cycle at constant speed.", common.out_option)
+@common.diagram_option
 @click.option("--comparison", is_flag=True, help="Put slider crank, hypocycloid and rodless side by side.")
 @click.option("--law", metavar="A:B:STEP", help="Fit the friction over these speeds (rpm) for [friction_pressure].")
 def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, out: Path | None) -> None:
@@ -91,8 +83,9 @@ def _over_time(report: "DrivenNumbers") -> str:
     units, slopes = report.max.units, re.compile(r"d2?\w+_d\w+")
     rows = [
         {"quantity": name, "max": high, "min": report.min[name], "unit": units[name]}
-        for name, high in report.max.items() if not slopes.fullmatch(name)
-    ]  # fmt: skip
+        for name, high in report.max.items()
+        if not slopes.fullmatch(name)
+    ]
     free = f"; {', '.join(report.free)} free" if report.free else ""
     lines = [f"{report.case}: {', '.join(report.driven)} driven{free}, {report.t_end:.6g} s", ""]
     lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit"], named=["quantity"]))

@@ -49,8 +49,7 @@ def new(what: str, name: str | None, kind: str | None, bore: str | None, stroke:
     traced = {"--trace": trace, "--rod": rod, "--compression": compression, "--speed": speed}
     if what != "diagram" and (named := [option for option, value in traced.items() if value is not None]):
         raise BadInput(f"only a diagram has {', '.join(named)}; leave it away, or write: mechsym new diagram")
-    sizes = {"--kind": kind, "--bore": bore, "--stroke": stroke, "--cylinders": cylinders, "--gas": gas,
-             "--rods": rods}  # fmt: skip
+    sizes = {"--kind": kind, "--bore": bore, "--stroke": stroke, "--cylinders": cylinders, "--gas": gas, "--rods": rods}
     if what == "mechanism" and (given := [option for option, value in sizes.items() if value is not None]):
         raise BadInput(f"only an engine has {', '.join(given)}; leave it away, or write: mechsym new engine")
     doubts: tuple[Doubt, ...] = ()

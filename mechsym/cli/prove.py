@@ -7,19 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import (
-    budget_option,
-    case_of,
-    emit,
-    in_rows,
-    json_option,
-    only_of,
-    out_option,
-    pairs,
-    progress,
-    set_option,
-    table,
-)  # fmt: skip
+from mechsym.cli import common
+from mechsym.cli.common import case_of, emit, in_rows, only_of, pairs, progress, table
 from mechsym.errors import BadInput
 
 if TYPE_CHECKING:
@@ -37,10 +26,10 @@ if TYPE_CHECKING:
 )
 @click.option("--t-end", metavar="TIME", help="How far the motion of CASE is enclosed; to its own end without.")
 @click.option("--window", metavar="A..B", help="Times that the statement about CASE is for, e.g. 55..93 s.")
-@out_option
-@set_option
-@budget_option
-@json_option
+@common.out_option
+@common.set_option
+@common.budget_option
+@common.json_option
 def prove(
     name: str, case_name: str | None, given: tuple[str, ...], samples: int, mode: str, t_end: str | None,
     window: str | None, out: Path | None, overrides: tuple[str, ...],

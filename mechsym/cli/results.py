@@ -69,5 +69,6 @@ def rows(command: str | None = None) -> list[Json]:
     over = "The value that --over runs over; 'mechsym sections' tells it"
     return [*listed.values()] + [
         {"command": name, "path": f"{section}.*", "unit": "of its key", "about": over}
-        for name in wanted for section in KEYS.get(name, ())
-    ]  # fmt: skip
+        for name in wanted
+        for section in KEYS.get(name, ())
+    ]

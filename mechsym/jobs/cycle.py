@@ -200,15 +200,9 @@ def cycle(case: Case, omega: RadPerSecond[Array] | None = None, progress: Progre
 
     case: with `[cycle]` of any kind that follows no measured diagram; progress: called with the number of points done
     after each block of them.
+    Returns columns: arrays under the names of `mechsym cycle`, `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and
+    so on, of the engine; `per_cylinder` of one cylinder, or `pistons` of each where they move differently.
 
-    Returns
-    -------
-    columns : CycleFigures
-        Arrays under the names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on, of the
-        engine; `per_cylinder` of one cylinder, or `pistons` of each where they move differently
-
-    Examples
-    --------
     >>> from mechsym import cases
     >>> found = cycle(cases.load("zotov-89"))
     >>> round(float(found["power_kw"][0]), 2), found.view.cards[1].value

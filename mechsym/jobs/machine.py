@@ -51,22 +51,11 @@ _ROUNDING = 1e-12  # of the largest torque: a mean, or a swing about it, that is
 def machine(case: Case, diagram: str | None = None, inertia: Inertia = 0.0) -> Machine:
     """The engine of a case, ready to turn.
 
-    diagram: CSV file of a measured diagram in place of the case's cycle; inertia: of a flywheel on top of what the case
-    has.
+    case: with sections parameters and operation; `[cycle]` on the pistons, or `[torque]` on the shaft, or neither,
+    where weights, springs, inertia and `[drive]` are all that acts; perhaps flywheel and load. diagram: CSV file of a
+    measured diagram in place of the case's cycle. inertia: of a flywheel on top of what the case has. Raises BadInput:
+    a mechanism with several free coordinates, or a cycle that cannot be made.
 
-    Parameters
-    ----------
-    case : Case
-        With sections parameters and operation; `[cycle]` on the pistons, or `[torque]` on the shaft, or neither, where
-        weights, springs, inertia and `[drive]` are all that acts; perhaps flywheel and load
-
-    Raises
-    ------
-    BadInput
-        A mechanism with several free coordinates, or a cycle that cannot be made
-
-    Examples
-    --------
     >>> from mechsym import cases
     >>> round(machine(cases.load("zotov-89")).omega, 4)
     9.3201

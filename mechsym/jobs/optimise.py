@@ -155,8 +155,9 @@ def optimise(case: Case) -> Optimised:
     rows = []
     for taken, done in tried:
         one = done.best
-        rows.append(TriedWords(words=taken, status=one.status, objective=one.objective, variables=one.variables,
-                               unit=one.unit))  # fmt: skip
+        rows.append(
+            TriedWords(words=taken, status=one.status, objective=one.objective, variables=one.variables, unit=one.unit)
+        )
     return dataclasses.replace(best, chosen=chosen, choices=tuple(rows))
 
 

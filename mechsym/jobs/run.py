@@ -69,16 +69,9 @@ def run_in_loop(case: Case, settings: Settings) -> Result:
 def loop(case: Case) -> Loop:
     """The loop that a case describes.
 
-    Parameters
-    ----------
-    case : Case
-        With a spark-ignition cycle and a mechanism with pistons; of opposed pistons that share a chamber one mechanism
-        is followed, which carries its share of the load; without `[load]` a propeller takes the mean torque
-
-    Raises
-    ------
-    BadInput
-        No spark-ignition cycle, a table as load, or cylinders that fire far from their dead centre
+    case: with a spark-ignition cycle and a mechanism with pistons; of opposed pistons that share a chamber one
+    mechanism is followed, which carries its share of the load; without `[load]` a propeller takes the mean torque.
+    Raises BadInput: no spark-ignition cycle, a table as load, or cylinders that fire far from their dead centre.
     """
     machine, omega = engine(one_cylinder(case)), case.need("operation").speed
     if machine.blowdown is not None:

@@ -149,8 +149,9 @@ def task(case: Case) -> Task:
         if not key.strip() or not value.strip():
             raise BadInput(f"{case.file}: sizing.settings {text!r} is not KEY=VALUE")
         settings[key.strip()] = value.strip()
-    stock = Stock(materials=materials.load(wants.materials_file or None),
-                  bearings=bearings.catalogue(wants.bearings_file or None))  # fmt: skip
+    stock = Stock(
+        materials=materials.load(wants.materials_file or None), bearings=bearings.catalogue(wants.bearings_file or None)
+    )
     set_up = cases.underlaid(case, settings) if settings else case
     return Task(case=set_up, machine=engine(set_up), wants=wants, stock=stock)
 
@@ -171,8 +172,9 @@ def printed_parts(case: Case) -> masses.PrintedMasses:
     """Parts that a case prints, with their masses, for the mass model. Raises BadInput: a section is missing."""
     parts = Parts(piston=case.need("part_piston"), cylinder=case.need("part_cylinder"), gears=case.need("part_gears"),
                   crank=case.need("part_crank"), bearings=case.need("part_bearings"))  # fmt: skip
-    return masses.PrintedMasses(parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore,
-                                e=planet_of(case).e)  # fmt: skip
+    return masses.PrintedMasses(
+        parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore, e=planet_of(case).e
+    )
 
 
 def planet_of(case: Case) -> PlanetDrive:

@@ -55,11 +55,8 @@ def main_results(result: Sweep) -> dict[str, np.ndarray]:
 def dataset(result: Sweep) -> "xarray.Dataset":
     """The sweep as an xarray.Dataset.
 
-    Returns
-    -------
-    data : xarray.Dataset
-        Axes as coordinates and results as variables, with their units; `failure` holds the reasons of the gaps. A
-        result that has the name of an axis and other values is called `result.<name>`
+    Returns data: axes as coordinates and results as variables, with their units; `failure` holds the reasons of the
+    gaps. A result that has the name of an axis and other values is called `result.<name>`.
     """
     try:
         import xarray as xr
@@ -260,20 +257,11 @@ def estimates(blocks: np.ndarray) -> tuple[Pure[Array], Pure[Array]]:
 
     .. math:: S_i = \frac{\overline{f_B (f_{AB_i} - f_A)}}{V}, \quad T_i = \frac{\overline{(f_A - f_{AB_i})^2}}{2 V}
 
-    Returns first, total: indices, shape (d, ..).
-
-    Parameters
-    ----------
-    blocks : ndarray, shape (d + 2, .., n)
-        Results of A, B, AB_1 .. AB_d [unit of the result]
-
-    Notes
-    -----
+    blocks: results of A, B, AB_1 .. AB_d, shape (d + 2, .., n) [unit of the result]. Returns first, total: indices,
+    shape (d, ..).
     Source: Saltelli et al., Computer Physics Communications 181 (2010), table 2, (b) and (f), the latter of Jansen.
     Valid: independent values. V is the variance of A and B together.
 
-    Examples
-    --------
     >>> a, b = np.array([1.0, 2.0, 3.0, 4.0]), np.array([2.0, 4.0, 1.0, 3.0])
     >>> [s.round(3).tolist() for s in estimates(np.array([a, b, b]))]  # one value: it is all of the variance
     [[1.0], [1.0]]

@@ -122,14 +122,13 @@ def codesign(case: Case) -> Columns:
     from mechsym.jobs.codesign import settings_of
 
     every = some(numbers_of(design(case, settings_of(case))), names_of(CoDesignNumbers))
-    return Columns({name: _ends(value, every.units[name]) for name, value in every.items()}, every.units)
-
-
-def _ends(value: object, unit: str) -> object:
-    numbers = [v for v in value if isinstance(v, float | int)] if isinstance(value, Sequence) else []
-    if len(numbers) < 2 or isinstance(value, str):
-        return value
-    return Columns({"min": min(numbers), "max": max(numbers)}, {"min": unit, "max": unit})
+    found: dict[str, object] = {}
+    for name, value in every.items():
+        numbers = [v for v in value if isinstance(v, float | int)] if isinstance(value, Sequence) else []
+        several, unit = len(numbers) > 1 and not isinstance(value, str), every.units[name]
+        ends = {"min": min(numbers), "max": max(numbers)} if several else {}
+        found[name] = Columns(ends, dict.fromkeys(ends, unit)) if several else value
+    return Columns(found, every.units)
 
 
 _PEAKS = ("twist_peak", "torque_peak")
@@ -148,8 +147,5 @@ def swept(shaft: ElasticShaft | None, result: Result, numbers: RunNumbers) -> Sw
     """A finished run with its numbers and the twist of its shaft."""
     twists = () if shaft is None else sections(shaft, result, result.t[-1] - numbers.window)
     peaks = {name: max(getattr(section, name) for section in twists) for name in (_PEAKS if twists else ())}
-    return SweptRun(
-        numbers=numbers,
-        peaks=Columns(peaks, units_of(ShaftSection)),
-        twist={section.section: section for section in twists},
-    )
+    named = {section.section: section for section in twists}
+    return SweptRun(numbers=numbers, peaks=Columns(peaks, units_of(ShaftSection)), twist=named)

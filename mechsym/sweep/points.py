@@ -1,5 +1,6 @@
 """How the points of a sweep are computed: a driven machine is simulated, an engine gets its hinge or runs its cycle."""
 
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -70,9 +71,8 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
     if analysis == "hinge":
         return _hinges(show)
     if analysis == "guides":
-        return Route(
-            analysis=analysis, run=_each(lambda case: {}), together=guides.BLOCK, seconds=0.0001, at=guides.guides
-        )
+        run = _each(lambda case: {})
+        return Route(analysis=analysis, run=run, together=guides.BLOCK, seconds=0.0001, at=guides.guides)
     if analysis in _SINGLES:
         single, seconds = _SINGLES[analysis]
         return Route(analysis=analysis, run=_each(single), together=1, seconds=seconds)
@@ -115,6 +115,7 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
     from mechsym.cases.settings import settings_of
     from mechsym.jobs.problem import problem_of
     from mechsym.jobs.run import in_loop
+    from mechsym.simulate import simulate, simulate_many
 
     looped = [i for i, case in enumerate(found) if in_loop(case)]
     problems = {i: guarded(problem_of, case) for i, case in enumerate(found) if i not in looped}
@@ -124,7 +125,12 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
     for i in (i for i in problems if i not in results):
         groups.setdefault(settings_of(found[i]), []).append(i)
     for settings, members in groups.items():
-        for i, result in zip(members, _side_by_side([problems[i] for i in members], settings), strict=True):
+        own = [problems[i] for i in members]
+        try:
+            runs = simulate_many(own, settings)
+        except ARITHMETIC:  # one of them upset the others
+            runs = [guarded(functools.partial(simulate, settings=settings), problem) for problem in own]
+        for i, result in zip(members, runs, strict=True):
             results[i] = result if isinstance(result, Gap) else _verdict(found[i], problems[i], result)
     return [results[i] for i in range(len(found))]
 
@@ -137,16 +143,6 @@ def _in_loop(case: Case) -> Outcome:
     return _told(case, *run_of(case, settings_of(case))[:2])
 
 
-def _side_by_side(problems: "list[Problem]", settings: "Settings") -> list[Outcome]:
-    from mechsym.simulate import simulate, simulate_many
-
-    try:
-        return simulate_many(problems, settings)
-    except ARITHMETIC:
-        # one of them upset the others
-        return [guarded(lambda problem: simulate(problem, settings), p) for p in problems]
-
-
 def _verdict(case: Case, problem: "Problem", result: "Result") -> Outcome:
     from mechsym.jobs.problem import window_of
     from mechsym.simulate.problem import period_of
@@ -157,8 +153,6 @@ def _verdict(case: Case, problem: "Problem", result: "Result") -> Outcome:
 
 
 def _told(case: Case, result: "Result", numbers: "RunNumbers") -> Outcome:
-    from mechsym.sweep.outcomes import swept
-
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")
-    return swept(elastic(case.mechanism, case.need("parameters")), result, numbers)
+    return outcomes.swept(elastic(case.mechanism, case.need("parameters")), result, numbers)

@@ -26,13 +26,8 @@ _COLOURS = {"CENTRES": 5, "INNER": 1, "OUTER": 3, "HOLES": 6, "ROLLERS": 4, "AXE
 def text(track: Groove, bore: Metre, lines: Sequence[str]) -> str:
     """The text of a DXF file.
 
-    bore: diameter of the hole for the shaft, 0 for none.
-
-    Parameters
-    ----------
-    lines : sequence of str
-        What the drawing says: case, spring, tolerance; below it length and area of the exact curves, by which whoever
-        reads the file sees that nothing was lost on the way
+    bore: diameter of the hole for the shaft, 0 for none. lines: what the drawing says, case, spring, tolerance; below
+    it stand length and area of the exact curves, by which whoever reads the file sees that nothing was lost on the way.
     """
     try:
         import ezdxf

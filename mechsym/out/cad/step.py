@@ -45,13 +45,8 @@ def guide_bodies(
     """The disc and its rollers where the crank stands at dead centre; a groove is as deep as a roller is wide.
 
     count: rollers, which share the tracks; two on one track stand opposite each other. bore: diameter of the hole for
-    the shaft.
-
-    Parameters
-    ----------
-    thickness : float
-        Of the disc; by default the planes of its tracks stand as `rollers.plane_offset` says, or a roller's width
-        of the disc is left between two grooves
+    the shaft. thickness: of the disc; by default the planes of its tracks stand as `rollers.plane_offset` says, or a
+    roller's width of the disc is left between two grooves.
     """
     tracks, width = len(track.turned), rollers.width
     usual = rollers.plane_offset + width if tracks > 1 and rollers.plane_offset > width else (tracks + 1) * width
