@@ -16,6 +16,7 @@ from mechsym.cases.facts import CaseFacts, facts_of
 from mechsym.cases.keys import required, takes
 from mechsym.cases.laws import Records
 from mechsym.cases.needs import COMMANDS, in_words, lacking, read_by
+from mechsym.cases.older import renewed
 from mechsym.cases.values import convert, without_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
@@ -53,7 +54,7 @@ def check_file(name: str, trust: bool = False) -> Checked:
     """
     text = cases.text(name)
     try:
-        tables = tomllib.loads(text)
+        tables, notes = renewed(tomllib.loads(text))
     except (ValueError, RecursionError) as error:
         return Checked(problems=(CaseProblem(key="", why=f"not valid TOML: {error}"),), commands={}, reasons={})
     head, mechanism = list(_head(tables)), tables.get("mechanism")
@@ -75,10 +76,10 @@ def check_file(name: str, trust: bool = False) -> Checked:
     kind = sections["cycle"].get("kind", "") if isinstance(sections.get("cycle"), dict) else ""
     every = {name: records.get(name) for name in sections}
     facts = facts_of(mechanism or "", every, kind=str(kind), trust=trust)
-    unread = unused(facts, sections)
+    doubts = (*unused(facts, sections), *notes)
     commands = lacking(facts)
     reasons = {command: "; ".join(in_words(facts, missing)) for command, missing in commands.items() if missing}
-    return Checked(problems=tuple(problems), commands=commands, reasons=reasons, skipped=skipped, doubts=unread)
+    return Checked(problems=tuple(problems), commands=commands, reasons=reasons, skipped=skipped, doubts=doubts)
 
 
 def _head(tables: Json) -> Iterator[CaseProblem]:

@@ -9,9 +9,8 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cases.laws import by_links, fired, linked
-from mechsym.cycle.gas import Gas
+from mechsym.cycle.gas import Gas, pistons_of, travel_of
 from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.motion import pistons_of, travel_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.result import Forces
@@ -184,7 +183,7 @@ def _driven(case: Case, found: Forces) -> tuple[Doubt, ...]:
 
 def of_motion(case: Case, found: "DrivenForces") -> tuple[Doubt, ...]:
     """Doubts of a driven motion: how far its words move, results by what moves, speeds of links, torques that bend."""
-    from mechsym.forces.motion import WORDS  # splines, which no other case needs
+    from mechsym.forces.driven import WORDS  # splines, which no other case needs
 
     section, table, listing = case.need("motion"), found.columns, plan_of(case.mechanism).listing(None)
     angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]

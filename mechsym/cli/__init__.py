@@ -12,7 +12,7 @@ import click
 # before numpy is there: threads of BLAS would wait for small matrices with a processor each
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from mechsym import interrupts  # noqa: E402
+from mechsym import __version__, interrupts  # noqa: E402
 from mechsym.errors import BadInput, suggest  # noqa: E402
 from mechsym.quantities import load  # noqa: E402
 from mechsym.transaction import forget  # noqa: E402
@@ -24,7 +24,7 @@ GROUPS = {
     "Design": ("hinge", "codesign", "size", "optimise", "guide"),
     "Many": ("sweep", "study", "compare"),
     "Give": ("report", "app", "page", "fmu", "export"),
-    "Verify": ("audit", "reproduce", "prove", "derive", "native"),
+    "Verify": ("audit", "reproduce", "prove", "derive", "native", "cite"),
 }
 # a command stands in the file of its name, but for these
 _ELSEWHERE = {"page": "export:page", "fmu": "export:fmu", "eval": "evaluate:evaluate"} | {
@@ -155,7 +155,7 @@ def _everywhere() -> list[click.Parameter]:
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
-@click.version_option(package_name="mechsym", prog_name="mechsym")
+@click.version_option(__version__, prog_name="mechsym")
 def mechsym() -> None:
     """From a mechanism on paper to verified machine code.
 

@@ -13,7 +13,7 @@ from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, quantity_text
 
 if TYPE_CHECKING:
-    from mechsym.codesign.peers import Rival
+    from mechsym.codesign.front import Rival
     from mechsym.codesign.realise import RealisedNumbers
     from mechsym.codesign.result import CoDesignLosses, CoDesignNumbers
     from mechsym.codesign.settings import CoDesignSettings

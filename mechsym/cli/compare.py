@@ -11,7 +11,7 @@ from mechsym.files import Json
 from mechsym.quantities.display import key_words
 
 if TYPE_CHECKING:
-    from mechsym.cycle.compare import EngineComparison
+    from mechsym.cycle.columns import EngineComparison
 
 
 @click.command(short_help="Two engines side by side over the speeds.")
@@ -30,7 +30,7 @@ def compare(case_a: str, case_b: str, speeds: str | None, out: Path | None, over
     import numpy as np
 
     from mechsym.cases.needs import SPEEDS, require
-    from mechsym.cycle.compare import compare as side_by_side
+    from mechsym.cycle.columns import compare as side_by_side
     from mechsym.cycle.engine import columns, over_speeds
     from mechsym.jobs.cycle import engine, speed_range
 

@@ -13,7 +13,7 @@ from mechsym.cases import Case
 from mechsym.cli import common
 from mechsym.cli.common import emit, heads, judge_ends, only_of, parse_over, parse_speeds, progress, table
 from mechsym.cycle.columns import AFTER_FRICTION, UNITS, WORDS
-from mechsym.cycle.cylinder import BRAKE, IN_CYLINDER, INDICATED
+from mechsym.cycle.source import BRAKE, IN_CYLINDER, INDICATED
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import figure, quantity_text, shown_in
@@ -133,7 +133,7 @@ def _show_loop(case: Case, cycles: float, out: Path | None) -> None:
 
 def _show_figures(case: Case, omega: list[float], over: str | None, out: Path | None) -> None:
     from mechsym.cases.outcomes import of_cycle
-    from mechsym.cycle.cylinder import ENGINE_PAGE
+    from mechsym.cycle.source import ENGINE_PAGE
     from mechsym.jobs.cycle import cycle
     from mechsym.jobs.gas import one_cylinder
     from mechsym.jobs.gas import source as source_of
@@ -159,7 +159,7 @@ def _over(case: Case, omega: list[float], over: str) -> tuple[Json, dict[str, st
     from mechsym.cycle.kinds import kind_of
     from mechsym.jobs.cycle import cylinders, engine, of_engine
     from mechsym.jobs.gas import one_cylinder
-    from mechsym.optimise.problem import design_units
+    from mechsym.optimise.solver import design_units
 
     cylinders(case)  # what is wrong with them is said before the work begins
     if not kind_of(case.need("cycle")).closed:

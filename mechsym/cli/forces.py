@@ -45,7 +45,7 @@ def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, o
     from mechsym.jobs.forces import told, write
     from mechsym.jobs.gas import measured
     from mechsym.page import ranked
-    from mechsym.torsion import train
+    from mechsym.torsion import twist
     from mechsym.torsion.shown import criticals
 
     if "motion" in case.sections:
@@ -57,7 +57,7 @@ def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, o
     found = run(case, comparison)
     numbers = told(case, found, parse_speeds(law, "--law") if law else None)
     report = tell(numbers)
-    doubts = of_forces(case, found) + (train.doubts(numbers.vibration) if numbers.vibration else ())
+    doubts = of_forces(case, found) + (twist.doubts(numbers.vibration) if numbers.vibration else ())
     report["doubts"] = doubts
     findings = ranked([*found.view.findings(), *criticals(numbers.vibration)])
     report["files"] = files = [] if out is None else [str(file) for file in write(case, found, report, out, findings)]

@@ -47,7 +47,7 @@ def hinge(case: Case, diagram: str | None, loads: str | None, out: Path | None) 
         found = complete(design(case, diagram, shares), lambda: bar.update(1))
         files: list[Path] = []
         if out is not None:
-            from mechsym.hinge.report import write
+            from mechsym.hinge.shown import write
             from mechsym.jobs.export import ready
             from mechsym.out.web import LiveRun, with_live
 

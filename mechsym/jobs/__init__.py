@@ -21,7 +21,7 @@ _NAMES = {
     "balance": "mechsym.jobs.forces:balance",
     "codesign": "mechsym.jobs.codesign:codesign",
     "codesign_task": "mechsym.jobs.codesign:codesign_task",
-    "compare": "mechsym.cycle.compare:compare",
+    "compare": "mechsym.cycle.columns:compare",
     "cycle": "mechsym.jobs.cycle:cycle",
     "forces": "mechsym.jobs.forces:forces",
     "gas": "mechsym.jobs.gas:gas",

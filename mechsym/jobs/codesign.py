@@ -10,9 +10,8 @@ from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.codesign import loss, machines, scenarios
 from mechsym.codesign.certificate import floor, rollers_inertia
-from mechsym.codesign.front import cut_for_one, front, ripple_map, worth_it
+from mechsym.codesign.front import cut_for_one, front, peers, ripple_map, springs_of, worth_it
 from mechsym.codesign.machines import hardware, point
-from mechsym.codesign.peers import peers, springs_of
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import Count, counts, rank
@@ -23,7 +22,7 @@ from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.verify import Verified, spread, verify
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.hinge.losses import HingeLosses, LossTorques
+from mechsym.hinge.rollers import HingeLosses, LossTorques
 from mechsym.jobs.machine import machine
 from mechsym.machine.torque_curve import TorqueCurve
 from mechsym.quantities import RPM

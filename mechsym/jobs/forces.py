@@ -35,9 +35,9 @@ from mechsym.page import Finding
 from mechsym.quantities.results import part, quantity
 from mechsym.quantities.results import result as result_record
 from mechsym.quantities.units import KilogramMetre, Metre, RadPerSecond
-from mechsym.torsion import train
-from mechsym.torsion.train import ShaftLimits, TrainVibration, operating_range
-from mechsym.torsion.train import vibration as vibration_of
+from mechsym.torsion import twist
+from mechsym.torsion.twist import ShaftLimits, TrainVibration, operating_range
+from mechsym.torsion.twist import vibration as vibration_of
 
 
 @result_record
@@ -102,7 +102,7 @@ def told(case: Case, found: Forces, law: Sequence[RadPerSecond] | None = None) -
     """The forces of a case in numbers. law: speeds over which the friction is fitted as a law of the cycle."""
     numbers, shaking = summary(found, case.name, case.source), vibration(case, found.turn)
     if shaking is not None:
-        numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *train.words(shaking)])
+        numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *twist.words(shaking)])
     fitted = None
     if law is not None:
         found_law = fitted_law(case, law)

@@ -13,15 +13,12 @@ from mechsym.cases.needs import NO_FILE, require
 from mechsym.cases.settings import TrialSettings
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.hinge.contact import Contact, at_pieces
 from mechsym.hinge.guide import Guide, path, refit, setting_of, with_setting
-from mechsym.hinge.limits import Verdict, judge
-from mechsym.hinge.losses import HingeLosses
-from mechsym.hinge.result import AtLoad, Design, Origin
-from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.limits import Contact, Verdict, at_pieces, judge
+from mechsym.hinge.result import AtLoad, Design, Origin, offers
+from mechsym.hinge.rollers import HingeLosses, RollerParameters
 from mechsym.hinge.steady import retune, sensitivities, with_guide
 from mechsym.hinge.torque import torque
-from mechsym.hinge.ways import offers
 from mechsym.jobs.machine import kept_flywheel, machine
 from mechsym.jobs.problem import guide_of
 from mechsym.machine.record import Machine, kinks_of

@@ -7,8 +7,8 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.forces import indicated as physics
-from mechsym.forces.indicated import NORMAL_95, CrankTorque, IndicatedPressure
+from mechsym.forces import textbook as physics
+from mechsym.forces.textbook import NORMAL_95, CrankTorque, IndicatedPressure
 from mechsym.forces.turn import period_of as period_of_gas
 from mechsym.jobs.machine import acting_on, constants, drive_of
 from mechsym.machine.torque_curve import read_torque

@@ -16,9 +16,20 @@ from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
 from mechsym.jobs.cycle import cycle, engine
 from mechsym.mechanisms import roles_of
-from mechsym.optimise.problem import Limit, Optimise, limit_of, problem
 from mechsym.optimise.search import FigureProgramme, search
-from mechsym.optimise.solver import Optimised, Optimum, ParetoPoint, Task, TriedWords, pareto, solve
+from mechsym.optimise.solver import (
+    Limit,
+    Optimise,
+    Optimised,
+    Optimum,
+    ParetoPoint,
+    Task,
+    TriedWords,
+    limit_of,
+    pareto,
+    problem,
+    solve,
+)
 from mechsym.quantities.display import without_unit
 from mechsym.quantities.results import Columns
 

@@ -14,8 +14,8 @@ from mechsym.cases.outcomes import of_run
 from mechsym.cases.settings import count_loop, guesses, settings_of, simulation_of
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.gas import piston_motion, travel_of
 from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.motion import piston_motion, travel_of
 from mechsym.errors import BadInput
 from mechsym.forces.turn import gas_faces
 from mechsym.jobs.cycle import engine
@@ -41,8 +41,16 @@ from mechsym.simulate.result import RunNumbers, final_state, summary
 from mechsym.simulate.steady import steady_state
 from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
 from mechsym.torsion.startup import numbers as start_numbers
-from mechsym.torsion.train import doubts, twist_words, words
-from mechsym.torsion.twist import Settling, natural_frequencies, sections, sentences, settling
+from mechsym.torsion.twist import (
+    Settling,
+    doubts,
+    natural_frequencies,
+    sections,
+    sentences,
+    settling,
+    twist_words,
+    words,
+)
 
 
 def in_loop(case: Case) -> bool:

@@ -9,7 +9,7 @@ from mechsym import cases, mechanisms
 from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.compare import crossovers
+from mechsym.cycle.columns import crossovers
 from mechsym.cycle.engine import over_speeds
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput

@@ -67,6 +67,17 @@ class Declared(NamedTuple):
     about: str
 
 
+class Entry(NamedTuple):
+    """One name that a class tells: a number with its unit, or a word or part without."""
+
+    name: str
+    hint: object
+    unit: str | None
+    about: str
+    inline: bool
+    optional: bool
+
+
 class computed:
     """A property of a result that is told like a field, computed when it is first asked for.
 
@@ -263,19 +274,26 @@ def declared(kind: type, path: str = "") -> Iterator[Declared]:
     >>> next(declared(Engine))
     Declared(path='wheels[].inertia', unit='kg*m^2', about='about the shaft')
     """
+    for entry in entries_of(kind):
+        inner = path if entry.inline else f"{path}.{entry.name}" if path else entry.name
+        yield from _declared_by(entry.hint, inner, entry.unit, entry.about)
+
+
+def entries_of(kind: type) -> Iterator[Entry]:
+    """What a class tells, in the order in which it does."""
     hints = typing.get_type_hints(kind)
     fields = {f.name: f for f in dataclasses.fields(kind)} if dataclasses.is_dataclass(kind) else {}
     for name, unit in _units(kind).items():
-        inner = path if unit == _INLINE else f"{path}.{name}" if path else name
         if name in fields:
             # the comment beside a field, in the class that declares it
             said = next((told[name] for parent in kind.__mro__ if name in (told := comments(parent))), "")
-            about = fields[name].metadata.get("about") or said
-            yield from _declared_by(hints[name], inner, None if unit == _INLINE else unit, about)
+            hint, about = hints[name], fields[name].metadata.get("about") or said
         else:
             function = inspect.getattr_static(kind, name).func
+            hint = typing.get_type_hints(function).get("return")
             about = (inspect.getdoc(function) or "").partition("\n")[0].rstrip(".")
-            yield from _declared_by(typing.get_type_hints(function).get("return"), inner, unit, about)
+        inline = unit == _INLINE
+        yield Entry(name, hint, None if inline else unit, about, inline, name in _optional(kind))
 
 
 def _declared_by(hint: object, path: str, unit: str | None, about: str) -> Iterator[Declared]:

@@ -3,7 +3,6 @@
 The token is made from the sources: the same model gives the same token and, without binaries, the same file.
 """
 
-import importlib.metadata
 import importlib.util
 import platform
 import sys
@@ -19,6 +18,7 @@ import casadi as ca
 import numpy as np
 from scipy.interpolate import PPoly
 
+import mechsym
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.files import write_bytes
@@ -100,7 +100,7 @@ def fmu(
     # FMI 3.0 leaves the prefix to who links statically; tools that build a library from sources count on that
     sources["identity.h"] = f'#define TOKEN "{token}"\n' + (prefix if version == 2 else "")
     files: dict[str, str | bytes] = {f"sources/{name}": text for name, text in sources.items()}
-    tool = f"mechsym {importlib.metadata.version('mechsym')}"
+    tool = f"mechsym {mechsym.__version__}"
     files["modelDescription.xml"] = description(block, version, token, main, tool)
     if version == 3:
         files["sources/buildDescription.xml"] = build_description(block, main)

@@ -10,7 +10,7 @@ import numpy as np
 
 from mechsym.cases import Case, load
 from mechsym.cycle.chamber import Chamber, chamber, travel
-from mechsym.cycle.compare import crossovers
+from mechsym.cycle.columns import crossovers
 from mechsym.cycle.engine import columns, over_speeds
 from mechsym.cycle.kinds.spark_ignition import otto_efficiency
 from mechsym.jobs.cycle import engine, speed_range
