@@ -49,11 +49,12 @@ def derive(names: tuple[str, ...], check: bool, show: bool, explain: bool, latex
         steps = {name: own.explained(name) for name in files}
         emit({"closing": steps}, lambda: "\n".join(line for lines in steps.values() for line in lines))
         return
-    found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": []}
+    found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": [], "redundant": []}
     if not files or len(files) < len(names):
         built_in = _built_in(tuple(name for name in names if name not in files), check)
-        found = {k: v | built_in[k] if isinstance(v, dict) else v + built_in[k] for k, v in found.items()}
+        found |= {k: v | found[k] if isinstance(v, dict) else found[k] + v for k, v in built_in.items()}
     shown = {"code": found["code"]} if show else {}
+    shown |= {"redundant": found["redundant"]} if found["redundant"] else {}
     report = {"written": found["written"], "differs": sorted(found["differs"]), **shown}
     emit(report, lambda: _text(found, check, show), files=[] if check or show else found["written"])
     if found["differs"]:
@@ -63,7 +64,7 @@ def derive(names: tuple[str, ...], check: bool, show: bool, explain: bool, latex
 def _files(names: list[str], check: bool, out: Path | None) -> Json:
     from mechsym.mechanisms import own
 
-    found: Json = {"written": [], "differs": {}, "code": []}
+    found: Json = {"written": [], "differs": {}, "code": [], "redundant": []}
     with progress(len(names), "deriving") as bar:
         for name in names:
             if check:
@@ -72,6 +73,7 @@ def _files(names: list[str], check: bool, out: Path | None) -> Json:
                 mechanism = own.load(name)
                 found["code"].append(mechanism.code)
                 found["written"] += [str(p) for p in own.write(mechanism, out)]
+                found["redundant"] += mechanism.listing.get("redundant", [])
             bar.update(1)
     return found
 
@@ -104,4 +106,4 @@ def _text(found: Json, check: bool, show: bool) -> str:
         return "the code is what the derivations give"
     if show:
         return "\n".join(found["code"])
-    return "" if found["written"] else "nothing to write: generated/ is up to date"
+    return "\n".join(found["redundant"]) if found["written"] else "nothing to write: generated/ is up to date"

@@ -46,7 +46,9 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
     mechanism, values, doubts = _read(name, case_name, pairs(overrides))
     known = mechanisms.listing(name, mechanism)
     found = state(mechanism, values, known["outputs"])
-    emit(found, lambda: "\n".join(_lines(found, known)), beside={"doubts": doubts})
+    redundant = known.get("redundant", [])
+    beside = {"doubts": doubts, **({"redundant": redundant} if redundant else {})}
+    emit(found, lambda: "\n".join([*_lines(found, known), *redundant]), beside=beside)
 
 
 def _read(

@@ -101,8 +101,9 @@ def motion(case: Case) -> driven.DrivenForces:
 def told(case: Case, found: Forces, law: Sequence[RadPerSecond] | None = None) -> ForceReport:
     """The forces of a case in numbers. law: speeds over which the friction is fitted as a law of the cycle."""
     numbers, shaking = summary(found, case.name, case.source), vibration(case, found.turn)
-    if shaking is not None:
-        numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *twist.words(shaking)])
+    more = [*listing(case.mechanism).get("redundant", ()), *(() if shaking is None else twist.words(shaking))]
+    if more:
+        numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *more])
     fitted = None
     if law is not None:
         found_law = fitted_law(case, law)
