@@ -20,14 +20,7 @@ from mechsym.files import Json
 @folder_option
 @json_option
 def derive(
-    names: tuple[str, ...],
-    check: bool,
-    show: bool,
-    explain: bool,
-    draw: bool,
-    latex: bool,
-    out: Path | None,
-    as_json: bool,
+    names: tuple[str, ...], check: bool, show: bool, explain: bool, draw: bool, latex: bool, out: Path | None
 ) -> None:
     """Regenerate generated/ from derivations/, or derive a mechanism of your own from its file.
 
@@ -39,7 +32,9 @@ def derive(
               mechsym derive ./scotch.py --explain
               mechsym derive crosshead --latex
     """
+    from mechsym.derive import build
     from mechsym.mechanisms import own
+    from mechsym.mechanisms.equations import equations
 
     files = [name for name in names if own.is_file(name)]
     given = {"--latex": latex, "--explain": explain, "--draw": draw, "--show": show, "--check": check, "--out": out}
@@ -50,15 +45,17 @@ def derive(
     if not files and (idle := [option for option in ("--explain", "--draw", "--show", "--out") if given[option]]):
         raise BadInput(f"{idle[0]} is for a mechanism of your own: name its FILE.py, or leave {idle[0]} out")
     if latex:
-        _latex(names, as_json)
+        found_equations = [equations(name) for name in names or tuple(build.scripts())]
+        text = "\n\n".join(f"% {one.name}\n{one.latex}" for one in found_equations)
+        emit({"latex": {one.name: one.rows for one in found_equations}}, lambda: text)
         return
     if explain:
         steps = {name: own.explained(name) for name in files}
-        emit({"closing": steps}, as_json, lambda: "\n".join(line for lines in steps.values() for line in lines))
+        emit({"closing": steps}, lambda: "\n".join(line for lines in steps.values() for line in lines))
         return
     if draw:
         pictures = [str(_drawn(name, out or Path())) for name in files]
-        emit({"written": pictures}, as_json, lambda: "", files=pictures)
+        emit({"written": pictures}, lambda: "", files=pictures)
         return
     found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": [], "redundant": []}
     if not files or len(files) < len(names):
@@ -67,7 +64,7 @@ def derive(
     shown = {"code": found["code"]} if show else {}
     shown |= {"redundant": found["redundant"]} if found["redundant"] else {}
     report = {"written": found["written"], "differs": sorted(found["differs"]), **shown}
-    emit(report, as_json, lambda: _text(found, check, show), files=[] if check or show else found["written"])
+    emit(report, lambda: _text(found, check, show), files=[] if check or show else found["written"])
     if found["differs"]:
         sys.exit(1)
 
@@ -95,15 +92,6 @@ def _drawn(name: str, folder: Path) -> Path:
     if drawn is None:
         raise BadInput(f"{name} has nothing to draw; give it links and joints, or m.draw_line")
     return write_text(folder / f"{said['name']}.svg", svg(figure_of(drawn, at[0]), said["name"]))
-
-
-def _latex(names: tuple[str, ...], as_json: bool) -> None:
-    from mechsym.derive import build
-    from mechsym.mechanisms.equations import equations
-
-    found = [equations(name) for name in names or tuple(build.scripts())]
-    rows = {one.name: one.rows for one in found}
-    emit({"latex": rows}, as_json, lambda: "\n\n".join(f"% {one.name}\n{one.latex}" for one in found))
 
 
 def _files(names: list[str], check: bool, out: Path | None) -> Json:
@@ -145,10 +133,8 @@ def _built_in(names: tuple[str, ...], check: bool) -> Json:
 
 def _text(found: Json, check: bool, show: bool) -> str:
     if found["differs"]:
-        way_out = (
-            "the code is not what the derivations give: run `make derive` (or `mechsym derive FILE.py`) and commit"
-        )
-        return "\n".join([*found["differs"].values(), way_out])
+        way = "the code is not what the derivations give: run `make derive` (or `mechsym derive FILE.py`) and commit"
+        return "\n".join([*found["differs"].values(), way])
     if check:
         return "the code is what the derivations give"
     if show:
