@@ -12,6 +12,7 @@ from mechsym.cycle.motion import travel_of
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces import cams, plots
 from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+from mechsym.forces.loads import polar
 from mechsym.forces.result import Forces, extremes
 from mechsym.forces.summary import CounterweightNumbers, half, quantities
 from mechsym.forces.turn import Acting, CrankDrive
@@ -73,21 +74,33 @@ def _cards(forces: Forces) -> tuple[Card, ...]:
 
 
 def _pictures(result: Forces) -> tuple[Picture, ...]:
-    beside = "; dotted, the rod as two masses" if plots.lumped(result) else ""
+    torque, orders = result.turn.torque, result.torque_orders
+    span = " to ".join(quantity_text(float(v), "N*m", 4) for v in (torque.min(), torque.max()))
+    off = max((float(np.abs(rod - exact).max()) for rod, exact in plots.lumped(result).values()), default=0.0)
+    beside = f"; dotted and dashed, rods as two masses, {quantity_text(off, 'N', 3)} off at most" if off else ""
+    most = 1 + int(np.argmax(orders.amplitude[1:]))
     rows = [
-        Picture(name="forces", draw=lambda: plots.chain(result), see=f"Exact forces over the cycle{beside}."),
+        Picture(name="forces", draw=lambda: plots.chain(result),
+                see=f"Exact forces over the cycle; the torque is {span}{beside}."),
         Picture(name="orders", draw=lambda: plots.orders(result),
-                see="Amplitudes by order, oscillations per turn: what a counterweight can take and what it cannot."),
+                see="Amplitudes by order, oscillations per turn: the torque swings most in order "
+                f"{orders.order[most]:g}, by {quantity_text(float(orders.amplitude[most]), 'N*m', 4)}."),
     ]  # fmt: skip
     if result.loads.pins and result.loads.bearings:
+        sizes = {name: float(np.hypot(*both).max()) for name, both in polar(result.loads).items()}
+        of_pins = {pin.name for pin in result.loads.pins}
+        pin, bearing = (quantity_text(max(size for name, size in sizes.items() if (name in of_pins) == one), "N", 4)
+                        for one in (True, False))  # fmt: skip
         rows.insert(1, Picture(name="polar", draw=lambda: plots.polar_diagrams(result),
-                    see="The crank pin's load seen from the crank, the main bearing's from the frame: where a bearing "
-                    "is never loaded, oil may enter."))  # fmt: skip
+                    see=f"The load of a crank pin, {pin} at most, seen from its crank, and of a main bearing, "
+                    f"{bearing}, from the frame: where a bearing is never loaded, oil may enter."))  # fmt: skip
     if result.journals:
         rows.append(Picture(name="journals", draw=lambda: plots.journal_loads(result),
                     see="What the shaft presses on each main bearing; neighbours share a throw."))  # fmt: skip
     if result.losses is not None and any(np.abs(v).max() > 0 for v in result.losses.curves.values()):
-        see = "Where friction takes its power."
+        place, power = max(result.losses.places.items(), key=lambda one: one[1])
+        see = f"Where friction takes its power: most in the {place.replace('_', ' ')}, "
+        see += f"{quantity_text(power, 'W', 3)} over the turn."
         rows.append(Picture(name="friction", draw=lambda: plots.friction(result), see=see))
     if result.losses is not None and result.losses.mechanical_efficiency is not None and rows[-1].name == "friction":
         rows.append(Picture(name="brake", draw=lambda: plots.brake_bar(result),

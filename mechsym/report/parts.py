@@ -24,6 +24,7 @@ from mechsym.forces.summary import half
 from mechsym.hinge.result import complete
 from mechsym.hinge.shown import scenes
 from mechsym.hinge.summary import HingeNumbers
+from mechsym.hinge.target import ripple_text
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.forces import forces, told
 from mechsym.jobs.gas import gas, source
@@ -36,7 +37,7 @@ from mechsym.mechanisms import roles_of
 from mechsym.page import Card, Finding, Grid, card, grid, ranked
 from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
-from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text, shown_in
+from mechsym.quantities.display import figure, key_words, quantity_text, shown_in
 from mechsym.quantities.results import tell, units_of
 from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
 from mechsym.sizing.shown import tightest
@@ -214,13 +215,13 @@ def _hinge(case: Case) -> ReportPart:
     rows = [{"check": c.name.replace("_", " "), "value and limit": c.text, "kept": "yes" if c.kept else "NO",
              "margin": _per_cent(c.shown_margin)} for c in verdict.checks]  # fmt: skip
     runs = [
-        {"run": t.about, "ripple": ratio_text(t.speed_ripple), "end": _ENDS.get(t.result.end, t.result.end)}
+        {"run": t.about, "ripple": ripple_text(t.speed_ripple), "end": _ENDS.get(t.result.end, t.result.end)}
         for t in design.trials
     ]
     saved = quantity_text(numbers.flywheel_inertia_saved, "kg*m^2", 4)
     decide, told = [], f"The {design.answer}."
     if verdict.feasible and not design.target.met:
-        decide.append(f"the ripple: {design.target.words} ('mechsym codesign --losses inside' designs with them)")
+        decide.append(f"{design.target.words} ('mechsym codesign --losses inside' designs with them)")
     if not verdict.feasible:
         decide.append(f"the hinge as it stands cannot be built: {verdict.reason}; change spring, guide or limits")
     if numbers.misfire_speed_share == 0:

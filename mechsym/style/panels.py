@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 
 SMALL = 8  # points of text beside the axes' own
+_FLATTEST = 0.4  # height of a panel to scale by its width, or the other way round
 
 
 def panels(
@@ -57,6 +58,20 @@ def bare(axis: "Axes") -> None:
     axis.xaxis.label.set_fontsize(SMALL + 1)
     axis.yaxis.label.set_fontsize(SMALL + 1)
     axis.spines[["top", "right"]].set_visible(False)
+
+
+def to_scale(figure: "Figure", axes: "Sequence[Axes]") -> None:
+    """Panels to one scale across and up, filled by what they show, in a figure no higher than they need."""
+    ratios = []
+    for axis in axes:
+        sizes = [np.array(limits) for limits in (axis.get_xlim(), axis.get_ylim())]
+        least = _FLATTEST * max(np.ptp(one) for one in sizes)
+        for one, put in zip(sizes, (axis.set_xlim, axis.set_ylim), strict=True):
+            one += np.array([-0.5, 0.5]) * max(0.0, least - np.ptp(one))
+            put(one)
+        axis.set_aspect("equal")
+        ratios.append(float(np.ptp(sizes[1]) / np.ptp(sizes[0])))
+    figure.set_figheight(1.3 + min(1.2, max(ratios)) * (figure.get_figwidth() / len(axes) - 0.8))
 
 
 def heading(axis: "Axes", text: str) -> None:
