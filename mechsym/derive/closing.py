@@ -179,7 +179,8 @@ def _require_held(m: Declaration) -> None:
 
 
 def _draw(m: Declaration) -> None:
-    """Every link as a line through what its joints hold, where the declaration draws nothing."""
+    """Name where pins are; each link is a line through what its joints hold, where the declaration draws nothing."""
+    m.pins = {pin.name: m.point_names((pin.first,))[0] for pin in m.link_joints if pin.kind == "pin"}
     if m.shapes:
         return
     for link in m.links:

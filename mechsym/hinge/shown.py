@@ -1,7 +1,7 @@
 """What of a hinge design is worth seeing, has to be known first, and how engine and hinge turn together."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 import numpy as np
@@ -21,7 +21,7 @@ from mechsym.mechanisms.drawing import Shapes, shapes
 from mechsym.mechanisms.drawing import declared as drawn
 from mechsym.mechanisms.plots import figure_of
 from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.turning import scene
+from mechsym.mechanisms.turning import Load, pushed, scene
 from mechsym.page import Card, Picture, View, card, shows
 from mechsym.page.finding import LEAST_SURE, LOOK_AT, NOT_MET, Finding
 from mechsym.quantities import RPM
@@ -219,11 +219,21 @@ def hinge_scene(guide: Guide, rollers: RollerParameters, turns: Pure, frames: in
     tracks = ", first track (red) and second (violet), in planes beside each other" if two else ", track"
     shown = scene(drawn, f"the elastic hinge to scale: spring with its pistons, rollers{tracks}", turns, frames)
     theta = guide.parameters.shaft_ratio * np.linspace(0, 2 * np.pi * turns, frames, endpoint=False) % (2 * np.pi)
-    pressure = at_angles(guide, rollers, theta).pressure
-    if pressure is not None:
-        share = np.rint(100 * pressure / pressure.max()).astype(int).tolist()
+    turn = at_angles(guide, rollers, theta)
+    if turn.pressure is not None:
+        share = np.rint(100 * turn.pressure / turn.pressure.max()).astype(int).tolist()
         shown["shapes"] = [shape | {"share": share} if shape["role"] == "gas" else shape for shape in shown["shapes"]]
-    return shown
+    return pushed(shown, list(_of_rollers(shown, drawn, (turn.reaction_1, turn.reaction_2))))
+
+
+def _of_rollers(shown: Json, drawn: Callable[[float], Shapes], reactions: Sequence[np.ndarray]) -> Iterator[Load]:
+    """What the tracks press on the rollers with, across the paths of their centres."""
+    angles = np.linspace(0, 2 * np.pi * shown["turns"], shown["count"], endpoint=False)
+    frames = [[complex(*s.centre) for s in drawn(float(a)) if s.role == "roller"] for a in angles]  # type: ignore[union-attr]
+    for number, (at, force) in enumerate(zip(np.array(frames).T, reactions, strict=False), 1):
+        across = 1j * (np.roll(at, -1) - np.roll(at, 1))
+        inwards = -across / np.abs(across) * np.sign((across * at.conj()).real)
+        yield Load(name=f"track on roller {number}", at=at, force=force * inwards)
 
 
 def engine(design: Design) -> Callable[[float], Shapes] | None:

@@ -26,7 +26,10 @@ from mechsym.jobs.problem import Ready, beyond, guide_of
 from mechsym.jobs.problem import ready as running
 from mechsym.machine.loads import Load, settle
 from mechsym.mechanisms.drawing import Shapes, drawn
-from mechsym.mechanisms.turning import FRAMES, scene
+from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.record import listing
+from mechsym.mechanisms.turning import FRAMES, scene, traced
+from mechsym.periodic import even_angles
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.constrained import LOCKED
 from mechsym.simulate.problem import Kinks, Periodic, Problem
@@ -138,6 +141,19 @@ def drawing(case: Case) -> Callable[[float], Shapes] | None:
         return None
 
 
+def watched(case: Case) -> dict[str, np.ndarray]:
+    """Paths of the points that a declaration watches, by their names, x + i y over a turn."""
+    if not listing(plan_of(case.mechanism).theory).get("watched"):
+        return {}
+    mechanism = one_coordinate(case)
+    names = {told: name for name, told in mechanism.shown.items()}
+    function = mechanism.functions["kinematics"]
+    found = [map(float, function.call([at])) for at in even_angles(math.tau, FRAMES)]
+    rows = [dict(zip(function.name_out(), row, strict=True)) for row in found]
+    points = [told[:-2] for told in names if told.endswith(".x")]
+    return {p: np.array([row[names[f"{p}.x"]] + 1j * row[names[f"{p}.y"]] for row in rows]) for p in points}
+
+
 def with_gas(scenes: list[Json], case: Case) -> list[Json]:
     """Scenes of a case whose first shows what the gas of its cycle does; as they are where there is none."""
     if not scenes or "cycle" not in case.sections:
@@ -155,7 +171,7 @@ def turning(case: Case, guide: Guide | None = None) -> list[Json]:
     shapes, found = drawing(case), []
     turns = 1 if guide is None else max(1, round(1 / guide.parameters.shaft_ratio))
     if shapes is not None:
-        found.append(scene(shapes, "the machine to scale", turns, turns * FRAMES))
+        found.append(traced(scene(shapes, "the machine to scale", turns, turns * FRAMES), watched(case)))
     if guide is not None:
         found.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
     return with_gas(found, case)

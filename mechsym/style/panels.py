@@ -64,13 +64,11 @@ def to_scale(figure: "Figure", axes: "Sequence[Axes]") -> None:
     """Panels to one scale across and up, filled by what they show, in a figure no higher than they need."""
     ratios = []
     for axis in axes:
-        sizes = [np.array(limits) for limits in (axis.get_xlim(), axis.get_ylim())]
-        least = _FLATTEST * max(np.ptp(one) for one in sizes)
-        for one, put in zip(sizes, (axis.set_xlim, axis.set_ylim), strict=True):
-            one += np.array([-0.5, 0.5]) * max(0.0, least - np.ptp(one))
-            put(one)
-        axis.set_aspect("equal")
-        ratios.append(float(np.ptp(sizes[1]) / np.ptp(sizes[0])))
+        limits = np.array([axis.get_xlim(), axis.get_ylim()])
+        short = np.maximum(_FLATTEST * np.ptp(limits, axis=1).max() - np.ptp(limits, axis=1), 0.0)
+        (left, right), (low, high) = limits + 0.5 * short[:, None] * np.array([-1.0, 1.0])
+        axis.set(xlim=(left, right), ylim=(low, high), aspect="equal")
+        ratios.append((high - low) / (right - left))
     figure.set_figheight(1.3 + min(1.2, max(ratios)) * (figure.get_figwidth() / len(axes) - 0.8))
 
 
