@@ -183,7 +183,7 @@ def orders(result: Forces) -> "Figure":
     torque = result.torque_orders
     factor, unit = axis_unit("N*m", torque.amplitude[1:])
     left.bar(torque.order[1:], torque.amplitude[1:] * factor, width=0.35, color=SERIES[0])
-    left.set(xlabel="\n".join(["order [-]", *notes]), ylabel=f"torque amplitude [{unit}]")
+    left.set(xlabel="\n".join(["order, by turn [-]", *notes]), ylabel=f"torque amplitude [{unit}]")
     for axis, (orders, si, name) in zip(others, acting, strict=True):
         _order_bars(axis, orders, si, f"{name} on the frame")
     return figure
@@ -202,7 +202,7 @@ def _order_bars(axis: "Axes", orders: dict[str, Harmonics], si: str, name: str) 
     for i, (label, values) in enumerate(shown.items()):
         place = np.arange(1, len(values) + 1) + 0.8 * ((i + 0.5) / len(shown) - 0.5)
         axis.bar(place, values * factor, width=0.7 / len(shown), color=SERIES[i], label=label)
-    axis.set(xlabel="order [-]", ylabel=f"{name} [{unit}]")
+    axis.set(xlabel="order, by turn [-]", ylabel=f"{name} [{unit}]")
     legend(axis)
 
 
@@ -222,7 +222,7 @@ def balance_orders(one: BalancedEngine) -> "Figure":
         for values, label, color, beside in zip(pair, ("before", "after"), SERIES, (-0.2, 0.2), strict=False):
             place, height = np.array(list(values))[:8] + beside, np.array(list(values.values()))[:8]
             axis.bar(place, height * factor, width=0.38, color=color, label=label)
-        axis.set(xlabel=f"order [-]\n{still}".rstrip(), ylabel=f"{name} [{shown}]")
+        axis.set(xlabel=f"order, by turn [-]\n{still}".rstrip(), ylabel=f"{name} [{shown}]")
         axis.set_xticks(range(1, 9))
         legend(axis)
     if not acting:

@@ -255,7 +255,9 @@ def _forces(case: Case) -> ReportPart:
 def _size(case: Case) -> ReportPart:
     printed = roles_of(case.mechanism).rules == "slider crank" and "part_crosshead" in case.sections
     found = check_printed(case) if printed else size(case)
-    rows = [{**row, "component": key_words(row["component"])} for row in found.rows]
+    # a reaction keeps its letter with the index
+    rows = [{**row, "component": row["component"] if row["component"][:2] == "R_" else key_words(row["component"])}
+            for row in found.rows]  # fmt: skip
     sizes = [_sized(row) for row in rows if row["limit"] is None]
     checks = [_sized(row) | {"": "" if row["holds"] else "BELOW"} for row in rows if row["limit"] is not None]
     tight = [_tight(row) for row in tightest(found)[:3]]

@@ -49,9 +49,8 @@ def test_arrows_of_a_linkage_stand_at_its_joints(name):
     shown = shown_of(jobs.forces(cases.load(str(OWN / f"{name}.toml"))))
     assert len(shown["loads"]) == {"whitworth": 4, "atkinson": 6}[name]
     for k in range(0, FRAMES, FRAMES // 10):
-        corners = np.concatenate(
-            [np.reshape(s["moves"][k] if s["moves"] else s["at"], (-1, 2)) for s in shown["shapes"]]
-        )
+        drawn = (s["moves"][k] if s["moves"] else s["at"] for s in shown["shapes"])
+        corners = np.concatenate([np.reshape(at, (-1, 2)) for at in drawn])
         for load in shown["loads"]:
             assert np.hypot(*(corners - load["at"][k]).T).min() < 1.0, (load["name"], k)
 
@@ -74,9 +73,8 @@ def test_the_path_of_a_watched_point_is_drawn_where_it_moves(tmp_path):
         shutil.copy(OWN / f"whitworth.{end}", tmp_path)
     file = tmp_path / "whitworth.py"
     text = file.read_text(encoding="utf-8")
-    file.write_text(
-        text.replace("    return m\n", '    m.watch(rocker.at(s), "tip")\n    return m\n'), encoding="utf-8"
-    )
+    text = text.replace("    return m\n", '    m.watch(rocker.at(s), "tip")\n    return m\n')
+    file.write_text(text, encoding="utf-8")
     (shown,) = turning(cases.load(str(tmp_path / "whitworth.toml")))
     (path,) = shown["watched"]
     joints = [np.array(s["moves"]) for s in shown["shapes"] if s["role"] == "joint" and s["moves"]]
