@@ -217,7 +217,7 @@ def emit(
 def _headed(text: str, first: Sequence["Finding"]) -> str:
     """A text behind what has to be known first; a text that begins with one of these keeps its first line."""
     head, _, rest = text.partition("\n")
-    others = [one.line for one in first if one.words != head]
+    others = [one.line for one in first if one.words not in head]
     return "\n".join([*others, text] if len(others) == len(first) else [head, *others, rest])
 
 

@@ -112,7 +112,7 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
     if isinstance(again, RetunedNumbers):
         lines.append(
             f"{'at ' + figure(again.speed_rpm, 4) + ' rpm':17}best setting {setting(again.p0)} "
-            f"({again.p0_ratio:.3g} times), ripple {ripple_text(again.speed_ripple)}"
+            f"({again.p0_ratio:.3g} times), ripple {ripple_text(again.speed_ripple, 3)}"
         )
     if numbers.loads:
         rows = [tell(row) | {"setting": setting(row.p0)} for row in numbers.loads]

@@ -17,7 +17,7 @@ _KEYED = re.compile(r"[A-Za-z][\w.]*(?= ?=)")  # a key before its value
 _NAMED = re.compile(r"(?<![\w./\\])[A-Za-z]\w*_\w+(?![\w(/]|\.[a-z])")  # a key, no file
 _SYMBOL = 3  # letters before its index
 _GREEK = {name.lower(): lookup(f"GREEK SMALL LETTER {name}") for name in
-          ("ALPHA", "BETA", "GAMMA", "THETA", "PHI", "PSI", "RHO", "OMEGA", "ETA", "MU", "TAU")}  # fmt: skip
+          ("ALPHA", "BETA", "GAMMA", "THETA", "PHI", "RHO", "OMEGA", "ETA", "MU", "TAU")}  # fmt: skip
 _LETTER = re.compile(rf"(?<![\w./\\-])({'|'.join(_GREEK)})(_?\w*)(?![\w(/=-]|\.[a-z])")
 _TIMES = re.compile(r"(?<=[a-zA-Z])\*(?=[a-zA-Z])")
 _TWICE = re.compile(r"\b(k?J|W|N|kg)/(kg|m²|m)/(K⁴?|s)")
