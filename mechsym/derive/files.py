@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-from mechsym.derive import closing
 from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import module_text
 from mechsym.derive.lagrange import derive
@@ -145,10 +144,7 @@ def chosen(path: Path, name: str = "") -> Declaration:
 
 def explained(path: Path, name: str) -> list[str]:
     """How the loops of a mechanism in a file are closed, a line each, in order."""
-    m = chosen(path, name)
-    closing.finish(m)
-    held = [f"{letter} is held by constraint, from {m.guesses[letter.name]:g} on" for letter in m.dependent_list]
-    return [*map(str, m.sides), *held]
+    return chosen(path, name).explained()
 
 
 def build(path: Path, name: str, source_hash: str, by_constraint: bool = False) -> tuple[str, Listing]:

@@ -8,6 +8,7 @@ is Lagrange's equation (textbook.py proves it for every mechanism) at a fraction
 displacement is one more coordinate whose acceleration is zero: its equation gives the reaction.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from sympy import Expr, Integer, Rational, Symbol
@@ -56,6 +57,8 @@ class Equations:
     momentum: dict[str, Expr]
     constraint_jacobian: tuple[tuple[Expr, ...], ...] = ()
     constraint_bias: tuple[Expr, ...] = ()
+    checked: Callable[[], tuple[int, float]] | None = None  #: Another check than that of the plane
+    written: tuple[dict[str, str], ...] = ()  #: The equations for a reader, where the steps are too many to be read
 
 
 def given_equations(m: Declaration, mass_matrix: list[list[Expr]], bias: list[Expr], force: list[Expr]) -> None:
@@ -82,6 +85,8 @@ def derive(m: Declaration) -> Equations:
 
     Returns equations: mass matrix, bias, forces, energies, reactions.
     """
+    if (own := m.own_equations()) is not None:
+        return own
     finish(m)
     if not m.q:
         refuse(f"{m.name} has no coordinate; declare one: phi = m.coordinates('phi')", m.where[m.name])

@@ -49,6 +49,8 @@ class Listing(TypedDict):
     springs: NotRequired[list[str]]
     dampers: NotRequired[list[str]]
     watched: NotRequired[list[str]]  #: Points that `m.watch` names
+    undetermined: NotRequired[list[str]]  #: Reactions that joints hold against one another, in space
+    redundant: NotRequired[list[str]]  #: Which joints these are, in words
     open_sides: NotRequired[list[str]]  #: Joints of loops of pins whose side nobody chose
 
 
@@ -70,7 +72,7 @@ def listing(equations: Equations) -> Listing:
         "reactions": {m.reaction_of.get(s, s).name: about for s, about in m.joint_about.items()},
         "constraints": list(m.constraints),
         **_own(m),
-        "equations": [_equation(m, *row) for row in _rows(equations)],
+        "equations": [*equations.written] or [_equation(m, *row) for row in _rows(equations)],
     }
     return cast(Listing, stored)
 
@@ -91,6 +93,8 @@ def _own(m: Declaration) -> Json:
         "springs": _constants(m, m.springs),
         "dampers": _constants(m, m.dampers),
         "watched": [*m.watched],
+        "undetermined": m.undetermined,
+        "redundant": m.redundant,
         "open_sides": [side.joint for side in m.sides if side.pins and not side.by],
     }
     return {key: value for key, value in said.items() if value}

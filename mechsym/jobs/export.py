@@ -50,18 +50,13 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
             raise BadInput(f"{case.file}: --diagram needs an engine with crosshead and [cycle], as the case generator")
         case = measured(case, diagram)
     wanted = case.sections.get("simulation") or Simulation(turns=TURNS)
-    found = running(_beyond(dataclasses.replace(case, sections={**case.sections, "simulation": wanted})))
+    # its own run in time may go on through a dead point of the closed forms: then by constraint
+    case = beyond(dataclasses.replace(case, sections={**case.sections, "simulation": wanted}))
+    found = running(case)
+    if "sides" in found.problem.mechanism.functions and not found.problem.unilateral:
+        run = simulate(found.problem, dataclasses.replace(Settings(), check="none"))
+        found = running(beyond(case, ends=True)) if run.end == LOCKED else found
     return dataclasses.replace(found, problem=_splined(case, found.problem)) if _by_spark(case) else found
-
-
-def _beyond(case: Case) -> Case:
-    """The case on loops by constraint where its own run in time goes on through a dead point of the closed forms."""
-    case = beyond(case)
-    problem = running(case).problem
-    if "sides" not in problem.mechanism.functions or problem.unilateral:
-        return case
-    run = simulate(problem, dataclasses.replace(Settings(), check="none"))
-    return beyond(case, ends=True) if run.end == LOCKED else case
 
 
 def _by_spark(case: Case) -> bool:
@@ -93,8 +88,11 @@ def _splined(case: Case, problem: Problem) -> Problem:
         starts = [(number, one.face.fires) for number, one in enumerate(acts) if one.face.input == part.input]
         if starts and isinstance(part.value, Periodic):
             period, number = part.value.period, 0 if len({one.gas for one in acts}) == 1 else starts[0][0]
-            closed = _closed_angles(case, number)
-            angles = tuple(sorted({round((a + fires) % period, 14) for a in closed for _, fires in starts}))
+            # ends of the closed period of the piston and of its combustion, from its firing dead centre
+            engine = engine_with(one_cylinder(case), NoFriction(), number)
+            closed = closed_period(engine, {"omega": case.need("operation").speed})
+            ends = closed.closes, closed.starts, closed.starts + closed.duration, closed.opens
+            angles = tuple(sorted({round((a + fires) % period, 14) for a in ends for _, fires in starts}))
             table = _table(part.value.value, angles, period)
             kinks.setdefault(part.value.coordinate, set()).update(angles)
             part = dataclasses.replace(part, value=dataclasses.replace(part.value, value=table, kinks=angles))
@@ -102,13 +100,6 @@ def _splined(case: Case, problem: Problem) -> Problem:
     period = max(one.gas.pressure.period for one in acts)
     asked = tuple(Kinks(coordinate=q, angles=tuple(sorted(angles)), period=period) for q, angles in kinks.items())
     return dataclasses.replace(problem, parts=tuple(parts), kinks=asked)
-
-
-def _closed_angles(case: Case, number: int = 0) -> tuple[float, ...]:
-    """Ends of the closed period of a piston and of its combustion, from its firing dead centre [rad]."""
-    engine = engine_with(one_cylinder(case), NoFriction(), number)
-    closed = closed_period(engine, {"omega": case.need("operation").speed})
-    return closed.closes, closed.starts, closed.starts + closed.duration, closed.opens
 
 
 def _table(force: _Force, kinks: tuple[float, ...], period: float) -> "scipy.interpolate.PPoly":

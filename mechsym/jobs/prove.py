@@ -94,7 +94,14 @@ def of_guides_at(case: Case, samples: int, progress: Callable[[int], object] = l
 def ranges_of(mechanism: str, case: Case) -> Ranges:
     """Ranges of all letters of a mechanism [SI]: parameters at the case's values and 1 % to both sides."""
     known, module = listing(mechanism), generated(mechanism)
-    values = {letter: _number(case, letter) for letter in module.PARAMETERS}
+    values = {}
+    for letter in module.PARAMETERS:
+        value = getattr(case.need("parameters"), letter, None)
+        if isinstance(value, tuple):  # of several throws the first
+            value = value[0] if value else None
+        if value is None:
+            raise BadInput(f"{case.file}: no value for {letter}; name a case of this mechanism with --case")
+        values[letter] = float(value)
     extremes = extremes_of(case)
     length = 2 * max((abs(v) for letter, v in values.items() if known["parameters"][letter] == "m"), default=1.0)
     ranges: Ranges = {letter: widened(v, _SHARE) for letter, v in values.items()}
@@ -108,15 +115,6 @@ def ranges_of(mechanism: str, case: Case) -> Ranges:
     return ranges
 
 
-def _number(case: Case, letter: str) -> float:
-    value = getattr(case.need("parameters"), letter, None)
-    if isinstance(value, tuple):  # of several throws the first
-        value = value[0] if value else None
-    if value is None:
-        raise BadInput(f"{case.file}: no value for {letter}; name a case of this mechanism with --case")
-    return float(value)
-
-
 def extremes_of(case: Case) -> Extremes:
     """Speeds, forces and torques that a case reaches: over a turn, or in its run where it has no speed of operation."""
     if "operation" not in case.sections:
@@ -126,12 +124,8 @@ def extremes_of(case: Case) -> Extremes:
     forces = np.concatenate([np.zeros(1), *(f.value(_TURN) for f in acting(engine))])
     (q,) = engine.mechanism.coordinates
     inertia = float(evaluate(engine.mechanism, "dynamics", **{q: _TURN})["mass_matrix"].min())
-    return Extremes(
-        speed=(0.0, _FASTER * engine.omega),
-        acceleration=torque / inertia,
-        force=(float(forces.min()), float(forces.max())),
-        torque=torque,
-    )
+    force = float(forces.min()), float(forces.max())
+    return Extremes(speed=(0.0, _FASTER * engine.omega), acceleration=torque / inertia, force=force, torque=torque)
 
 
 def _of_run(case: Case) -> Extremes:

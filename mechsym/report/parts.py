@@ -21,10 +21,9 @@ from mechsym.forces.friction import AUXILIARIES, NO_PLACE
 from mechsym.forces.result import Forces
 from mechsym.forces.shown import borne, pressed
 from mechsym.forces.summary import half
-from mechsym.hinge.result import complete
+from mechsym.hinge.result import complete, ripple_text
 from mechsym.hinge.shown import scenes
 from mechsym.hinge.summary import HingeNumbers
-from mechsym.hinge.target import ripple_text
 from mechsym.jobs.cycle import cycle
 from mechsym.jobs.forces import forces, told
 from mechsym.jobs.gas import gas, source
@@ -40,8 +39,8 @@ from mechsym.quantities import record
 from mechsym.quantities.display import figure, key_words, quantity_text, shown_in
 from mechsym.quantities.results import tell, units_of
 from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
-from mechsym.sizing.shown import tightest
-from mechsym.torsion import train
+from mechsym.sizing.rows import tightest
+from mechsym.torsion import twist
 from mechsym.torsion.shown import criticals, span
 
 _GIVES = "The engine gives"  # with which a sentence on the power at the shaft begins: it stands first
@@ -51,7 +50,7 @@ _LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "
 def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
     """The part of a force analysis."""
     numbers = told(case, found)
-    doubts += train.doubts(numbers.vibration) if numbers.vibration else ()
+    doubts += twist.doubts(numbers.vibration) if numbers.vibration else ()
     reasons = tuple(found.unbalanced)
     return ReportPart(
         name="forces", title=title, view=found.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from mechsym import cases, jobs
 from mechsym.app.answers import hinge_answer
 from mechsym.cli import mechsym
-from mechsym.hinge.target import Target, design_words, guide_words
+from mechsym.hinge.result import Target, design_words, guide_words
 from mechsym.quantities.results import tell
 
 SUCCESS = re.compile(r"\boptimal\b|\bcan be built\b|\bbuildable\b|(?<!not )\bmet\b|class=\"yes\"")
@@ -53,7 +53,10 @@ def test_no_guide_meets_nothing():
 
 
 def test_left_out_losses_are_said_to_be():
-    assert Target(ripple=0.02, with_losses=(0.02,), held=True, losses=False).words == "ripple of 2 % met without losses: 2 %"
+    assert (
+        Target(ripple=0.02, with_losses=(0.02,), held=True, losses=False).words
+        == "ripple of 2 % met without losses: 2 %"
+    )
 
 
 @pytest.fixture(scope="module")

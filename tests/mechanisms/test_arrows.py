@@ -8,7 +8,7 @@ import pytest
 
 from mechsym import cases, jobs
 from mechsym.forces.shown import charged, drawing_of, pressed
-from mechsym.hinge.contact import at_angles
+from mechsym.hinge.limits import at_angles
 from mechsym.hinge.shown import scenes
 from mechsym.jobs.export import turning
 from mechsym.mechanisms.turning import ARROW, FRAMES, scene

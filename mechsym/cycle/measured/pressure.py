@@ -8,13 +8,12 @@ The spline leaves out as much as the noise of the mean cycle; both are reported,
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber
-from mechsym.cycle.cylinder import CylinderGas
 from mechsym.cycle.measured.checks import diagram_doubts
 from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.measured.facts import diagram_facts
-from mechsym.cycle.measured.measure import measured_cycles
-from mechsym.cycle.measured.smoothing import smooth
+from mechsym.cycle.measured.measure import diagram_facts, measured_cycles
+from mechsym.cycle.measured.signal import smooth
 from mechsym.cycle.pressure import Pressure, mean_indicated_pressure, peak, periodic
+from mechsym.cycle.source import CylinderGas
 
 
 def diagram_pressure(diagram: Diagram, cylinder: Chamber) -> Pressure:
