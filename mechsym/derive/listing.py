@@ -37,6 +37,7 @@ class Listing(TypedDict):
     checked: NotRequired[int]  #: Random states at which T - V agreed
     equations: list[dict[str, str]]  #: Title, LaTeX and MathML of each
     dependents: NotRequired[list[str]]
+    pose: NotRequired[dict[str, float]]  #: Of independent coordinates, where it was assembled
     guesses: NotRequired[dict[str, float]]
     multipliers: NotRequired[dict[str, str]]
     ranges: NotRequired[dict[str, Json]]
@@ -81,6 +82,7 @@ def _own(m: Declaration) -> Json:
     """What only some declarations say."""
     said = {
         "dependents": [s.name for s in m.dependent_list],
+        "pose": {q.name: m.poses[q.name] for q in m.q if q.name in m.poses and q not in m.dependent_list},
         "guesses": m.guesses,
         "multipliers": {c: s.name for c, s in m.multiplier_of.items()},
         "ranges": m.ranges,

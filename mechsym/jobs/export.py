@@ -1,8 +1,9 @@
 """Case -> what leaves the tool: its run, with what its parts are made of, and the machine in motion, to scale."""
 
+import contextlib
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import scipy
@@ -20,16 +21,16 @@ from mechsym.hinge.guide import Guide
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.shown import hinge_scene
 from mechsym.hinge.torque import Hinge
+from mechsym.jobs.forces import motion
 from mechsym.jobs.gas import engine_with, gas, measured, one_cylinder
-from mechsym.jobs.machine import acting_on, drive_of, one_coordinate
+from mechsym.jobs.machine import acting_on, drive_of, mechanism_of, one_coordinate
 from mechsym.jobs.problem import Ready, beyond, guide_of
 from mechsym.jobs.problem import ready as running
 from mechsym.machine.loads import Load, settle
-from mechsym.mechanisms.drawing import Shapes, drawn
-from mechsym.mechanisms.plan import plan_of
-from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.turning import FRAMES, scene, traced
-from mechsym.periodic import even_angles
+from mechsym.mechanisms import listing
+from mechsym.mechanisms.drawing import Shapes, declared, drawn
+from mechsym.mechanisms.drawn_parts import turns_round
+from mechsym.mechanisms.turning import FRAMES, scene
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.constrained import LOCKED
 from mechsym.simulate.problem import Kinks, Periodic, Problem
@@ -123,26 +124,37 @@ def _spline(force: _Force, first: float, last: float) -> "scipy.interpolate.PPol
 
 
 def drawing(case: Case) -> Callable[[float], Shapes] | None:
-    """Crank angle [rad] to the machine of a case as its declaration draws it; None where nothing draws it."""
-    try:
+    """Crank angle [rad] to the machine of a case as its declaration draws it; None where nothing draws it.
+
+    What does not turn round is drawn over its motion, which takes one turn of that angle.
+    """
+    with contextlib.suppress(BadInput):
         acting = gas(case)
         bore = None if acting is None else float(acting.chamber.bore)
-        return drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
-    except BadInput:
-        return None
+        shapes = drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
+        if "motion" not in case.sections and shapes is not None and turns_round(shapes):
+            return shapes
+    with contextlib.suppress(BadInput):
+        return _in_motion(case)
+    return None
 
 
-def watched(case: Case) -> dict[str, np.ndarray]:
-    """Paths of the points that a declaration watches, by their names, x + i y over a turn."""
-    if not listing(plan_of(case.mechanism).theory).get("watched"):
-        return {}
-    mechanism = one_coordinate(case)
-    names = {told: name for name, told in mechanism.shown.items()}
-    function = mechanism.functions["kinematics"]
-    found = [map(float, function.call([at])) for at in even_angles(math.tau, FRAMES)]
-    rows = [dict(zip(function.name_out(), row, strict=True)) for row in found]
-    points = [told[:-2] for told in names if told.endswith(".x")]
-    return {p: np.array([row[names[f"{p}.x"]] + 1j * row[names[f"{p}.y"]] for row in rows]) for p in points}
+def _in_motion(case: Case) -> Callable[[float], Shapes] | None:
+    """A drawing over a motion: there and back again as `[motion]` drives it, else as it runs in time."""
+    back = "motion" in case.sections
+    if back:
+        mechanism, table = mechanism_of(case), motion(case).columns
+    else:
+        problem = ready(case).problem
+        mechanism, table = problem.mechanism, simulate(problem, dataclasses.replace(Settings(), check="none")).columns
+    rows = np.array([table[q] for q in mechanism.coordinates])
+    curve = scipy.interpolate.CubicSpline(np.linspace(0.0, 1.0, rows.shape[1]), rows.T)
+
+    def pose(angle: float) -> Sequence[float]:
+        share = angle / (2 * math.pi)
+        return curve(1 - abs(1 - 2 * share) if back else share).tolist()
+
+    return declared(mechanism, listing(mechanism.name), pose)
 
 
 def with_gas(scenes: list[Json], case: Case) -> list[Json]:
@@ -162,7 +174,7 @@ def turning(case: Case, guide: Guide | None = None) -> list[Json]:
     shapes, found = drawing(case), []
     turns = 1 if guide is None else max(1, round(1 / guide.parameters.shaft_ratio))
     if shapes is not None:
-        found.append(traced(scene(shapes, "the machine to scale", turns, turns * FRAMES), watched(case)))
+        found.append(scene(shapes, "the machine to scale", turns, turns * FRAMES))
     if guide is not None:
         found.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
     return with_gas(found, case)

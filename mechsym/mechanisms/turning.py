@@ -1,7 +1,7 @@
 """Drawings that turn in a page: what stands still once, what moves for every angle; colours by the role of a part."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -125,11 +125,6 @@ def pushed(shown: Json, loads: Sequence[Load]) -> Json:
         if most
     ]
     return shown | {"loads": rows, "most": most}
-
-
-def traced(shown: Json, paths: Mapping[str, np.ndarray]) -> Json:
-    """A scene with paths of points that its page always shows. paths: by name, x + i y over a turn [m]."""
-    return shown | {"watched": [{"name": name, "at": _pixels(shown, path)} for name, path in paths.items()]}
 
 
 def _pixels(shown: Json, at: np.ndarray) -> list[list[float]]:

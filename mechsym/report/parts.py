@@ -38,6 +38,7 @@ from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
 from mechsym.quantities.display import figure, key_words, quantity_text, shown_in
 from mechsym.quantities.results import tell, units_of
+from mechsym.report.motion import over_time
 from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
 from mechsym.sizing.rows import tightest
 from mechsym.torsion import twist
@@ -247,6 +248,8 @@ def _per_cent(share: float | None) -> str:
 
 
 def _forces(case: Case) -> ReportPart:
+    if "motion" in case.sections:
+        return over_time(PARTS["forces"].title, case)
     found = forces(case)
     return force_part(PARTS["forces"].title, case, found, of_forces(case, found))
 
