@@ -45,8 +45,14 @@ def sourced(case: Case) -> list[SourcedValue]:
         for field in dataclasses.fields(values):
             key, shown = f"{section}.{field.name}", _shown(getattr(values, field.name), field.metadata)
             if shown:
-                origin = "set for this run" if key in replaced else origins.get(key) or _usual(origins, key)
-                about = _plain(meaning(type(values), field))
+                # a key may carry its unit: speed_rpm = 142
+                written = [k for k in origins if k == key or k.startswith(f"{key}_")]
+                usual = _UNTOLD if written else "usual value of mechsym"
+                origin = next((origins[k] for k in [key, *written] if origins.get(k)), usual)
+                origin = "set for this run" if key in replaced else origin
+                # a comment of a record as a reader's meaning: no marks of code, no capital before a small letter
+                about = meaning(type(values), field).replace("`", "")
+                about = about[:1].lower() + about[1:] if about[1:2].islower() else about
                 rows.append(SourcedValue(key=key, value=shown, about=about, origin=origin))
     return rows
 
@@ -92,18 +98,6 @@ def _parted(line: str) -> tuple[str, str]:
         elif letter == "#":
             return line[:i], line[i + 1 :]
     return line, ""
-
-
-def _usual(origins: Mapping[str, str], key: str) -> str:
-    # a key may carry its unit: speed_rpm = 142
-    written = [k for k in origins if k == key or k.startswith(f"{key}_")]
-    return next((origins[k] for k in written if origins[k]), _UNTOLD if written else "usual value of mechsym")
-
-
-def _plain(text: str) -> str:
-    """A comment of a record as a reader's meaning: no marks of code, no capital before a small letter."""
-    words = text.replace("`", "")
-    return words[:1].lower() + words[1:] if words[1:2].islower() else words
 
 
 def _shown(value: object, about: Mapping[str, Any]) -> str:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cases import Case
+from mechsym.cli.common import case_command, diagram_option, emit, out_option, progress, table
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 
 if TYPE_CHECKING:
@@ -17,16 +18,10 @@ if TYPE_CHECKING:
 _MOST = 10.0  # times the load of the case; beyond that it is a slip of the pen
 
 
-@click.command(short_help="Design hinge and guide, prove them by simulation.")
-@click.argument("case_name", metavar="CASE")
-@click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle.")
+@case_command("Design hinge and guide, prove them by simulation.", out_option)
+@diagram_option
 @click.option("--loads", metavar="A,B..", help="Try the guide at other loads too, as shares of the case's: 0.5,0.75,1.")
-@out_option
-@set_option
-@json_option
-def hinge(
-    case_name: str, diagram: str | None, loads: str | None, out: Path | None, overrides: tuple[str, ...], as_json: bool
-) -> None:
+def hinge(case: Case, diagram: str | None, loads: str | None, out: Path | None) -> None:
     """Design hinge and guide, simulate the engine with them, write the report.
 
     Exit status 1 when the guide cannot be built; everything is computed and written all the same. A guide that can be
@@ -45,14 +40,14 @@ def hinge(
     from mechsym.hinge.summary import HingeNumbers
     from mechsym.jobs.hinge import hinge as design
 
-    case, shares = case_of(case_name, pairs(overrides)), _shares(loads)
+    shares = _shares(loads)
     if out is not None:
         make_folder(out)
     with progress(len(LATER) + bool(out), f"hinge of {case.name}") as bar:
         found = complete(design(case, diagram, shares), lambda: bar.update(1))
         files: list[Path] = []
         if out is not None:
-            from mechsym.hinge.report import write
+            from mechsym.hinge.shown import write
             from mechsym.jobs.export import ready
             from mechsym.out.web import LiveRun, with_live
 
@@ -62,8 +57,8 @@ def hinge(
     numbers = HingeNumbers(judged=found)
     setting = partial(setting_text, case.need("spring"))
     doubts = of_gas(case, found.machine.gas)
-    emit(numbers, as_json, lambda: _text(numbers, setting), beside={"doubts": doubts}, files=files,
-         findings=found.view.findings())  # fmt: skip
+    text = partial(_text, numbers, setting)
+    emit(numbers, text, beside={"doubts": doubts}, files=files, findings=found.view.findings())
     if not numbers.guide.feasible:
         sys.exit(1)
 
@@ -90,9 +85,14 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
     torque = [quantity_text(M, "N*m") for M in (numbers.hinge_torque_min, numbers.hinge_torque_max)]
     mean = numbers.hinge_torque_mean / max(abs(numbers.hinge_torque_max), abs(numbers.hinge_torque_min))
     how = "with losses" if check.losses else "without losses"
+    peak = (
+        ""
+        if numbers.p_max_bar is None
+        else f", peak pressure {quantity_text(1e5 * numbers.p_max_bar, 'Pa', 4)} absolute"
+    )
     lines = [
         numbers.verdict,
-        f"speed            {numbers.speed_rpm:.6g} rpm{_peak(numbers.p_max_bar)}",
+        f"speed            {numbers.speed_rpm:.6g} rpm{peak}",
         f"load torque      {quantity_text(numbers.load_torque, 'N*m')}",
         f"hinge torque     {torque[0]} to {torque[1]}, mean {ratio_text(mean)} of its peak",
         f"limits           {guide.reason.removeprefix(ALL_KEPT)}",
@@ -123,10 +123,6 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
             if row.speed_ripple_reset is None:
                 lines.append(f"share {row.share:g}, reset: {row.reason_reset}")
     return "\n".join(lines)
-
-
-def _peak(p_max_bar: float | None) -> str:
-    return "" if p_max_bar is None else f", peak pressure {quantity_text(1e5 * p_max_bar, 'Pa', 4)} absolute"
 
 
 def _left_out(numbers: "HingeNumbers") -> list[str]:

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.cycle.chamber import volume
-from mechsym.cycle.columns import AFTER_FRICTION, UNITS, CycleColumns, CycleFigures
-from mechsym.cycle.compare import EngineComparison
+from mechsym.cycle.columns import AFTER_FRICTION, UNITS, CycleColumns, CycleFigures, EngineComparison
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.pressure import Pressure
 from mechsym.files import Json
@@ -111,10 +110,11 @@ def cycle_view(found: CycleFigures) -> View:
 
 
 _ABOUT = {
-    "efficiency": "of the fuel's heating value", "brake_efficiency": "of the fuel's heating value",
-    "mechanical_efficiency": "brake by net indicated power", "ca50_deg": "half of the heat is released, from firing "
-    "dead centre",
-}  # fmt: skip
+    "efficiency": "of the fuel's heating value",
+    "brake_efficiency": "of the fuel's heating value",
+    "mechanical_efficiency": "brake by net indicated power",
+    "ca50_deg": "half of the heat is released, from firing dead centre",
+}
 
 
 def _flat(found: Json, size: int) -> Columns:

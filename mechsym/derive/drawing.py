@@ -11,7 +11,7 @@ from mechsym.derive.linkage import point_of
 from mechsym.derive.refuse import refuse
 from mechsym.files import Json
 
-PAINTED = ("frame", "flywheel", "piston", "planet", "rod", "crank", "joint")
+PAINTED = ("frame", "flywheel", "piston", "planet", "rod", "crank", "joint", "trace")
 SKETCHED = ("line", "circle", "box", "piston", "cylinder", "slider_crank")
 
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from mechsym.forces.balance import BalancedEngine, amplitudes
 from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
-from mechsym.forces.indicated import NORMAL_95, IndicatedPressure
 from mechsym.forces.loads import polar, radial, tangential
 from mechsym.forces.result import Forces
 from mechsym.forces.shaking import Harmonics
+from mechsym.forces.textbook import NORMAL_95, IndicatedPressure
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import Radian
 from mechsym.style import (

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cycle.motion import travel_of
+from mechsym.cycle.gas import travel_of
 from mechsym.files import Json, to_json, write_quantities, write_text
-from mechsym.forces import cams, plots
+from mechsym.forces import plots, summary
 from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
 from mechsym.forces.result import Forces, extremes
 from mechsym.forces.summary import CounterweightNumbers, half, quantities
@@ -39,7 +39,7 @@ def forces_view(forces: Forces) -> View:
         columns=lambda: forces.columns,
         findings=lambda: [
             *(Finding(rank=NOT_MET, words=reason) for reason in forces.unbalanced),
-            *cams.findings(forces.turn),
+            *summary.findings(forces.turn),
         ],
     )
 

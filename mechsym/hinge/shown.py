@@ -1,32 +1,34 @@
-"""What of a hinge design is worth seeing, has to be known first, and how engine and hinge turn together."""
+"""What of a hinge design is worth seeing, how engine and hinge turn together, and its report: one HTML file."""
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterator
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.files import Json
+from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.hinge import plots
-from mechsym.hinge.contact import at_angles
 from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.guide import Guide, setting_of, setting_text
-from mechsym.hinge.limits import ALL_KEPT, Verdict
+from mechsym.hinge.limits import ALL_KEPT, Verdict, at_angles
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_turn, hinge_columns
+from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_columns, guide_turn, hinge_columns
 from mechsym.mechanisms.drawing import Shapes, shapes
 from mechsym.mechanisms.drawing import declared as drawn
 from mechsym.mechanisms.plots import figure_of
 from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.turning import scene
-from mechsym.page import Card, Picture, View, card, shows
+from mechsym.mechanisms.turning import rules, scene
+from mechsym.page import Card, Picture, View, card, page, ranked, shows, title_mark
 from mechsym.page.finding import LEAST_SURE, LOOK_AT, NOT_MET, Finding
 from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, per_cent, quantity_text, ratio_text
+from mechsym.quantities.results import tell
 from mechsym.quantities.units import Pure
-from mechsym.style import axis_unit
+from mechsym.style import axis_unit, svg
 
 
 @shows(Design)
@@ -67,9 +69,7 @@ def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
                 mark="" if design.target.met else "no",
             ),
         )
-        found += [
-            Card(name="lost in the hinge", value=_lost(lost), about=f"{of_load}with assumed friction and heat"),
-        ]  # fmt: skip
+        found += [Card(name="lost in the hinge", value=_lost(lost), about=f"{of_load}with assumed friction and heat")]
         if share is not None:  # of a torque alone it is not known
             found += [
                 Card(name="one misfire", value=f"{figure(100 * share, 2)} % of the speed" if share else "stops",
@@ -257,3 +257,49 @@ def readouts(design: Design) -> list[Json]:
 def _readout(name: str, si: str, values: np.ndarray) -> Json:
     factor, unit = axis_unit(si, values)
     return {"name": name, "unit": unit, "text": [figure(float(v), 4) for v in values * factor]}
+
+
+def write(design: Design, folder: Path, finish: Callable[[str], str] = str) -> list[Path]:
+    """Write report, tables, summary and pictures into a folder. finish: makes the text that is written of it."""
+    numbers, columns = HingeNumbers(judged=design), hinge_columns(design)
+    figures = {picture.name: svg(picture.draw()) for picture in pictures(design)}
+    files = [write_text(folder / "report.html", finish(html(design, numbers, figures)))]
+    files.append(write_text(folder / "summary.json", to_json(tell(numbers)) + "\n"))
+    files.append(write_quantities(folder / "hinge.csv", columns, columns.units))
+    if design.guide.rho is not None:
+        columns = guide_columns(design, guide_turn(design, 3601))
+        files.append(write_quantities(folder / "guide.csv", columns, columns.units))
+    return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
+
+
+def html(design: Design, numbers: HingeNumbers, figures: dict[str, str]) -> str:
+    """The report as text."""
+    findings = ranked(of_design(design))
+    return page(
+        "hinge.html",
+        case=design.origin,
+        design=design,
+        numbers=numbers,
+        cards=cards(design, numbers),
+        findings=findings,
+        mark=title_mark(findings),
+        figures=figures,
+        see={picture.name: picture.see for picture in pictures(design)},
+        setting=partial(setting_text, design.guide.spring),
+        parameters=_parameters(design),
+        equations=listing(design.machine.mechanism.name)["equations"],
+        scenes=scenes(design),
+        readouts=readouts(design),
+        rules=rules(),
+        degrees=180 / np.pi,
+    )
+
+
+def _parameters(design: Design) -> list[tuple[str, str, str, float]]:
+    rows = []
+    for section, record in design.origin.sections.items():
+        for field in dataclasses.fields(record):
+            value = getattr(record, field.name)
+            if "unit" in field.metadata and isinstance(value, float):
+                rows.append((f"{section}.{field.name}", field.metadata["about"], field.metadata["unit"], value))
+    return rows

@@ -88,7 +88,14 @@ def of_guides_at(case: Case, samples: int, progress: Callable[[int], object] = l
 def ranges_of(mechanism: str, case: Case) -> Ranges:
     """Ranges of all letters of a mechanism [SI]: parameters at the case's values and 1 % to both sides."""
     known, module = listing(mechanism), generated(mechanism)
-    values = {letter: _number(case, letter) for letter in module.PARAMETERS}
+    values = {}
+    for letter in module.PARAMETERS:
+        value = getattr(case.need("parameters"), letter, None)
+        if isinstance(value, tuple):  # of several throws the first
+            value = value[0] if value else None
+        if value is None:
+            raise BadInput(f"{case.file}: no value for {letter}; name a case of this mechanism with --case")
+        values[letter] = float(value)
     speed, acceleration, force, torque = extremes_of(case)
     length = 2 * max((abs(v) for letter, v in values.items() if known["parameters"][letter] == "m"), default=1.0)
     ranges: Ranges = {letter: widened(v, _SHARE) for letter, v in values.items()}
@@ -100,15 +107,6 @@ def ranges_of(mechanism: str, case: Case) -> Ranges:
     for name, unit in known["inputs"].items():
         ranges[name] = force if unit == "N" else (-torque, torque)
     return ranges
-
-
-def _number(case: Case, letter: str) -> float:
-    value = getattr(case.need("parameters"), letter, None)
-    if isinstance(value, tuple):  # of several throws the first
-        value = value[0] if value else None
-    if value is None:
-        raise BadInput(f"{case.file}: no value for {letter}; name a case of this mechanism with --case")
-    return float(value)
 
 
 def extremes_of(case: Case) -> Extremes:

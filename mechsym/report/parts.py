@@ -38,9 +38,10 @@ from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
 from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text, shown_in
 from mechsym.quantities.results import tell, units_of
+from mechsym.report.motion import over_time
 from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
-from mechsym.sizing.shown import tightest
-from mechsym.torsion import train
+from mechsym.sizing.rows import tightest
+from mechsym.torsion import twist
 from mechsym.torsion.shown import criticals, span
 
 _GIVES = "The engine gives"  # with which a sentence on the power at the shaft begins: it stands first
@@ -50,7 +51,7 @@ _LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "
 def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
     """The part of a force analysis."""
     numbers = told(case, found)
-    doubts += train.doubts(numbers.vibration) if numbers.vibration else ()
+    doubts += twist.doubts(numbers.vibration) if numbers.vibration else ()
     reasons = tuple(found.unbalanced)
     return ReportPart(
         name="forces", title=title, view=found.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
@@ -247,6 +248,8 @@ def _per_cent(share: float | None) -> str:
 
 
 def _forces(case: Case) -> ReportPart:
+    if "motion" in case.sections:
+        return over_time(PARTS["forces"].title, case)
     found = forces(case)
     return force_part(PARTS["forces"].title, case, found, of_forces(case, found))
 

@@ -16,8 +16,7 @@ from mechsym.simulate.result import period_means
 from mechsym.simulate.speed import Speed
 from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import FinishedRun, StartUp
-from mechsym.torsion.train import TrainVibration, critical_words
-from mechsym.torsion.twist import ShaftSection, pairs, section_words
+from mechsym.torsion.twist import ShaftSection, TrainVibration, critical_words, pairs, section_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from mechsym import cases, jobs
 from mechsym.app.answers import hinge_answer
 from mechsym.cli import mechsym
-from mechsym.hinge.target import Target, design_words, guide_words
+from mechsym.hinge.result import Target, design_words, guide_words
 from mechsym.quantities.results import tell
 
 SUCCESS = re.compile(r"\boptimal\b|\bcan be built\b|\bbuildable\b|(?<!not )\bmet\b|class=\"yes\"")

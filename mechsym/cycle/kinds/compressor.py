@@ -15,8 +15,8 @@ import numpy as np
 import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
-from mechsym.cycle.cylinder import CylinderGas
 from mechsym.cycle.pressure import Pieces, Pressure, pressure_over
+from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Pascal, Radian, Scalar

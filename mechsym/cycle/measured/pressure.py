@@ -13,13 +13,12 @@ import numpy as np
 import scipy
 
 from mechsym.cycle.chamber import Chamber
-from mechsym.cycle.cylinder import CylinderGas
 from mechsym.cycle.measured.checks import diagram_doubts
 from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.measured.facts import diagram_facts
-from mechsym.cycle.measured.measure import measured_cycles
-from mechsym.cycle.measured.smoothing import smooth
+from mechsym.cycle.measured.measure import diagram_facts, measured_cycles
+from mechsym.cycle.measured.signal import smooth
 from mechsym.cycle.pressure import Pieces, Pressure, mean_indicated_pressure, peak, periodic
+from mechsym.cycle.source import CylinderGas
 
 _CLOSE = 1e-9  # [rad]
 
