@@ -18,16 +18,18 @@ _GROUND = [[(0, 0), (-9, -16), (9, -16), (0, 0)], _HATCH]  # tenths of a mark, a
 
 
 def draw(m: Declaration) -> None:
-    """Draw what the declaration leaves undrawn."""
-    if m.shapes:
+    """Name where pins are, and draw what the declaration leaves undrawn."""
+    m.pins = {pin.name: m.point_names((pin.first,))[0] for pin in m.link_joints if pin.kind == "pin"}
+    drawn = bool(m.shapes)
+    for point in m.watched.values():
+        m._shape("trace", "trace", (point,))
+    if drawn:
         return
     mark = _mark(m)
     for joint in m.link_joints if mark != 0 else ():
         _DRAWN[joint.kind](m, joint, mark)
     for link in m.links:
         _link(m, link)
-    for point in m.watched.values():
-        m._shape("trace", "trace", (point,))
 
 
 def _mark(m: Declaration) -> Expr:
