@@ -19,7 +19,7 @@ from numpy.polynomial import Chebyshev
 
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Chamber, Motion, check_motion, motion_over, with_bottom
-from mechsym.cycle.pressure import Pressure, peak
+from mechsym.cycle.pressure import Pieces, Pressure, peak
 from mechsym.errors import BadInput
 from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.record import Mechanism, bind
@@ -203,6 +203,14 @@ class Gas(Shown):
         phi: angle from firing dead centre. Returns F: force, shape of phi.
         """
         return (self.pressure.absolute(phi) - self.p_back) * self.chamber.area
+
+    def formulas(self, start: Radian = 0.0) -> Pieces:
+        """The same for a CasADi symbol, from angle to angle, of a piston that fires at a start; none without."""
+        area = self.chamber.area
+        return tuple(
+            (a + start, b + start, lambda phi, law=law: (law(phi - start) - self.p_back) * area)
+            for a, b, law in self.pressure.formulas
+        )
 
 
 def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
