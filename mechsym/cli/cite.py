@@ -3,13 +3,12 @@
 import click
 
 from mechsym.cli.common import emit, json_option
-from mechsym.files import Json
 
 
 @click.command(short_help="What to cite for a case, a mechanism or a source, as text and BibTeX.")
 @click.argument("name")
 @json_option
-def cite(name: str, as_json: bool) -> None:
+def cite(name: str) -> None:
     """What to cite for NAME: a case (its data, laws and methods), a derived mechanism, or a source.
 
     \b
@@ -19,9 +18,5 @@ def cite(name: str, as_json: bool) -> None:
     from mechsym.papers.cite import cited
 
     rows = cited(name)
-    emit(rows, as_json, lambda: _text(rows))
-
-
-def _text(rows: list[Json]) -> str:
     said = [f"{row['key']}: {row['what']}" for row in rows]
-    return "\n".join([*said, "", *("\n" + row["bibtex"] for row in rows)])
+    emit(rows, lambda: "\n".join([*said, "", *("\n" + row["bibtex"] for row in rows)]))

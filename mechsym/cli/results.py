@@ -2,7 +2,6 @@
 
 import functools
 import re
-from collections.abc import Mapping
 
 from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
@@ -17,7 +16,7 @@ _BESIDE = {"doubts": "mechsym.plausible:Doubt", "accepted": "mechsym.plausible:D
 #: Command: the results that it may give, each "module:class"
 RESULTS = {
     "audit": ("mechsym.audit.row:Compared", "mechsym.audit.hosts.paper:EquationPlace"),
-    "balance": ("mechsym.jobs.balance:BalanceOfEngine",),
+    "balance": ("mechsym.jobs.forces:BalanceOfEngine",),
     "compare": ("mechsym.cycle.columns:EngineComparison",),
     "cycle": (
         "mechsym.cycle.columns:CycleColumns",
@@ -28,9 +27,9 @@ RESULTS = {
     "eval": ("mechsym.mechanisms.state:MechanismState",),
     "identify": ("mechsym.optimise.identify:Identified",),
     "optimise": ("mechsym.optimise.solver:Optimised",),
-    "study": ("mechsym.sweep.numbers:StudyNumbers",),
-    "sweep": ("mechsym.sweep.numbers:SweepNumbers",),
-    "simulate": ("mechsym.torsion.startup:FinishedRun",),
+    "study": ("mechsym.sweep.data:StudyNumbers",),
+    "sweep": ("mechsym.sweep.data:SweepNumbers",),
+    "simulate": ("mechsym.torsion.startup:FinishedRun", "mechsym.simulate.rest:RestPoses"),
     "hinge": ("mechsym.hinge.summary:HingeNumbers",),
     "codesign": ("mechsym.codesign.result:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
     "flywheel": ("mechsym.jobs.flywheel:FlywheelDesign",),
@@ -59,17 +58,16 @@ KEYS = {"cycle": ("parameters", "chamber", "cycle", "gas", "heat_transfer", "fri
 
 def units_by_path(value: object, command: str) -> dict[str, str]:
     """Unit of each number that a command tells by its path, `speeds.phi.mean`; of plain values as they are declared."""
-    declared_units = {row["path"]: row["unit"] for row in rows(command)} if command in RESULTS else {}
-    return {
-        leaf.path: unit for leaf in leaves(value) if (unit := leaf.unit or _declared_unit(leaf.path, declared_units))
-    }
-
-
-def _declared_unit(path: str, units: Mapping[str, str]) -> str:
-    """Unit of a path by the list of a command; a column inside a group has that of its name."""
-    bare = re.sub(r"\[\d+\]", "", path)
-    listed = next((unit for name, unit in units.items() if _pattern(name).fullmatch(bare)), "")
-    return units.get(bare.rpartition(".")[2], "") if listed.startswith("of its ") else listed
+    units = {row["path"]: row["unit"] for row in rows(command)} if command in RESULTS else {}
+    told = {}
+    for leaf in leaves(value):
+        bare = re.sub(r"\[\d+\]", "", leaf.path)
+        listed = next((unit for name, unit in units.items() if _pattern(name).fullmatch(bare)), "")
+        if listed.startswith("of its "):  # a column inside a group has the unit of its name
+            listed = units.get(bare.rpartition(".")[2], "")
+        if unit := leaf.unit or listed:
+            told[leaf.path] = unit
+    return told
 
 
 @functools.cache
@@ -105,17 +103,13 @@ def rows(command: str | None = None) -> list[Json]:
     if command is not None and command not in RESULTS:
         raise BadInput(f"command {command!r} has no list of results; {suggest(command, list(RESULTS))}")
     wanted = RESULTS if command is None else {command: RESULTS[command]}
-    found = {
-        (name, number.path): number
-        for name, kinds in wanted.items()
-        for kind in kinds
-        for number in declared(load(kind))
-    }
-    listed = [
-        {"command": name, "path": path, "unit": number.unit, "about": number.about}
-        for (name, path), number in found.items()
-    ]
-    return listed + [
+    listed = {}
+    for name, kinds in wanted.items():
+        for number in (one for kind in kinds for one in declared(load(kind))):
+            row = {"command": name, "path": number.path, "unit": number.unit, "about": number.about}
+            listed[name, number.path] = row
+    return [*listed.values()] + [
         {"command": name, "path": f"{section}.*", "unit": "of its key", "about": _OVER}
-        for name in wanted for section in KEYS.get(name, ())
-    ]  # fmt: skip
+        for name in wanted
+        for section in KEYS.get(name, ())
+    ]
