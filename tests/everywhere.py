@@ -15,7 +15,8 @@ from pathlib import Path
 VERSIONS = ("3.11", "3.12", "3.13", "3.14")
 CLONE = Path(__file__).resolve().parents[1]
 COMMANDS = (
-    ("hinge", "zotov-89", "--json"),
+    ("hinge", "zotov-89", "--out", "{home}/demo"),
+    ("cite", "zotov-89"),
     ("audit", "--formula", "r*(1 - cos(phi))", "--against", "hypocycloid.x", "--letters", "r=2*e,phi=theta", "--json"),
     ("derive", "--check"),
     ("fmu", "zotov-89", "--out", "{home}/e.fmu", "--compare"),
@@ -57,6 +58,15 @@ def tried(place, wheel, home):
     check = "import sys; from fmpy.validation import validate_fmu as v; sys.exit(len(v(sys.argv[1])))"
     if subprocess.run([python, "-c", check, home / "e.fmu"], capture_output=True, check=False).returncode:
         failed.append("fmpy validate")
+    light = "import sys, mechsym; from mechsym import cases; cases.load('zotov-89'); sys.exit('sympy' in sys.modules)"
+    if subprocess.run([python, "-c", light], cwd=home / "empty", check=False).returncode:
+        failed.append("import takes sympy with it")
+    archive = next(Path(wheel).parent.glob("*.tar.gz"))
+    quiet = ["-m", "pip", "install", "--quiet", "--no-deps", "--force-reinstall"]
+    subprocess.run([python, *quiet, archive], check=True)
+    state = [home / "bin" / "mechsym", "eval", "crosshead", "--case", "zotov-89", "--json"]
+    if subprocess.run(state, cwd=home / "empty", capture_output=True, check=False).returncode:
+        failed.append("what the archive installs does not run")
     return failed
 
 
