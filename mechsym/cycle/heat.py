@@ -83,7 +83,12 @@ def heat_flux(law: Law, state: GasAtWall) -> Annotated[Scalar, "W/m^2"]:
     """
     match law:
         case Annand():
-            return _annand(law, state)
+            density = state.p / (state.gas_constant * state.t)
+            reynolds = density * state.piston_speed * state.bore / viscosity(state.t)
+            convection = conductivity(state.t) / state.bore * law.a * reynolds**law.exponent
+            # (T^4 - Tw^4)/(T - Tw) times (T - Tw): written without the quotient, which is 0/0 at the wall's temperature
+            radiation = law.radiation * (state.t**4 - law.wall_temperature**4)
+            return convection * (state.t - law.wall_temperature) + radiation
         case Woschni():
             w = law.c1 * state.piston_speed + law.c2 * state.swirl
             factor = 3.26 * state.bore**-0.2 * (state.p / 1e3) ** 0.8 * state.t**-0.55 * w**0.8
@@ -106,12 +111,3 @@ def motored_swirl(
     reference state. Returns swirl: entry of `GasAtWall`.
     """
     return scale * ca.fmax(p - p_motored, 0.0) if isinstance(law, Woschni) else 0.0
-
-
-def _annand(law: Annand, state: GasAtWall) -> Scalar:
-    density = state.p / (state.gas_constant * state.t)
-    reynolds = density * state.piston_speed * state.bore / viscosity(state.t)
-    convection = conductivity(state.t) / state.bore * law.a * reynolds**law.exponent
-    # (T^4 - Tw^4)/(T - Tw) times (T - Tw): written without the quotient, which is 0/0 at the wall's temperature
-    radiation = law.radiation * (state.t**4 - law.wall_temperature**4)
-    return convection * (state.t - law.wall_temperature) + radiation

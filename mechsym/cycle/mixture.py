@@ -73,7 +73,7 @@ def properties(gas: ConstantGamma | NasaMixture, t: Kelvin[Scalar], burnt: Pure[
             cv = gas.gas_constant / (gas.gamma - 1)
             return Properties(cv * t, cv, 0.0, gas.gas_constant)
         case NasaMixture():
-            air, products = _air(), _products(gas)
+            air, products = _mass_fractions({"O2": 1.0, "N2": _N2_PER_O2}), _products(gas)
             u, cv, r = (
                 _mix(air, products, burnt, lambda species: _energy(species, t)),
                 _mix(air, products, burnt, lambda species: _heat_capacity(species, t)),
@@ -92,10 +92,6 @@ def viscosity(t: Kelvin[Scalar]) -> Viscosity[Scalar]:
 def conductivity(t: Kelvin[Scalar]) -> Annotated[Scalar, "W/(m*K)"]:
     """Thermal conductivity of air. Source: Blair (1999) as printed in Nunes (2017), eq. (2.36)."""
     return 6.1944e-3 + 7.3814e-5 * t - 1.2491e-8 * t**2
-
-
-def _air() -> dict[str, float]:
-    return _mass_fractions({"O2": 1.0, "N2": _N2_PER_O2})
 
 
 def _products(gas: NasaMixture) -> dict[str, float]:

@@ -48,9 +48,14 @@ def diagram_doubts(
     diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles, phi_p_max: Radian
 ) -> tuple[Doubt, ...]:
     """What is unusual in a measured diagram. phi_p_max: angle of the highest pressure, from firing TDC."""
+    # a sensor that is saturated below shows one value until compression has come up to it
+    phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
+    rising = mean[(phi > -math.pi) & (phi < -math.pi / 3)]
+    flat = np.count_nonzero(rising <= rising.min() + 1e-4 * np.ptp(mean)) * float(phi[1] - phi[0])
+    why = "compression raises the pressure there: the sensor is saturated below, and the work is as wrong"
     found = [
         _scale(diagram, measured),
-        _floor(measured),
+        _doubt("floor", "crank angle without any rise in compression [deg]", flat / _DEG, (0, _FLOOR / _DEG), why),
         _drift(measured),
         _exponent(diagram, cylinder, measured),
         _width(measured),
@@ -80,15 +85,6 @@ def _scale(diagram: Diagram, measured: MeasuredCycles) -> Doubt | None:
     ratio = measured.bottom / diagram.inlet_pressure
     why = "the sensor's scale, its unit or inlet_pressure is wrong; scale = 'exhaust' or 'trapped' corrects the first"
     return _doubt("scale", "compression line at BDC by inlet_pressure [-]", ratio, USUAL_SCALE, why)
-
-
-def _floor(measured: MeasuredCycles) -> Doubt | None:
-    # a sensor that is saturated below shows one value until compression has come up to it
-    phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
-    rising = mean[(phi > -math.pi) & (phi < -math.pi / 3)]
-    flat = np.count_nonzero(rising <= rising.min() + 1e-4 * np.ptp(mean)) * float(phi[1] - phi[0])
-    why = "compression raises the pressure there: the sensor is saturated below, and the work is as wrong"
-    return _doubt("floor", "crank angle without any rise in compression [deg]", flat / _DEG, (0, _FLOOR / _DEG), why)
 
 
 def _drift(measured: MeasuredCycles) -> Doubt | None:
