@@ -84,9 +84,15 @@ def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
         if best and found.swing > best[-1].swing:
             found = dataclasses.replace(best[-1], springs=r)  # a shape that is not used does no harm
         best.append(found)
+    swings = [b.swing for b in best]
+    count, before = 0, bare
+    for swing in swings:
+        if swing > _PAYS * before or before <= 1e-9 * bare:
+            break
+        count, before = count + 1, swing
     return Bound(
         phi=samples.phi, wanted=wanted, singular_values=sizes / sizes[0], bare=bare, best=tuple(best),
-        pays=_paying(bare, [b.swing for b in best]),
+        pays=count,
     )  # fmt: skip
 
 
@@ -142,15 +148,6 @@ def _best(wanted: np.ndarray, r: int) -> Shapes:
     swing = size * float(np.ptp(w - shares_ @ shapes_, axis=1).max())
     status = found.status if found.status == "optimal" else found.reason
     return Shapes(springs=r, swing=swing, shapes=size * shapes_, shares=shares_, status=status)
-
-
-def _paying(bare: float, swings: Sequence[float]) -> int:
-    count, before = 0, bare
-    for swing in swings:
-        if swing > _PAYS * before or before <= 1e-9 * bare:
-            break
-        count, before = count + 1, swing
-    return count
 
 
 @result

@@ -168,24 +168,22 @@ def verdict(turn: Turn, shakes: Shaking, wanted: BalanceWanted) -> list[str]:
         for name, unit in (("force_x", "N"), ("force_y", "N"), ("rocking_x", "N m"), ("rocking_y", "N m")):
             if name not in shakes.orders:
                 continue
-            left, scale = abs(whole(shakes.orders[name], int(order))), _scale(turn, name)
+            # force of one cylinder's reciprocating mass, for a couple times the length of the shaft
+            roles, letters = turn.drive.roles, turn.drive.mechanism.parameters
+            force = 0.0
+            for part in roles.faces or roles.pistons:
+                force = max(
+                    force, float(mass_with(part, letters) * np.ptp(turn.kinematics[part.travel]) / 2 * turn.omega**2)
+                )
+            if name.startswith("rocking"):
+                force *= float(np.ptp([place(turn, role) for role in main_roles(turn)] or [0.0]))
+            left, scale = abs(whole(shakes.orders[name], int(order))), force
             if scale > 0 and left > wanted.limit * scale:
                 reasons.append(
                     f"order {order:g} of {name} is left with {left:.4g} {unit}, {100 * left / scale:.3g} % of one "
                     f"cylinder's; {_advice(turn, shakes, name, int(order))}"
                 )
     return reasons
-
-
-def _scale(turn: Turn, name: str) -> float:
-    """Force of one cylinder's reciprocating mass, for a couple times the length of the shaft."""
-    roles, letters = turn.drive.roles, turn.drive.mechanism.parameters
-    force = 0.0
-    for part in roles.faces or roles.pistons:
-        force = max(force, float(mass_with(part, letters) * np.ptp(turn.kinematics[part.travel]) / 2 * turn.omega**2))
-    if name.startswith("rocking"):
-        force *= float(np.ptp([place(turn, role) for role in main_roles(turn)] or [0.0]))
-    return force
 
 
 def _advice(turn: Turn, shakes: Shaking, name: str, order: int) -> str:

@@ -173,7 +173,9 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
 
     Raises BadInput: the trace is too short for them, or does not determine one of them.
     """
-    seen = _seen_poses(model)
+    # whether the equations of motion hold each coordinate: where a rotor starts, its speed does not know
+    held = _columns_in(model, 0)
+    seen = [k in held for k in range(len(model.velocities))]
     count = sum(map(len, trace.speeds.values()))
     unknown = len(model.names) + len(model.velocities) + sum(seen)
     if count < 10 * unknown:
@@ -208,12 +210,6 @@ def _columns_in(model: TracedMotion, number: int) -> set[int]:
     """Which entries of the input of a number the rates of a motion hold."""
     inputs = [ca.SX.sym(name, *shape) for name, shape in zip("xwz", map(model.rate.size_in, range(3)), strict=True)]
     return set(ca.jacobian(model.rate(*inputs), inputs[number]).sparsity().get_col())
-
-
-def _seen_poses(model: TracedMotion) -> list[bool]:
-    """Whether the equations of motion hold each coordinate: where a rotor starts, its speed does not know."""
-    held = _columns_in(model, 0)
-    return [k in held for k in range(len(model.velocities))]
 
 
 def _require_seen(model: TracedMotion, trace: Trace) -> None:

@@ -116,7 +116,13 @@ def second_order(
     cycle: StirlingCylinders, losses: StirlingLosses, volumes: Callable[[Scalar], tuple[Scalar, Scalar]], omega: float
 ) -> SecondOrder:
     """The engine at a shaft speed [rad/s]; volumes of the angle as `stirling_spaces.swept` gives them."""
-    _check(cycle)
+    for side, name, duct in (("hot", "T_e", "heater"), ("cold", "T_c", "cooler")):
+        volume, share = getattr(cycle, f"dead_{side}"), getattr(cycle, f"clearance_share_{side}")
+        if not volume * (1 - share) > 0:
+            raise BadInput(
+                f"dead_{side} = {volume:g} m^3 with clearance_share_{side} = {share:g} leaves the {duct} no volume, "
+                f"and no heat passes at {name}; the second order needs dead_{side} above 0 and a share below 1"
+            )
     temperatures = np.array([cycle.T_e, cycle.T_c])
     solve = solver(lambda z: five_spaces(cycle, volumes, z[0], z[1]), temperatures)
     for _ in range(_ROUNDS):
@@ -133,16 +139,6 @@ def second_order(
     raise BadInput(
         f"gas temperatures do not settle at {omega:.4g} rad/s: they still move by {np.abs(change).max():.2g} K"
     )
-
-
-def _check(cycle: StirlingCylinders) -> None:
-    for side, name, duct in (("hot", "T_e", "heater"), ("cold", "T_c", "cooler")):
-        volume, share = getattr(cycle, f"dead_{side}"), getattr(cycle, f"clearance_share_{side}")
-        if not volume * (1 - share) > 0:
-            raise BadInput(
-                f"dead_{side} = {volume:g} m^3 with clearance_share_{side} = {share:g} leaves the {duct} no volume, "
-                f"and no heat passes at {name}; the second order needs dead_{side} above 0 and a share below 1"
-            )
 
 
 def _ducts(cycle: StirlingCylinders, losses: StirlingLosses, T: np.ndarray) -> tuple[_Duct, _Duct, _Duct]:
