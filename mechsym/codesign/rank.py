@@ -22,7 +22,7 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign.points import Function, Point, Samples, bare_flywheel, sample
+from mechsym.codesign.points import Function, Point, bare_flywheel, sample
 from mechsym.optimise.solvers import ipopt
 from mechsym.quantities import record
 from mechsym.quantities.results import quantity, result
@@ -75,7 +75,8 @@ def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
     programmes get stuck (20.66 for 17.21 in the built-in family from 75 to 142 rpm).
     """
     samples = sample(points, round(_ANGLES * points[0].period / (2 * np.pi)))
-    wanted = _wanted(samples)
+    work = samples.work / samples.omega[:, None] ** 2
+    wanted = np.asarray(work - (work @ samples.weights)[:, None])
     bare = float(np.ptp(wanted, axis=1).max())
     sizes = np.linalg.svd(wanted, compute_uv=False)
     best: list[Shapes] = []
@@ -106,11 +107,6 @@ def flywheel_estimate(points: Sequence[Point], bound: Bound, ripple: Pure, rolle
     """
     own = float(np.mean(points[0].inertia(np.linspace(0, points[0].period, 361)[:-1])))
     return max(0.0, bound.swing[0] / ripple - own - rollers)
-
-
-def _wanted(samples: Samples) -> np.ndarray:
-    work = samples.work / samples.omega[:, None] ** 2
-    return np.asarray(work - (work @ samples.weights)[:, None])
 
 
 def _none_left(wanted: np.ndarray, r: int) -> Shapes:

@@ -38,7 +38,7 @@ from mechsym.optimise.fit import (
 from mechsym.optimise.trace import Trace
 from mechsym.plausible import Doubt
 from mechsym.quantities.results import part, quantity, result
-from mechsym.quantities.units import Array, RadPerSecond, Second
+from mechsym.quantities.units import Array, RadPerSecond
 
 _DURBIN = 3.0  # standard errors by which the statistic of white noise may miss 2
 _EXACT = 1e-6  # of the speed, below which what is left over is rounding
@@ -186,7 +186,15 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
     angles = [k * 2 * math.pi / _STARTS for k in range(_STARTS if angular else 1)]
     longest = _longest(model, trace, angles)
     require_plausible(model, trace, angles, longest)
-    most = _evaluations(model, trace, longest, len(angles))
+    # how often a fit may solve its linear system; refused where it takes longer or more memory than its budget
+    starts = len(angles)
+    intervals, states = (float(trace.t[-1] - trace.t[0]) / longest, 2 * len(model.velocities))
+    columns = len(model.names) + states + 1
+    numbers = intervals * (DEGREE + 1) * states * columns
+    seconds, size = _PER_NUMBER * numbers * starts, 8 * _COPIES * numbers
+    what = f"{trace.file}: a fit over about {intervals:.3g} intervals"
+    budget.require(what, seconds, size, "give a shorter stretch of the trace")
+    most = round(max(_NUMBERS / numbers, _EACH_START * starts) * budget.allowed().seconds / budget.Budget().seconds)
     task = TraceTask(model, trace, grid(trace.t, model.breaks, longest), round(_FOR_STARTS * most))
     near = [place for angle in angles if (place := approach(task, angle)) is not None]
     fits = sorted((fit for place in near if (fit := closest(task, *place)) is not None), key=lambda fit: fit.left)
@@ -219,17 +227,6 @@ def _require_seen(model: TracedMotion, trace: Trace) -> None:
     if unseen:
         why = f"no motion shows {', '.join(unseen)}: the equations of motion do not hold it"
         raise BadInput(f"{trace.file}: {why}; leave it out of --free")
-
-
-def _evaluations(model: TracedMotion, trace: Trace, longest: Second, starts: int) -> int:
-    """How often a fit may solve its linear system; refused where it takes longer or more memory than its budget."""
-    intervals, states = (float(trace.t[-1] - trace.t[0]) / longest, 2 * len(model.velocities))
-    columns = len(model.names) + states + 1
-    numbers = intervals * (DEGREE + 1) * states * columns
-    seconds, size = _PER_NUMBER * numbers * starts, 8 * _COPIES * numbers
-    what = f"{trace.file}: a fit over about {intervals:.3g} intervals"
-    budget.require(what, seconds, size, "give a shorter stretch of the trace")
-    return round(max(_NUMBERS / numbers, _EACH_START * starts) * budget.allowed().seconds / budget.Budget().seconds)
 
 
 def _longest(model: TracedMotion, trace: Trace, angles: list[float]) -> float:
