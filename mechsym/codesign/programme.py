@@ -85,7 +85,16 @@ def _programme(task: CoDesignTask) -> ReadyProgramme:
     rollers = sum(g.inertia for g in found)
     ripples = _motions(task, samples, found, _FLYWHEEL * flywheel, parameters[0], gathered)
     goal = flywheel + (ca.dot(ca.DM(samples.weights), rollers) / _FLYWHEEL if task.free else 0.0)
-    _contacts(task, found, parameters, gathered)
+    # limits where spring and rollers are asked most: at the largest pressure of the schedule and the highest speed
+    hardware, fastest = task.hardware, max(p.omega for p in task.points)
+    *settings, reach = ca.vertsplit(parameters[1:])
+    limits = lettered(task.bounds, dict(zip((key for key, *_ in asked_of(task.bounds)), settings, strict=True)))
+    for guide in found:
+        spring = hardware.charged((1 + task.robust) * guide.largest, **guide.values)
+        at = hardware.station(guide.path, spring, fastest, **guide.values)
+        # rollers of the case's own guide reach rho0 + r and no farther
+        rows = limit_rows(at, limits, hardware.z_margin, reach if task.free else None)
+        gathered.group([*rows, ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
     smooth = sum(ca.sumsqr(g.path.d2rho) for g in found) / samples.phi.size
     chosen = sum(ca.sumsqr(share - 1) for g in found for share in g.shares)
     x, box = ca.vertcat(*gathered.unknowns), np.vstack(gathered.box)
@@ -202,19 +211,6 @@ def _motions(
 def _energy(task: CoDesignTask, guide: GuideSymbols, k: int, error: float) -> ca.SX:
     """Energy of a spring at a point [J], with its pressure off by a factor."""
     return task.hardware.charged(error * guide.p0[k], **guide.values).symbolic().energy(guide.path.z)
-
-
-def _contacts(task: CoDesignTask, found: list[GuideSymbols], parameters: ca.SX, gathered: Gathered) -> None:
-    """Limits where spring and rollers are asked most: at the largest pressure of the schedule and the highest speed."""
-    hardware, fastest = task.hardware, max(p.omega for p in task.points)
-    *settings, reach = ca.vertsplit(parameters[1:])
-    limits = lettered(task.bounds, dict(zip((key for key, *_ in asked_of(task.bounds)), settings, strict=True)))
-    for guide in found:
-        spring = hardware.charged((1 + task.robust) * guide.largest, **guide.values)
-        at = hardware.station(guide.path, spring, fastest, **guide.values)
-        # rollers of the case's own guide reach rho0 + r and no farther
-        rows = limit_rows(at, limits, hardware.z_margin, reach if task.free else None)
-        gathered.group([*rows, ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
 
 
 def _result(task: CoDesignTask, made: ReadyProgramme, solved: Solved, wall: float) -> CoDesign:

@@ -73,7 +73,14 @@ def properties(gas: ConstantGamma | NasaMixture, t: Kelvin[Scalar], burnt: Pure[
             cv = gas.gas_constant / (gas.gamma - 1)
             return Properties(cv * t, cv, 0.0, gas.gas_constant)
         case NasaMixture():
-            air, products = _mass_fractions({"O2": 1.0, "N2": _N2_PER_O2}), _products(gas)
+            oxygen = 1 + gas.hydrogen_carbon / 4
+            moles = {
+                "CO2": 1.0,
+                "H2O": gas.hydrogen_carbon / 2,
+                "O2": (gas.excess_air - 1) * oxygen,
+                "N2": gas.excess_air * oxygen * _N2_PER_O2,
+            }
+            air, products = _mass_fractions({"O2": 1.0, "N2": _N2_PER_O2}), _mass_fractions(moles)
             u, cv, r = (
                 _mix(air, products, burnt, lambda species: _energy(species, t)),
                 _mix(air, products, burnt, lambda species: _heat_capacity(species, t)),
@@ -92,17 +99,6 @@ def viscosity(t: Kelvin[Scalar]) -> Viscosity[Scalar]:
 def conductivity(t: Kelvin[Scalar]) -> Annotated[Scalar, "W/(m*K)"]:
     """Thermal conductivity of air. Source: Blair (1999) as printed in Nunes (2017), eq. (2.36)."""
     return 6.1944e-3 + 7.3814e-5 * t - 1.2491e-8 * t**2
-
-
-def _products(gas: NasaMixture) -> dict[str, float]:
-    oxygen = 1 + gas.hydrogen_carbon / 4
-    moles = {
-        "CO2": 1.0,
-        "H2O": gas.hydrogen_carbon / 2,
-        "O2": (gas.excess_air - 1) * oxygen,
-        "N2": gas.excess_air * oxygen * _N2_PER_O2,
-    }
-    return _mass_fractions(moles)
 
 
 def _mass_fractions(moles: dict[str, float]) -> dict[str, float]:

@@ -115,10 +115,19 @@ def shaking(turn: Turn) -> Shaking | None:
     curves = {name: -turn.momentum[key] for name, key in _NAMES.items() if key in turn.momentum}
     if (roll := roll_moment(turn)) is not None:
         curves["roll"] = roll
+    force = curves["force_x"] + 1j * curves["force_y"]
+    with_crank = np.mean(force * np.exp(-1j * turn.phi))
+    rest = force - with_crank * np.exp(1j * turn.phi)
+    # an unbalance u at the angle a pulls the frame with u omega^2 e^{i (phi + a)}
     return Shaking(
         curves=curves,
         orders={name: orders(values, turn.period) for name, values in curves.items()},
-        counterweight=_counterweight(turn, curves),
+        counterweight=Counterweight(
+            unbalance=float(abs(with_crank) / turn.omega**2),
+            angle=float(cmath.phase(-with_crank) % (2 * math.pi)) if with_crank != 0 else 0.0,
+            rms_before=float(np.sqrt(np.mean(np.abs(force) ** 2))),
+            rms_after=float(np.sqrt(np.mean(np.abs(rest) ** 2))),
+        ),
         planes=_planes(turn, curves),
     )
 
@@ -127,19 +136,6 @@ def roll_moment(turn: Turn) -> np.ndarray | None:
     """Moment on the frame about the shaft; None of a mechanism that does not tell it: shape (n,) [N*m]."""
     rate = turn.momentum.get("angular_momentum_rate")
     return None if rate is None else -(rate + roll_sense(turn) * turn.torque)
-
-
-def _counterweight(turn: Turn, curves: dict[str, np.ndarray]) -> Counterweight:
-    force = curves["force_x"] + 1j * curves["force_y"]
-    with_crank = np.mean(force * np.exp(-1j * turn.phi))
-    rest = force - with_crank * np.exp(1j * turn.phi)
-    # an unbalance u at the angle a pulls the frame with u omega^2 e^{i (phi + a)}
-    return Counterweight(
-        unbalance=float(abs(with_crank) / turn.omega**2),
-        angle=float(cmath.phase(-with_crank) % (2 * math.pi)) if with_crank != 0 else 0.0,
-        rms_before=float(np.sqrt(np.mean(np.abs(force) ** 2))),
-        rms_after=float(np.sqrt(np.mean(np.abs(rest) ** 2))),
-    )
 
 
 def _planes(turn: Turn, curves: dict[str, np.ndarray]) -> tuple[PlaneWeight, ...]:

@@ -163,7 +163,17 @@ def folder(rate: casadi.Function, method: Method, mode: str = "fast") -> Fold:
     rates = program(rate, mode)
     integrators.sizes(rates)
     try:
-        return _compiled_fold(rates, method, mode)
+        loaded = cache.load(fold_text(rates, method), mode)
+        constants = np.repeat(constant_table(rates.kernels)[:, None], _LANES, axis=1)
+
+        def fold(start: np.ndarray, held: np.ndarray, steps: int) -> np.ndarray:
+            start, held = (np.ascontiguousarray(a, dtype=float) for a in (start, held))
+            history = np.empty((steps, *start.shape))
+            places = [ctypes.c_void_p(a.ctypes.data) for a in (constants, start, held, history)]
+            loaded.ms_fold(ctypes.c_long(steps), ctypes.c_long(start.shape[1]), *places)
+            return history
+
+        return fold
     except NoCompiler as error:
         _LOG.warning("numpy instead of C: %s", error)
         return _interpreted_fold(rates, method)
@@ -180,20 +190,6 @@ def fold_text(rates: Program, method: Method) -> str:
         f"#define MS_FOLD_WEIGHTS {integrators.weighted(method.weights)}",
     ]
     return "\n".join([integrators.system(rates, _LANES), *numbers, header("fold.h")])
-
-
-def _compiled_fold(rates: Program, method: Method, mode: str) -> Fold:
-    loaded = cache.load(fold_text(rates, method), mode)
-    constants = np.repeat(constant_table(rates.kernels)[:, None], _LANES, axis=1)
-
-    def fold(start: np.ndarray, held: np.ndarray, steps: int) -> np.ndarray:
-        start, held = (np.ascontiguousarray(a, dtype=float) for a in (start, held))
-        history = np.empty((steps, *start.shape))
-        places = [ctypes.c_void_p(a.ctypes.data) for a in (constants, start, held, history)]
-        loaded.ms_fold(ctypes.c_long(steps), ctypes.c_long(start.shape[1]), *places)
-        return history
-
-    return fold
 
 
 def _interpreted_fold(rates: Program, method: Method) -> Fold:

@@ -334,7 +334,20 @@ def _distance(task: TraceTask, fit: ClosestMotion, number: int, far: float, leas
     for _ in range(_TRIALS):
         if task.spent:  # a trial that was not finished bounds nothing
             return outer[0] if math.isfinite(outer[1]) else math.inf
-        there = _held(task, here, number, float(fit.theta[number]) + math.copysign(distance, far))
+        # the closest motion with one parameter held, from one nearby
+        model, theta = task.model, here.theta.copy()
+        move = ((float(fit.theta[number]) + math.copysign(distance, far)) - theta[number]) / model.size[number]
+        others = np.delete(np.arange(here.slopes.shape[1]), number)
+        columns, width = unit_columns(here.slopes[:, others])
+        step = np.zeros(here.slopes.shape[1])
+        step[number] = move
+        target = here.rest.ravel() - here.slopes[:, number] * move
+        step[others] = np.linalg.lstsq(columns, target, rcond=1e-7)[0] / width
+        theta = np.maximum(theta + step[: len(theta)] * model.size, model.low)
+        step[: len(theta)] = (theta - here.theta) / model.size
+        states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
+        motion = closest(task, states, theta, number)
+        there = motion if motion is not None and motion.status == "converged" else None
         growth = math.inf if there is None else math.sqrt(max(there.left - least, 0.0))
         if abs(growth - wide) < _CLOSE * wide or (growth < wide and distance >= room):
             return distance
@@ -348,20 +361,3 @@ def _distance(task: TraceTask, fit: ClosestMotion, number: int, far: float, leas
             share = (wide - inner[1]) / (outer[1] - inner[1]) if math.isfinite(outer[1]) else 0.5
             distance = inner[0] + min(max(share, 0.1), 0.9) * (outer[0] - inner[0])
     return outer[0]
-
-
-def _held(task: TraceTask, here: ClosestMotion, number: int, value: float) -> ClosestMotion | None:
-    """The closest motion with one parameter held, from one nearby."""
-    model, theta = task.model, here.theta.copy()
-    move = (value - theta[number]) / model.size[number]
-    others = np.delete(np.arange(here.slopes.shape[1]), number)
-    columns, width = unit_columns(here.slopes[:, others])
-    step = np.zeros(here.slopes.shape[1])
-    step[number] = move
-    target = here.rest.ravel() - here.slopes[:, number] * move
-    step[others] = np.linalg.lstsq(columns, target, rcond=1e-7)[0] / width
-    theta = np.maximum(theta + step[: len(theta)] * model.size, model.low)
-    step[: len(theta)] = (theta - here.theta) / model.size
-    states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
-    motion = closest(task, states, theta, number)
-    return motion if motion is not None and motion.status == "converged" else None

@@ -173,6 +173,13 @@ def check_piston(part: PistonPart, loads: CylinderLoads, wants: Wants, material:
     stress = piston.head_stress(loads.dp_max[hottest], loads.bore, part.head)
     cool = piston.head_thickness_heat(loads.head_heat, need(material, "conductivity"), wants.head_dT)
     thinnest = piston.ring_radial_thickness(loads.bore, 0.025e6, 110e6)
+    area, fatigue = np.pi * part.rod**2 / 4, need(material, "fatigue")
+    amplitude, _ = stress_cycle(loads.rod / area)
+    k, j = np.unravel_index(int(np.argmax(np.abs(loads.rod))), loads.rod.shape)
+    peak, worst = abs(float(loads.rod[k, j])), int(np.argmax(amplitude))
+    factor = goodman_factor(amplitude[worst], 0.0, fatigue, material.ultimate)
+    strength = material.yield_strength or material.ultimate
+    buckling = piston.rod_buckling_load(part.rod, part.rod_length, material.youngs_modulus, strength)
     return [
         at_most("piston head", "bending stress", stress, need(material, "hot_ultimate"), "Pa", wanted=wants.head,
                 rule="Grashof", source="eq. 4.2", note=at_speed(loads.omega, hottest)),
@@ -180,7 +187,15 @@ def check_piston(part: PistonPart, loads: CylinderLoads, wants: Wants, material:
                  source="eqs. 4.3, 4.4", note="at the fastest speed"),
         at_least("piston ring", "radial thickness", part.ring_radial, thinnest, "m", wanted=1.0,
                  rule="ring in bending", source="eq. 4.6", note="against the least of the usual range"),
-        *_check_rod(part, loads, wants, material),
+        *[
+        at_most("piston rod", "largest stress", peak / area, fatigue, "Pa", wanted=wants.rod, rule="axial stress",
+                source="eq. 4.5", note=at_speed(loads.omega, int(k))),
+        at_most("piston rod", "stress amplitude", float(amplitude[worst]), float(amplitude[worst] * factor), "Pa",
+                wanted=wants.rod, rule="Goodman", source="Shigley eq. 6-46",
+                note=f"{at_speed(loads.omega, worst)}; mean stress is compression"),
+        at_most("piston rod", "load", peak, buckling, "N", wanted=wants.rod, rule="buckling (Johnson, Euler)",
+                source="Shigley eq. 4-42", note=at_speed(loads.omega, int(k))),
+    ],
     ]  # fmt: skip
 
 
@@ -217,23 +232,4 @@ def check_cylinder(
                  source="eq. 4.17"),
         at_most("cylinder bolts", f"stress in the core of M{part.thread_mm:.0f}", stress, wants.bolt_stress, "Pa",
                 wanted=1.0, rule="bolt core", source="eq. 4.18, ISO 724", note=note),
-    ]  # fmt: skip
-
-
-def _check_rod(part: PistonPart, loads: CylinderLoads, wants: Wants, material: Material) -> list[Check]:
-    area, fatigue = np.pi * part.rod**2 / 4, need(material, "fatigue")
-    amplitude, _ = stress_cycle(loads.rod / area)
-    k, j = np.unravel_index(int(np.argmax(np.abs(loads.rod))), loads.rod.shape)
-    peak, worst = abs(float(loads.rod[k, j])), int(np.argmax(amplitude))
-    factor = goodman_factor(amplitude[worst], 0.0, fatigue, material.ultimate)
-    strength = material.yield_strength or material.ultimate
-    buckling = piston.rod_buckling_load(part.rod, part.rod_length, material.youngs_modulus, strength)
-    return [
-        at_most("piston rod", "largest stress", peak / area, fatigue, "Pa", wanted=wants.rod, rule="axial stress",
-                source="eq. 4.5", note=at_speed(loads.omega, int(k))),
-        at_most("piston rod", "stress amplitude", float(amplitude[worst]), float(amplitude[worst] * factor), "Pa",
-                wanted=wants.rod, rule="Goodman", source="Shigley eq. 6-46",
-                note=f"{at_speed(loads.omega, worst)}; mean stress is compression"),
-        at_most("piston rod", "load", peak, buckling, "N", wanted=wants.rod, rule="buckling (Johnson, Euler)",
-                source="Shigley eq. 4-42", note=at_speed(loads.omega, int(k))),
     ]  # fmt: skip

@@ -67,12 +67,20 @@ def checks(part: CrossheadPart, loads: CrossheadLoads) -> list[Check]:
     """Every rule with its factor of safety."""
     pin, crank_pin, side = (float(np.abs(a).max()) for a in (loads.pin, loads.crank_pin, loads.side))
     thrust = float(loads.rod.max())
+    # the swing turns round twice a turn: for half of it the film is squeezed by the mean load and not renewed
+    half = np.pi / loads.omega
+    mean = float(np.trapezoid(np.abs(loads.pin), loads.phi) / (loads.phi[-1] - loads.phi[0]))
+    lasts = squeeze_time(
+        mean, part.pin_length, part.pin_diameter, part.pin_arc, part.oil, part.film_start, part.film_least
+    )
     return [
         _pressure(part, "crosshead pin", pin, (part.pin_length, part.pin_diameter), part.pin_pressure),
         _pressure(part, "crank pin", crank_pin, (part.crank_pin_length, part.crank_pin_diameter),
                   part.crank_pin_pressure),
         _pressure(part, "guide shoe", side, (part.shoe_length, part.shoe_width), part.shoe_pressure),
-        _film(part, loads),
+        at_least("crosshead pin", "time of the squeezed film", lasts, half, "s", wanted=part.wanted,
+                    rule="squeeze film of parallel plates with open ends", source="Hays (1961)",
+                    note="mean load over half a turn"),
         at_least("piston rod", "buckling load", rod_buckling_load(
             part.rod_diameter, part.rod_length, part.youngs_modulus, part.yield_strength), thrust, "N",
             wanted=part.wanted_buckling, rule="Euler or Johnson", source="Shigley, ch. 4"),
@@ -99,15 +107,3 @@ def wear(part: CrossheadPart, loads: CrossheadLoads) -> Mapping[str, float]:
 def _pressure(part: CrossheadPart, name: str, F: float, sizes: tuple[float, float], limit: float) -> Check:
     return at_most(name, "specific pressure", specific_pressure(F, *sizes), limit, "Pa", wanted=part.wanted,
                    rule="load by projected area", source=_MARINE)  # fmt: skip
-
-
-def _film(part: CrossheadPart, loads: CrossheadLoads) -> Check:
-    # the swing turns round twice a turn: for half of it the film is squeezed by the mean load and not renewed
-    half = np.pi / loads.omega
-    mean = float(np.trapezoid(np.abs(loads.pin), loads.phi) / (loads.phi[-1] - loads.phi[0]))
-    lasts = squeeze_time(
-        mean, part.pin_length, part.pin_diameter, part.pin_arc, part.oil, part.film_start, part.film_least
-    )
-    return at_least("crosshead pin", "time of the squeezed film", lasts, half, "s", wanted=part.wanted,
-                    rule="squeeze film of parallel plates with open ends", source="Hays (1961)",
-                    note="mean load over half a turn")  # fmt: skip

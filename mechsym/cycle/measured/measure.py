@@ -221,13 +221,20 @@ def diagram_facts(
     smoothed = [] if residual is None else [_smoothing_fact(diagram, measured, residual)]
     shape = measured.alignment.fit.shape
     found = mean_exponent(cylinder, shape, *between(diagram))
+    how = {
+        "none": "none, the file is taken as absolute",
+        "gauge": f"the file is taken as gauge, over {_pressure(diagram.p_back)} absolute",
+        "inlet": "inlet_pressure at the dead centre before compression (assumed)",
+        "polytropic": f"every cycle's compression line follows the exponent {diagram.n_c:g} (assumed)",
+        "joint": "offset of every cycle's compression line in the joint fit",
+    }[diagram.pegging]
     return (
         read_and_used(diagram, measured),
         *(f"the file says: {comment}" for comment in measured.comments),
         f"{Path(measured.file).name}: {len(p_mi)} cycles; net mean indicated pressure {_pressures(p_mi)}, "
         f"peaks {_pressures(measured.cycles.max(axis=1))} absolute",
         _alignment_fact(measured, work_per_angle(measured, cylinder) * math.radians(1.0)),
-        _pegging_fact(diagram, measured),
+        f"pegging: {how}; {_pressures(measured.offsets)} were taken off the cycles",
         _scale_fact(diagram, measured),
         f"compression exponent {found:.3f} (expected {diagram.n_c:.2f} +- {_Z * Prior().n0[1]:.2f}), losses "
         f"{100 * shape.loss:.0f} % of the pressure per radian at TDC (expected {100 * Prior().loss[0]:.0f} +- "
@@ -280,17 +287,6 @@ def _alignment_fact(measured: MeasuredCycles, per_degree: float) -> str:
         f"firing dead centre at {math.degrees(found.angle):.2f} deg of the file, the sensor's lag in it, "
         f"{known}{assumed}: {found.method}{loss}{uneven}; one degree changes the work by {100 * per_degree:+.1f} %"
     )
-
-
-def _pegging_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
-    how = {
-        "none": "none, the file is taken as absolute",
-        "gauge": f"the file is taken as gauge, over {_pressure(diagram.p_back)} absolute",
-        "inlet": "inlet_pressure at the dead centre before compression (assumed)",
-        "polytropic": f"every cycle's compression line follows the exponent {diagram.n_c:g} (assumed)",
-        "joint": "offset of every cycle's compression line in the joint fit",
-    }[diagram.pegging]
-    return f"pegging: {how}; {_pressures(measured.offsets)} were taken off the cycles"
 
 
 def _scale_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
