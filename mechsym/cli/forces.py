@@ -119,7 +119,7 @@ def _over_time(report: "DrivenNumbers") -> str:
 
 
 def _text(report: Json, found: "Forces", said: set[str]) -> str:
-    from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+    from mechsym.forces.result import ComparedFriction, ComparedMechanism
 
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm", ""]
     lines += [

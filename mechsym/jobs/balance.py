@@ -11,8 +11,8 @@ from mechsym.cases.needs import require
 from mechsym.files import write_quantities, write_text
 from mechsym.forces import balance as physics
 from mechsym.forces.balance import BalancedEngine, Shaken, Weight, amplitudes, length
+from mechsym.forces.loads import orders
 from mechsym.forces.mains import MainShaft
-from mechsym.forces.shaking import orders
 from mechsym.jobs.machine import turn
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import KilogramMetre, Metre

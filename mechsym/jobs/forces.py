@@ -15,9 +15,8 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces import driven, result, shown
-from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import NoRings
-from mechsym.forces.result import Forces
+from mechsym.forces.result import ComparisonSettings, Forces, compare
 from mechsym.forces.summary import ForceNumbers, summary
 from mechsym.forces.turn import Turn
 from mechsym.jobs.gas import of

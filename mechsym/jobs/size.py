@@ -22,8 +22,6 @@ from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import RPM, record
 from mechsym.quantities.units import Array, RadPerSecond
 from mechsym.sizing.checks import unsafe
-from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
-from mechsym.sizing.crosshead import checks as crosshead_checks
 from mechsym.sizing.hypocycloid import masses
 from mechsym.sizing.hypocycloid.checks import (
     check_all,
@@ -35,10 +33,11 @@ from mechsym.sizing.hypocycloid.checks import (
 )
 from mechsym.sizing.hypocycloid.engine import Parts, Stock
 from mechsym.sizing.hypocycloid.masses import PlanetDrive, hypocycloid_forces
-from mechsym.sizing.pressures import Pressures, pressures_over
+from mechsym.sizing.loads import Pressures, pressures_over
 from mechsym.sizing.rows import SizeRow, Sizing, check_rows, fact, size_rows
 from mechsym.sizing.rules import bearings, materials
-from mechsym.sizing.slider_crank import size_slider_crank, slider_crank_forces
+from mechsym.sizing.slider_crank import CrossheadLoads, CrossheadPart, size_slider_crank, slider_crank_forces, wear
+from mechsym.sizing.slider_crank import checks as crosshead_checks
 from mechsym.sizing.wants import Wants
 
 

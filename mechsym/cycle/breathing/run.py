@@ -27,8 +27,17 @@ from collections.abc import Callable, Sequence
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.breathing.flow import curtain_area, orifice_flow, valve_lift
-from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, FreshCharge, HeatSink, Surroundings
+from mechsym.cycle.breathing.flow import (
+    PERIOD,
+    Breath,
+    Breathing,
+    FreshCharge,
+    HeatSink,
+    Surroundings,
+    curtain_area,
+    orifice_flow,
+    valve_lift,
+)
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.run import METHOD
 from mechsym.cycle.heat import Adiabatic, GasAtWall, heat_flux, motored_swirl

@@ -15,8 +15,7 @@ from typing import Annotated, Any, NamedTuple
 import casadi as ca
 
 from mechsym.cycle.chamber import Chamber, volume, volume_and_slope, wall_area
-from mechsym.cycle.heat import GasAtWall, Law, heat_flux, motored_swirl
-from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.cycle.heat import ConstantGamma, GasAtWall, Law, NasaMixture, heat_flux, motored_swirl, properties
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
 from mechsym.quantities import record
 from mechsym.quantities.units import Kelvin, Pascal, Radian, Scalar

@@ -35,9 +35,8 @@ from mechsym.cycle.breathing.flow import curtain_area, orifice_flow, valve_lift
 from mechsym.cycle.chamber import ChamberParameters, Motion, chamber, volume, volume_and_slope
 from mechsym.cycle.closed.equations import Build, Closed, contents
 from mechsym.cycle.friction import Friction
-from mechsym.cycle.heat import Law
+from mechsym.cycle.heat import ConstantGamma, Law, NasaMixture, properties
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition, charge, latent_heat, timing, vapour_energy
-from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pascal, Scalar

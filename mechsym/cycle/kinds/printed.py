@@ -22,9 +22,8 @@ import numpy as np
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel, volume, wall_area
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.closed.performance import Performance, burnt_angles, figures
-from mechsym.cycle.heat import GasAtWall, Law, heat_flux
+from mechsym.cycle.heat import ConstantGamma, GasAtWall, Law, heat_flux
 from mechsym.cycle.kinds.spark_ignition import Charge, SparkIgnition, charge, timing
-from mechsym.cycle.mixture import ConstantGamma
 from mechsym.errors import BadInput
 from mechsym.native.march import marcher
 from mechsym.quantities import record

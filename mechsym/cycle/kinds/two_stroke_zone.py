@@ -20,9 +20,8 @@ import scipy
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.run import ClosedRun, run
-from mechsym.cycle.heat import Law, Woschni
+from mechsym.cycle.heat import T_REFERENCE, ConstantGamma, Law, NasaMixture, Woschni, properties
 from mechsym.cycle.kinds.two_stroke import burnt_angles, scavenging_pressure
-from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput

@@ -21,7 +21,7 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.units import Kilogram
 from mechsym.sizing.bearing_design import mass as bearing_mass
 from mechsym.sizing.hypocycloid.engine import PartForces, Parts, Stock, chosen, shaft_length, spans
-from mechsym.sizing.pressures import Pressures
+from mechsym.sizing.loads import Pressures
 from mechsym.sizing.rules.masses import area_and_centre, cylinder_mass, roll_up, web_outline
 from mechsym.sizing.wants import MassPart, PistonPart, Wants
 
