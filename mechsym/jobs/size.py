@@ -22,6 +22,7 @@ from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import RPM, record
 from mechsym.quantities.units import Array, RadPerSecond
 from mechsym.sizing.checks import unsafe
+from mechsym.sizing.crank_design import Pressures, pressures_over
 from mechsym.sizing.hypocycloid import masses
 from mechsym.sizing.hypocycloid.checks import (
     check_all,
@@ -33,7 +34,6 @@ from mechsym.sizing.hypocycloid.checks import (
 )
 from mechsym.sizing.hypocycloid.engine import Parts, Stock
 from mechsym.sizing.hypocycloid.masses import PlanetDrive, hypocycloid_forces
-from mechsym.sizing.loads import Pressures, pressures_over
 from mechsym.sizing.rows import SizeRow, Sizing, check_rows, fact, size_rows
 from mechsym.sizing.rules import bearings, materials
 from mechsym.sizing.slider_crank import CrossheadLoads, CrossheadPart, size_slider_crank, slider_crank_forces, wear

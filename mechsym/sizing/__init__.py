@@ -2,8 +2,8 @@
 
 wants.py          what a design must reach, and its parts: sections `[sizing]`, `[part_*]`
 rules/            one rule a function: gears, bearings, shafts, ..
-*_design.py       one part each: sizes and checks
-loads.py          the cycle over the speeds; from forces to gears and bearings
+*_design.py       one part each: sizes and checks; crank_design.py also the cycle over the speeds
+loads.py          from forces to gears and bearings
 hypocycloid/      an engine as a whole: its forces, masses, checks, and sizes to a fixed point
 slider_crank.py   the same for a slider crank; a crosshead drive held against its rules
 checks.py         a part beside its limit
@@ -23,7 +23,7 @@ _NAMES = {
     "Stock": "mechsym.sizing.hypocycloid.engine:Stock",
     "Wants": "mechsym.sizing.wants:Wants",
     "hypocycloid_forces": "mechsym.sizing.hypocycloid.masses:hypocycloid_forces",
-    "pressures_over": "mechsym.sizing.loads:pressures_over",
+    "pressures_over": "mechsym.sizing.crank_design:pressures_over",
     "size_hypocycloid": "mechsym.sizing.hypocycloid.checks:size_hypocycloid",
     "size_slider_crank": "mechsym.sizing.slider_crank:size_slider_crank",
     "slider_crank_forces": "mechsym.sizing.slider_crank:slider_crank_forces",

@@ -14,7 +14,6 @@ the load squeezes and the swing renews. The piston rod's buckling is in `rules.p
 import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
@@ -28,6 +27,7 @@ from mechsym.sizing.checks import Check, at_least, at_most, at_speed, round_up, 
 from mechsym.sizing.crank_design import (
     CrankLoads,
     CylinderLoads,
+    Pressures,
     check_crank,
     check_cylinder,
     check_output,
@@ -37,7 +37,6 @@ from mechsym.sizing.crank_design import (
     size_piston,
 )
 from mechsym.sizing.hypocycloid.engine import Stock
-from mechsym.sizing.loads import Pressures
 from mechsym.sizing.rules.crankshaft import (
     rectangle_stress,
     slider_crank_chain,
@@ -58,27 +57,15 @@ _ROD_ENDS = 1.6  # mass of a rod over that of its shank, assumed
 
 
 @record
-class SliderForces:
+class SliderForces(CylinderLoads):
     """Forces of one slider crank; arrays of shape (k, n) over a period of 4 pi."""
 
-    #: shape (k,), (n,): Crank speeds [rad/s], crank angles from firing top dead centre [rad]
-    omega: np.ndarray
-    theta: np.ndarray
-    dp_max: np.ndarray  #: shape (k,): Largest pressure above the surroundings [Pa]
     net: np.ndarray  #: Force on the piston pin, reciprocating mass included [N]
     torque: np.ndarray  #: Torque of the crank [N*m]
-    #: Crank radius, rod length, bore, stroke, distance of the heads [m], heat through a head [W]
+    chain: dict[str, np.ndarray]  #: Forces along the rod and at the crank by name [N]
+    #: Crank radius, rod length [m]
     r: float
     l: float
-    bore: float
-    stroke: float
-    gap: float
-    head_heat: float
-
-    @cached_property
-    def chain(self) -> dict[str, np.ndarray]:
-        """Forces along the rod and at the crank by name, shape (k, n) [N]."""
-        return slider_crank_chain(self.net, self.theta, self.r, self.l)
 
 
 @record
@@ -112,10 +99,9 @@ def slider_crank_forces(gas: Pressures, mechanism: Mechanism, roles: PartRoles) 
 
     def forces_of(mass: float) -> SliderForces:
         force = gas.net - mass * moved[f"d2{x}_d{q}2"] * gas.omega[:, None] ** 2
-        return SliderForces(
-            omega=gas.omega, theta=gas.theta, dp_max=gas.dp_max, net=force, torque=force * moved[f"d{x}_d{q}"],
-            r=r, l=l, bore=gas.bore, stroke=gas.stroke, head_heat=gas.head_heat, gap=gas.gap,
-        )  # fmt: skip
+        chain = slider_crank_chain(force, gas.theta, r, l)
+        torque = force * moved[f"d{x}_d{q}"]
+        return SliderForces(**gas.shared(), net=force, torque=torque, chain=chain, rod=chain["rod"], r=r, l=l)
 
     return forces_of
 
@@ -143,12 +129,11 @@ def size_slider_crank(
 
 def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
     """One round: sizes of every part for the forces; bearings the lightest that hold, or the strongest there are."""
-    loads = _cylinder_loads(forces)
     material = {key: stock.material(getattr(wants, key)) for key in ("piston", "cylinder", "shaft")}
     steel = stock.material(wants.crankshaft)
-    piston = replace(size_piston(loads, wants, material["piston"], forces.l), rod_length=forces.l)
-    piston = replace(piston, rod=_rod_diameter(loads, wants, steel, forces.l))
-    cylinder = size_cylinder(loads, wants, material["cylinder"], piston.height)
+    piston = replace(size_piston(forces, wants, material["piston"], forces.l), rod_length=forces.l)
+    piston = replace(piston, rod=_rod_diameter(forces, wants, steel, forces.l))
+    cylinder = size_cylinder(forces, wants, material["cylinder"], piston.height)
     rod_seat, main_seat = _seats(forces)
     rods = _ranked(stock, wants, rod_seat, (0.02, 0.06))
     mains = _ranked(stock, wants, main_seat, (0.015, 0.06))
@@ -180,13 +165,13 @@ def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
 def check_all(parts: SliderParts, forces: SliderForces, wants: Wants, stock: Stock) -> list[Check]:
     """Every check of a slider crank. Returns checks: from the piston to the bearings."""
     used = {place: stock.material(getattr(wants, place)) for place in ("piston", "cylinder", "crankshaft", "shaft")}
-    cylinder, crank = _cylinder_loads(forces), _loads(parts, forces)
+    crank = _loads(parts, forces)
     rod_seat, main_seat = _seats(forces)
-    piston = [c for c in check_piston(parts.piston, cylinder, wants, used["piston"]) if c.component != "piston rod"]
+    piston = [c for c in check_piston(parts.piston, forces, wants, used["piston"]) if c.component != "piston rod"]
     return [
         *piston,
-        *_check_rod(parts.piston.rod, cylinder, wants, used["crankshaft"], forces.l),
-        *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
+        *_check_rod(parts.piston.rod, forces, wants, used["crankshaft"], forces.l),
+        *check_cylinder(parts.cylinder, forces, wants, used["cylinder"], parts.piston.height),
         *check_crank(parts.crank, crank, wants, used["crankshaft"]),
         *check_output(parts.crank.output, crank, wants, used["shaft"]),
         *check_bearing(parts.rod_bearing, rod_seat, wants),
@@ -206,11 +191,6 @@ def reciprocating_mass(parts: SliderParts, forces: SliderForces, wants: Wants, s
     barrel = cylinder_mass(light, B, piston.height - piston.head, B - 2 * piston.barrel)
     pin = cylinder_mass(steel, B / 4, 0.8 * B, B / 8)
     return head + barrel + pin + _ROD_ENDS * cylinder_mass(steel, piston.rod, forces.l) / 3
-
-
-def _cylinder_loads(forces: SliderForces) -> CylinderLoads:
-    return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.chain["rod"], head_heat=forces.head_heat,
-                         bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip
 
 
 def _loads(parts: SliderParts, forces: SliderForces) -> CrankLoads:

@@ -20,7 +20,6 @@ from mechsym.sizing.hypocycloid.engine import (
     bending_moment,
     chosen,
     crank_loads,
-    cylinder_loads,
     seats,
     shaft,
     shaft_length,
@@ -41,13 +40,12 @@ def check_all(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> l
     used = {
         place: stock.material(getattr(wants, place)) for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")
     }
-    cylinder = cylinder_loads(forces)
     crank = crank_loads(parts, forces, wants, stock)
     teeth = tooth_loads(parts, forces, wants, stock)
     places = chosen(parts.bearings, stock)
     return [
-        *crank_design.check_piston(parts.piston, cylinder, wants, used["piston"]),
-        *crank_design.check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
+        *crank_design.check_piston(parts.piston, forces, wants, used["piston"]),
+        *crank_design.check_cylinder(parts.cylinder, forces, wants, used["cylinder"], parts.piston.height),
         *check_gears(parts.gears, teeth, wants, used["gears"]),
         *_check_pitch(parts.gears, forces.e),
         *crank_design.check_crank(parts.crank, crank, wants, used["crankshaft"]),
@@ -221,12 +219,11 @@ def size_hypocycloid(
 def size(parts: Parts, forces: PartForces, printed: PrintedMasses, wants: Wants, stock: Stock) -> Parts:
     """One round: every part sized for the forces, in the order in which they lean on each other."""
     material = {key: stock.material(getattr(wants, key)) for key in ("piston", "cylinder", "gears", "shaft")}
-    loads = cylinder_loads(forces)
     cap = stock.bearing(parts.bearings.rod).outside
     reach = wants.reach - 2 * forces.e - forces.gap / 2 - cap / 2
-    piston = crank_design.size_piston(loads, wants, material["piston"], reach)
+    piston = crank_design.size_piston(forces, wants, material["piston"], reach)
     parts = replace(
-        parts, piston=piston, cylinder=crank_design.size_cylinder(loads, wants, material["cylinder"], piston.height)
+        parts, piston=piston, cylinder=crank_design.size_cylinder(forces, wants, material["cylinder"], piston.height)
     )
     parts = replace(parts, gears=_gears(parts, forces, wants, stock))
     parts = _journals(parts, forces, wants, stock)

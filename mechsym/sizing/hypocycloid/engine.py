@@ -33,27 +33,16 @@ class Parts:
 
 
 @record
-class PartForces:
-    """Forces of one crank over the speeds; arrays of shape (k, n) over a period of 4 pi."""
+class PartForces(CylinderLoads):
+    """Forces of one crank over the speeds; arrays of shape (k, n) over 4 pi; `rod` is of the piston's side."""
 
-    #: shape (k,), (n,): Crank speeds [rad/s], crank angles from firing top dead centre [rad]
-    omega: np.ndarray
-    theta: np.ndarray
-    dp_max: np.ndarray  #: shape (k,): Largest pressure above the surroundings [Pa]
-    #: Net force on the crankpin with all reciprocating mass, and with the piston's side only [N]
-    net: np.ndarray
-    rod: np.ndarray
+    net: np.ndarray  #: Net force on the crankpin with all reciprocating mass [N]
     #: Tangential and separating load of all gears of the crank [N]
     tooth: np.ndarray
     radial: np.ndarray
     torque: np.ndarray  #: Torque of the crank [N*m]
     spin: np.ndarray  #: shape (k,): Centrifugal force of the masses at the planet's centre [N]
-    #: Throw, bore, stroke of one piston, distance of the heads [m], heat through a head [W]
-    e: float
-    bore: float
-    stroke: float
-    gap: float
-    head_heat: float
+    e: float  #: Throw [m]
 
     @cached_property
     def side(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -168,9 +157,3 @@ def crank_loads(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) ->
         output_torque=2 * forces.torque,
         arm=spans(parts, stock).inner,
     )
-
-
-def cylinder_loads(forces: PartForces) -> CylinderLoads:
-    """Loads of piston and cylinder."""
-    return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.rod, head_heat=forces.head_heat,
-                         bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip

@@ -20,8 +20,8 @@ from mechsym.quantities import record
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Kilogram
 from mechsym.sizing.bearing_design import mass as bearing_mass
+from mechsym.sizing.crank_design import Pressures
 from mechsym.sizing.hypocycloid.engine import PartForces, Parts, Stock, chosen, shaft_length, spans
-from mechsym.sizing.loads import Pressures
 from mechsym.sizing.rules.masses import area_and_centre, cylinder_mass, roll_up, web_outline
 from mechsym.sizing.wants import MassPart, PistonPart, Wants
 
@@ -202,11 +202,8 @@ def hypocycloid_forces(gas: Pressures, drive: PlanetDrive) -> Callable[[Moving],
         out = _reactions(dataclasses.replace(drive, parameters=masses), gas)
         share = moving.rod / moving.axis
         return PartForces(
-            omega=gas.omega, theta=gas.theta, dp_max=gas.dp_max, net=out["pin"],
-            rod=gas.net - share * (gas.net - out["pin"]), tooth=out["tooth"],
-            radial=out["radial"], torque=out["torque"],
-            spin=moving.planet * e * gas.omega**2, e=e,
-            bore=gas.bore, stroke=gas.stroke, head_heat=gas.head_heat, gap=gas.gap,
+            **gas.shared(), net=out["pin"], rod=gas.net - share * (gas.net - out["pin"]), tooth=out["tooth"],
+            radial=out["radial"], torque=out["torque"], spin=moving.planet * e * gas.omega**2, e=e,
         )  # fmt: skip
 
     return forces_of
