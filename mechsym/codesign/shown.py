@@ -128,15 +128,13 @@ def html(result: CoDesignResult, numbers: CoDesignNumbers, pictures: dict[str, s
     return page(
         "codesign.html", result=result, numbers=numbers, findings=findings,
         mark=title_mark(findings), figures=pictures, sizes=_SIZES,
-        points=grid("Points", rows, list(rows[0]), units), prices=prices(numbers), bound=bound_words(numbers), **{
-        "dangers": [s for name in _DANGERS for s in result.scenarios if s.name == name],
-        "lossy_ripple": None if None in ripples else max(r for r in ripples if r is not None),
-        "gas_share": max(at.gas / abs(p.load_torque) for at, p in zip(result.losses, points, strict=True)),
-        "residual": ratio_text(float(np.nanmax(residuals)), 1) if np.isfinite(residuals).any() else "–",
-        "index": result.design.tracks[0].hardware.spring.index,
-        "gamma": result.assumed.gamma,
-        "speeds": (min(speeds), max(speeds)),
-    },
+        points=grid("Points", rows, list(rows[0]), units), prices=prices(numbers), bound=bound_words(numbers),
+        dangers=[s for name in _DANGERS for s in result.scenarios if s.name == name],
+        lossy_ripple=None if None in ripples else max(r for r in ripples if r is not None),
+        gas_share=max(at.gas / abs(p.load_torque) for at, p in zip(result.losses, points, strict=True)),
+        residual=ratio_text(float(np.nanmax(residuals)), 1) if np.isfinite(residuals).any() else "–",
+        index=result.design.tracks[0].hardware.spring.index, gamma=result.assumed.gamma,
+        speeds=(min(speeds), max(speeds)),
     )  # fmt: skip
 
 

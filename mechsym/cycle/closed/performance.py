@@ -88,16 +88,12 @@ def performance(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Performan
     fuel, released, heat = (scalars[k] for k in ("fuel_heat", "heat_released", "latent_heat"))
     carried = scalars["energy_end"] - scalars["energy_start"] - scalars["exchange_work"]
     return Performance(
-        **figures(here.friction_pressure, scalars, p_max), **{
-        "heat": (scalars["wall_heat"] + heat) / fuel,
-        "work": scalars["work"] / fuel,
-        "exhaust": (carried - scalars["fuel_energy"] - heat) / fuel,
-        "unburnt": 1 - released / fuel,
-    },
-        pumping_mep=pumping / scalars["displacement"],
+        **figures(here.friction_pressure, scalars, p_max), heat=(scalars["wall_heat"] + heat) / fuel,
+        work=scalars["work"] / fuel, exhaust=(carried - scalars["fuel_energy"] - heat) / fuel,
+        unburnt=1 - released / fuel, pumping_mep=pumping / scalars["displacement"],
         p_max=p_max, p_max_angle=p_max_angle, burnt=angles, t_max=t.max(axis=1), knock=_knock(engine, design, result),
         torque_max=largest.pop("torque"), force_max=largest.pop("force"),
-        energy_residual=result.residual * scalars["heat_released"] / scalars["fuel_heat"], loads=largest,
+        energy_residual=result.residual * released / fuel, loads=largest,
     )  # fmt: skip
 
 
