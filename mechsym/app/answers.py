@@ -10,8 +10,8 @@ from mechsym import cases
 from mechsym.app.told import measure, span
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
-from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.limits import ALL_KEPT
+from mechsym.hinge.plots import elastic_hinge
 from mechsym.hinge.result import Design
 from mechsym.hinge.shown import engine, of_design
 from mechsym.hinge.summary import guide_turn

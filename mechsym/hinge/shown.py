@@ -11,9 +11,9 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.hinge import plots
-from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.guide import Guide, setting_of, setting_text
 from mechsym.hinge.limits import ALL_KEPT, Verdict, at_angles
+from mechsym.hinge.plots import elastic_hinge
 from mechsym.hinge.result import Design
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_columns, guide_turn, hinge_columns

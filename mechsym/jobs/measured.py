@@ -15,13 +15,13 @@ from mechsym.cycle.chamber import Chamber, chamber_over
 from mechsym.cycle.gas import piston_travel
 from mechsym.cycle.kinds import with_diagram
 from mechsym.cycle.measured.alignment import DeadCentre, between
-from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts, exponent_doubts, speed_doubt
 from mechsym.cycle.measured.combustion import Analysis, DeadCentreShift, DiagramCombustion, diagram_combustion
 from mechsym.cycle.measured.diagram import Diagram, line_prior
 from mechsym.cycle.measured.file import has_angles, read_diagram, recorded_speed
 from mechsym.cycle.measured.heat_release import Combustion, CombustionFigures
 from mechsym.cycle.measured.joint_fit import Prior
 from mechsym.cycle.measured.measure import cycle_work, diagram_facts, measured_cycles, read_and_used
+from mechsym.cycle.measured.pressure import brake_doubt, diagram_doubts, exponent_doubts, speed_doubt
 from mechsym.cycle.measured.shared_centre import USUAL, SensorLag, encoder_records, lag_of, shared_centre, without_lag
 from mechsym.errors import BadInput
 from mechsym.files import write_text

@@ -22,7 +22,7 @@ _NAMES = {
     "Pressures": "mechsym.sizing.loads:Pressures",
     "Stock": "mechsym.sizing.hypocycloid.engine:Stock",
     "Wants": "mechsym.sizing.wants:Wants",
-    "hypocycloid_forces": "mechsym.sizing.hypocycloid.masses:hypocycloid_forces",
+    "hypocycloid_forces": "mechsym.sizing.hypocycloid.engine:hypocycloid_forces",
     "pressures_over": "mechsym.sizing.crank_design:pressures_over",
     "size_hypocycloid": "mechsym.sizing.hypocycloid.checks:size_hypocycloid",
     "size_slider_crank": "mechsym.sizing.slider_crank:size_slider_crank",

@@ -14,19 +14,22 @@ from mechsym.sizing.bearing_design import Choice, check_bearing, choices, choose
 from mechsym.sizing.checks import Check, at_least, at_most, at_speed, round_up, unsafe, weakest
 from mechsym.sizing.gear_design import candidates, check_gears, face_width
 from mechsym.sizing.hypocycloid.engine import (
+    Moving,
     PartForces,
     Parts,
+    PrintedMasses,
     Stock,
     bending_moment,
     chosen,
     crank_loads,
+    moving,
+    part_masses,
     seats,
     shaft,
     shaft_length,
     spans,
     tooth_loads,
 )
-from mechsym.sizing.hypocycloid.masses import Moving, PrintedMasses, moving, part_masses
 from mechsym.sizing.rows import SizeRow, fact, size_rows
 from mechsym.sizing.rules.masses import power_to_weight
 from mechsym.sizing.rules.turning_shaft import Section, endurance_limit, fatigue_factor, inner_slope
