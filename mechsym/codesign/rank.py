@@ -92,9 +92,8 @@ def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
             break
         count, before = count + 1, swing
     return Bound(
-        phi=samples.phi, wanted=wanted, singular_values=sizes / sizes[0], bare=bare, best=tuple(best),
-        pays=count,
-    )  # fmt: skip
+        phi=samples.phi, wanted=wanted, singular_values=sizes / sizes[0], bare=bare, best=tuple(best), pays=count
+    )
 
 
 def flywheel_estimate(points: Sequence[Point], bound: Bound, ripple: Pure, rollers: Inertia = 0.0) -> Inertia:

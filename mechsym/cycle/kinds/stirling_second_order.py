@@ -207,7 +207,7 @@ class _Tried:
         work = {
             f"flow_{name}": float(np.trapezoid(drop, turn.V_e)) * self.per_second
             for name, drop in zip(("heater", "regenerator", "cooler"), drops, strict=True)
-        } | self._walls()  # fmt: skip
+        } | self._walls()
         push, seal = self.mean((turn.p - cycle.p_back) ** 2), (losses.seal_gap, losses.seal_length)
         mu, rho = self.viscosity(cycle.T_c), cycle.mean_pressure / (self.gas.R * cycle.T_c)
         work["leakage"] = loss.leakage_loss(push, *seal, cycle.piston_bore or cycle.bore, mu)

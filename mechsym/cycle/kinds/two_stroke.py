@@ -277,9 +277,7 @@ def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
         found.append(f"indicated efficiency {state.efficiency:.2f} is above what marine engines reach (0.55)")
     if state.p_evo < state.p_evc:
         found.append("the pressure is below the scavenge pressure when the exhaust opens")
-    return pressure_over(
-        "two-stroke-marine", absolute, 2 * math.pi, kinks(cycle), cylinder, t_max=hottest,
-        phases=events(cycle), facts=((
+    facts = (
         f"compression ratio {cycle.compression_ratio:g} is read as geometric; from exhaust closing it is {trapped:.2f}",
         f"pressures at top dead centre, absolute: compression {_pressure(state.p_comp)}, "
         f"expansion reference {_pressure(state.p_ref)}; when the exhaust opens {_pressure(state.p_evo)}",
@@ -289,7 +287,10 @@ def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
         f"scavenge ports close at the mirror angle of opening (assumed); the pressure stays at "
         f"{_pressure(state.p_evc)} absolute until the exhaust closes",
         f"under the piston: {_pressure(back_pressure(cycle))} absolute ({cycle.crank_side})",
-    )), doubts=tuple(found),
+    )
+    return pressure_over(
+        "two-stroke-marine", absolute, 2 * math.pi, kinks(cycle), cylinder, t_max=hottest,
+        phases=events(cycle), facts=facts, doubts=tuple(found),
         formulas=formulas(cycle, cylinder, state.p_ref / state.p_comp),
     )  # fmt: skip
 

@@ -126,15 +126,16 @@ def _pressure(cycle: TwoStrokeZone, zone: Zone) -> Pressure:
     p_max, phi_p_max = peak(zone.absolute, _TURN, zone.kinks)
     found, result = shares(cycle, zone), zone.result
     excess = result.scalars["mass"][0] / zone.fuel / _STOICHIOMETRIC
-    return Pressure(
-        kind="two-stroke-zone", period=_TURN, kinks=zone.kinks, absolute=zone.absolute, p_max=p_max,
-        phi_p_max=phi_p_max, mean_indicated=zone.mean_indicated,
-        t_max=float(zone.result.t.max()), facts=((
+    facts = (
         f"fuel {zone.fuel * 1e3:.4g} g a cycle, excess air {excess:.2f}, indicated efficiency {found['work']:.3f}",
         f"heat to the walls {100 * found['heat']:.1f} % of the fuel ({_of_walls(zone.walls)}), highest mean "
         f"temperature {result.t.max():.0f} K",
         f"first law closed to {abs(result.residual[0]):.1g} of the heat released",
-    )),
+    )
+    return Pressure(
+        kind="two-stroke-zone", period=_TURN, kinks=zone.kinks, absolute=zone.absolute, p_max=p_max,
+        phi_p_max=phi_p_max, mean_indicated=zone.mean_indicated,
+        t_max=float(zone.result.t.max()), facts=facts,
         phases={"exhaust closes": cycle.evc, "combustion starts": cycle.soc, "end of combustion":
                 cycle.soc + cycle.duration, "exhaust opens": cycle.evo, "scavenge ports open": cycle.spo},
     )  # fmt: skip
