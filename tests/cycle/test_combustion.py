@@ -15,6 +15,7 @@ from mechsym.cli.cycle import cycle as cycle_command
 from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import at_angles, run
+from mechsym.cycle.measured.checks import _EXPANSION_TOLD
 from mechsym.cycle.measured.combustion import fit_double_wiebe, fit_wiebe, least_squares_fit
 from mechsym.cycle.measured.heat_release import (
     Walls,
@@ -24,7 +25,6 @@ from mechsym.cycle.measured.heat_release import (
     cumulative,
     heat_release,
 )
-from mechsym.cycle.measured.pressure import _EXPANSION_TOLD
 from mechsym.cycle.wiebe import double_wiebe
 from mechsym.jobs.cycle import engine
 from mechsym.jobs.flywheel import flywheel

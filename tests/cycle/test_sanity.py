@@ -8,9 +8,9 @@ import pytest
 from simulated_engine import DEG, records, whole_cycle
 from slider_crank import slider_crank
 
+from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts, speed_doubt
 from mechsym.cycle.measured.diagram import Diagram
 from mechsym.cycle.measured.measure import measured_cycles
-from mechsym.cycle.measured.pressure import brake_doubt, diagram_doubts, speed_doubt
 from mechsym.errors import BadInput
 
 ANGLE = np.arange(0.0, 2160.0)

@@ -8,7 +8,7 @@ from one_turn import turned
 
 from mechsym import cases
 from mechsym.cases.check import check_file
-from mechsym.cases.runs import settings_of
+from mechsym.cases.settings import settings_of
 from mechsym.codesign.machines import point
 from mechsym.errors import BadInput
 from mechsym.hinge.shown import html, pictures
