@@ -28,7 +28,7 @@ GROUPS = {
 }
 # a command stands in the file of its name, but for these
 _ELSEWHERE = {"page": "export:page", "fmu": "export:fmu", "eval": "evaluate:evaluate"} | {
-    name: f"catalogue:{name}" for name in ("cases", "mechanisms", "native")
+    name: f"catalogue:{name}" for name in ("cases", "cite", "mechanisms", "native", "sections")
 }
 COMMANDS = {
     name: f"mechsym.cli.{_ELSEWHERE.get(name, f'{name}:{name}')}" for group in GROUPS.values() for name in group
