@@ -140,7 +140,7 @@ def _everywhere() -> list[click.Parameter]:
 
     def guard(ctx: click.Context, wanted: bool) -> None:
         if not ctx.resilient_parsing:
-            ctx.with_resource(load("mechsym.trust:guarded")(ctx.meta.get("mechsym.words", ()), wanted))
+            ctx.with_resource(load("mechsym.files.trust:guarded")(ctx.meta.get("mechsym.words", ()), wanted))
 
     show = 'Show text and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.'
     return [

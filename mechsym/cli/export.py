@@ -11,7 +11,7 @@ from mechsym.cli import common
 from mechsym.cli.common import case_of, emit, file_in, pairs
 from mechsym.errors import BadInput
 from mechsym.files import make_folder, together, write_text
-from mechsym.inputs import reads
+from mechsym.files.inputs import reads
 from mechsym.quantities.display import ratio_text
 
 

@@ -18,7 +18,7 @@ from mechsym.derive.listing import Listing, listing
 from mechsym.derive.printer import UnsupportedNode
 from mechsym.derive.textbook import disagreement
 from mechsym.errors import BadInput, suggest
-from mechsym.inputs import imports_from, sources
+from mechsym.files.inputs import imports_from, sources
 
 
 def run(path: Path) -> ModuleType:

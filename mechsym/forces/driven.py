@@ -17,13 +17,13 @@ import scipy
 
 from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
+from mechsym.files.tables import columns_of
 from mechsym.mechanisms import constraints, driven
 from mechsym.mechanisms.driven import MotionSettings
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.quantities import parse, record
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.quantities.units import Array, Second
-from mechsym.tables import columns_of
 
 Curve = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]  # times [s] to place, speed, acceleration
 

@@ -1,7 +1,7 @@
 """Hinges at many points: guides that differ in numbers only are judged side by side, see `hinge.side_by_side`.
 
-Which guides can be built at all is asked of thousands at once, see `hinge.kernel`; `judge` decides again what is near to
-a limit, and gives the numbers of the best guide of a call.
+Which guides can be built at all is asked of thousands at once, see `hinge.kernel`; `judge` decides again what is near
+to a limit, and gives the numbers of the best guide of a call.
 """
 
 import dataclasses

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from mechsym import cases, inputs
+from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
+from mechsym.files import inputs
 from mechsym.mechanisms import own
 from mechsym.native import cache
 from mechsym.report import case_report
