@@ -180,6 +180,8 @@ def _raw(name: str, overrides: Mapping[str, object] | None) -> tuple[str, dict[s
             raise BadInput(f"{file}: key {key} = {shown(head[key])} at the top is not a text")
     head["mechanism"] = own.located(head["mechanism"], Path(name).parent)
     sections = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items() if k not in (*HEAD, "doubts")}
+    if own.is_file(head["mechanism"]):
+        sections.setdefault("parameters", {})  # its letters may all have values of their own
     for key, value in (overrides or {}).items():
         override(sections, head["mechanism"], key, value)
     return file, head, sections

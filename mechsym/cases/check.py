@@ -63,6 +63,8 @@ def check_file(name: str, trust: bool = False) -> Checked:
     elif mechanism not in mechanisms.names():
         mechanism = None
     sections = {k: v for k, v in tables.items() if k not in (*HEAD, "doubts")}
+    if mechanism is not None and own.is_file(mechanism):
+        sections.setdefault("parameters", {})
     untold = mechanism is None or (own.is_file(mechanism) and not trust)
     skipped = tuple(s for s in sections if s in schema.LETTERS) if untold else ()
     problems, records = [*head], dict[str, Record]()

@@ -5,6 +5,7 @@ and what the gas must not exceed (`[gas_limits]`, doubted by every command and h
 import math
 from dataclasses import asdict
 
+from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
@@ -127,6 +128,10 @@ def settings_of(case: Case) -> Settings:
 
 
 def guesses(case: Case) -> dict[str, float]:
-    """Coordinates and velocities that `[start]` gives; of coordinates that loops hold they are guesses [rad] or [m]."""
-    section = case.sections.get("start")
-    return {} if section is None else {k: v for k, v in asdict(section).items() if v is not None}
+    """Coordinates and velocities at the start: those of `[start]`, else of the pose of the declaration.
+
+    Of coordinates that loops hold they are guesses [rad] or [m]; `simulation.phi_start` goes before the pose.
+    """
+    section, run = case.sections.get("start"), case.sections.get("simulation")
+    posed = {} if run is not None and run.phi_start else mechanisms.listing(case.mechanism).get("pose", {})
+    return posed | ({} if section is None else {k: v for k, v in asdict(section).items() if v is not None})

@@ -15,10 +15,13 @@ from mechsym.files import Json
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the code is not what the derivations give.")
 @click.option("--show", is_flag=True, help="Print the code of mechanisms of your own.")
 @click.option("--explain", is_flag=True, help="Print how the loops of your own mechanisms close, write nothing.")
+@click.option("--draw", is_flag=True, help="Draw your own mechanisms in their pose as NAME.svg, in --out or here.")
 @click.option("--latex", is_flag=True, help="Print the equations as LaTeX and write nothing.")
 @folder_option
 @json_option
-def derive(names: tuple[str, ...], check: bool, show: bool, explain: bool, latex: bool, out: Path | None) -> None:
+def derive(
+    names: tuple[str, ...], check: bool, show: bool, explain: bool, draw: bool, latex: bool, out: Path | None
+) -> None:
     """Regenerate generated/ from derivations/, or derive a mechanism of your own from its file.
 
     The code of FILE.py or FILE.py:NAME goes to the cache by its content, with --out to a folder.
@@ -34,11 +37,12 @@ def derive(names: tuple[str, ...], check: bool, show: bool, explain: bool, latex
     from mechsym.mechanisms.equations import equations
 
     files = [name for name in names if own.is_file(name)]
-    given = {"--latex": latex, "--explain": explain, "--show": show, "--check": check, "--out": out}
+    given = {"--latex": latex, "--explain": explain, "--draw": draw, "--show": show, "--check": check, "--out": out}
     first, *others = [option for option, value in given.items() if value] or [""]
-    if first in ("--latex", "--explain") and others:
+    others = [option for option in others if (first, option) != ("--draw", "--out")]
+    if first in ("--latex", "--explain", "--draw") and others:
         raise BadInput(f"{others[0]} does nothing beside {first}; leave one of them out")
-    if not files and (idle := [option for option in ("--explain", "--show", "--out") if given[option]]):
+    if not files and (idle := [option for option in ("--explain", "--draw", "--show", "--out") if given[option]]):
         raise BadInput(f"{idle[0]} is for a mechanism of your own: name its FILE.py, or leave {idle[0]} out")
     if latex:
         found_equations = [equations(name) for name in names or tuple(build.scripts())]
@@ -48,6 +52,10 @@ def derive(names: tuple[str, ...], check: bool, show: bool, explain: bool, latex
     if explain:
         steps = {name: own.explained(name) for name in files}
         emit({"closing": steps}, lambda: "\n".join(line for lines in steps.values() for line in lines))
+        return
+    if draw:
+        pictures = [str(_drawn(name, out or Path())) for name in files]
+        emit({"written": pictures}, lambda: "", files=pictures)
         return
     found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": [], "redundant": []}
     if not files or len(files) < len(names):
@@ -59,6 +67,31 @@ def derive(names: tuple[str, ...], check: bool, show: bool, explain: bool, latex
     emit(report, lambda: _text(found, check, show), files=[] if check or show else found["written"])
     if found["differs"]:
         sys.exit(1)
+
+
+def _drawn(name: str, folder: Path) -> Path:
+    """A mechanism in its pose, with the paths of its watched points where it turns round."""
+    from mechsym.files import write_text
+    from mechsym.mechanisms import constraints, own
+    from mechsym.mechanisms.drawing import declared
+    from mechsym.mechanisms.drawn_parts import turns_round
+    from mechsym.mechanisms.plots import figure_of
+    from mechsym.mechanisms.record import bind
+    from mechsym.style import svg
+
+    said = own.load(name).listing
+    sizes, pose = said.get("ranges", {}), said.get("pose", {})
+    if unsaid := [p for p in said["parameters"] if "default" not in sizes.get(p, {})]:
+        why = f"a drawing needs sizes, and {', '.join(unsaid)} have no value in the file"
+        raise BadInput(f"{name}: {why}; give them a default=, or write the report of a case")
+    mechanism = bind(name, {p: float(sizes[p]["default"]) for p in said["parameters"]})
+    places = constraints.close(mechanism, pose) if mechanism.dependents else pose
+    at = [float(places.get(q, 0.0)) for q in mechanism.coordinates]
+    turning = declared(mechanism, said)
+    drawn = turning if turning and turns_round(turning) else declared(mechanism, said, lambda _: at)
+    if drawn is None:
+        raise BadInput(f"{name} has nothing to draw; give it links and joints, or m.draw_line")
+    return write_text(folder / f"{said['name']}.svg", svg(figure_of(drawn, at[0]), said["name"]))
 
 
 def _files(names: list[str], check: bool, out: Path | None) -> Json:

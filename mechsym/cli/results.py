@@ -29,7 +29,7 @@ RESULTS = {
     "optimise": ("mechsym.optimise.solver:Optimised",),
     "study": ("mechsym.sweep.data:StudyNumbers",),
     "sweep": ("mechsym.sweep.data:SweepNumbers",),
-    "simulate": ("mechsym.torsion.startup:FinishedRun",),
+    "simulate": ("mechsym.torsion.startup:FinishedRun", "mechsym.simulate.rest:RestPoses"),
     "hinge": ("mechsym.hinge.summary:HingeNumbers",),
     "codesign": ("mechsym.codesign.result:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
     "flywheel": ("mechsym.jobs.flywheel:FlywheelDesign",),

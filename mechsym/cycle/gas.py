@@ -19,9 +19,9 @@ from numpy.polynomial import Chebyshev
 
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Chamber, Motion, check_motion, motion_over, with_bottom
-from mechsym.cycle.pressure import Pressure, peak
+from mechsym.cycle.pressure import Pieces, Pressure, peak
 from mechsym.errors import BadInput
-from mechsym.mechanisms import loops
+from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.roles import PistonRole
 from mechsym.page import Shown
@@ -45,7 +45,7 @@ def piston_motion(
     symbols = {key: ca.SX.sym(key) for key in parameters}
     mechanism = bind(name, symbols)
     if mechanism.dependents:
-        mechanism = one_coordinate(bind(name, parameters), guesses)
+        mechanism = one_coordinate(bind(name, parameters), guesses or {})
     elif len(mechanism.coordinates) != 1:
         raise BadInput(f"mechanism {name} has {len(mechanism.coordinates)} coordinates; a cycle needs one crank angle")
     found = Motion(
@@ -68,11 +68,6 @@ def pistons_of(name: str) -> tuple[PistonRole, ...]:
             f"mechanism {name!r} has no piston for an engine cycle; declare one with m.piston(name, travel=x, force=F)"
         )
     return found
-
-
-def one_coordinate(mechanism: Mechanism, guesses: Mapping[str, float] | None = None) -> Mechanism:
-    """A mechanism whose loops leave one coordinate, as a function of that one."""
-    return loops.reduced(dataclasses.replace(mechanism, dependents={**mechanism.dependents, **(guesses or {})}))[0]
 
 
 def top_of(travel: ca.Function) -> Radian:
@@ -114,7 +109,7 @@ def piston_travel(
     """
     mechanism = mechanisms.build(name, parameters)
     if mechanism.dependents:
-        mechanism = one_coordinate(mechanism, guesses)
+        mechanism = one_coordinate(mechanism, guesses or {})
     if len(mechanism.coordinates) != 1:
         raise BadInput(f"mechanism {name} has no piston that a cycle could drive")
     travel = from_top(slopes(mechanism, pistons_of(name)[number].travel, {}))
@@ -208,6 +203,14 @@ class Gas(Shown):
         phi: angle from firing dead centre. Returns F: force, shape of phi.
         """
         return (self.pressure.absolute(phi) - self.p_back) * self.chamber.area
+
+    def formulas(self, start: Radian = 0.0) -> Pieces:
+        """The same for a CasADi symbol, from angle to angle, of a piston that fires at a start; none without."""
+        area = self.chamber.area
+        return tuple(
+            (a + start, b + start, lambda phi, law=law: (law(phi - start) - self.p_back) * area)
+            for a, b, law in self.pressure.formulas
+        )
 
 
 def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:

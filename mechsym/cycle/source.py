@@ -19,10 +19,11 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Chamber, Motion, chamber_over, piston_force, travel
 from mechsym.cycle.friction import Friction, NoFriction, brake_figures, friction_pressure
-from mechsym.cycle.gas import Gas, one_coordinate, piston_motion, piston_travel, pistons_of, slopes
+from mechsym.cycle.gas import Gas, piston_motion, piston_travel, pistons_of, slopes
 from mechsym.cycle.pressure import Pressure
 from mechsym.errors import BadInput
 from mechsym.files import Json
+from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.plan import plan_of
 from mechsym.quantities import RPM, record
 from mechsym.quantities.display import ratio_text

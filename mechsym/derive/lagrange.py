@@ -10,6 +10,7 @@ displacement is one more coordinate whose acceleration is zero: its equation giv
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from sympy import Expr, Integer, Rational, Symbol
 
@@ -109,6 +110,7 @@ def derive(m: Declaration) -> Equations:
             reactions=dict(m.dynamic_outputs),
             kinematics={s.name: s for s in m.kinematic_outputs},
             momentum={},
+            **_held(m),
         )
     mass = [[sum((_body_mass(m, body, a, b) for body in m.bodies), Integer(0)) for b in m.q] for a in m.q]
     _require_mass(m, mass)
@@ -134,9 +136,16 @@ def derive(m: Declaration) -> Equations:
         reactions=_reactions(m),
         kinematics=kinematics,
         momentum=_momentum(m),
-        constraint_jacobian=tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
-        constraint_bias=tuple(curvature(m, g) for g in m.constraints.values()),
+        **_held(m),
     )
+
+
+def _held(m: Declaration) -> dict[str, Any]:
+    """Jacobian of the constraints, and the velocity terms of their second derivatives."""
+    return {
+        "constraint_jacobian": tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
+        "constraint_bias": tuple(curvature(m, g) for g in m.constraints.values()),
+    }
 
 
 def _require_mass(m: Declaration, mass: list[list[Expr]]) -> None:

@@ -37,12 +37,14 @@ class Listing(TypedDict):
     checked: NotRequired[int]  #: Random states at which T - V agreed
     equations: list[dict[str, str]]  #: Title, LaTeX and MathML of each
     dependents: NotRequired[list[str]]
+    pose: NotRequired[dict[str, float]]  #: Of independent coordinates, where it was assembled
     guesses: NotRequired[dict[str, float]]
     multipliers: NotRequired[dict[str, str]]
     ranges: NotRequired[dict[str, Json]]
     requires: NotRequired[list[dict[str, str]]]
     roles: NotRequired[dict[str, list[Json]]]  #: Of each kind of `mechsym.mechanisms.roles`
     shapes: NotRequired[list[Json]]
+    pins: NotRequired[dict[str, list[str]]]  #: Coordinates of each pin in the drawing
     sketch: NotRequired[list[Json]]
     links: NotRequired[list[Json]]
     springs: NotRequired[list[str]]
@@ -80,12 +82,14 @@ def _own(m: Declaration) -> Json:
     """What only some declarations say."""
     said = {
         "dependents": [s.name for s in m.dependent_list],
+        "pose": {q.name: m.poses[q.name] for q in m.q if q.name in m.poses and q not in m.dependent_list},
         "guesses": m.guesses,
         "multipliers": {c: s.name for c, s in m.multiplier_of.items()},
         "ranges": m.ranges,
         "requires": m.requires,
         "roles": m.roles,
         "shapes": m.shapes,
+        "pins": m.pins,
         "sketch": m.sketches,
         "links": [link for link in map(partial(_link, m), m.links) if link],
         "springs": _constants(m, m.springs),

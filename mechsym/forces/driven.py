@@ -11,6 +11,7 @@ file are joined by splines of degree 5, whose fourth derivative is continuous; a
 
 import math
 from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
@@ -21,9 +22,15 @@ from mechsym.files.tables import columns_of
 from mechsym.mechanisms import constraints, driven
 from mechsym.mechanisms.driven import MotionSettings
 from mechsym.mechanisms.record import Mechanism, velocities
+from mechsym.page import Card, Picture, View
 from mechsym.quantities import parse, record
+from mechsym.quantities.display import quantity_text
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.quantities.units import Array, Second
+from mechsym.style import BLUE, axis_unit, panels
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Curve = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]  # times [s] to place, speed, acceleration
 
@@ -238,6 +245,28 @@ def forces(
     shown = {mechanism.shown.get(n, n): n for n in table}
     columns = Columns({n: table[of] for n, of in shown.items()}, {n: known.get(of, "N") for n, of in shown.items()})
     return DrivenForces(name=mechanism.name, one=one, columns=columns)
+
+
+def view(found: DrivenForces) -> View:
+    """What of a motion is worth seeing: places and forces of what is driven."""
+    table, units = found.columns, found.columns.units
+    largest = {n: float(np.abs(table[n]).max()) for n in table if n.startswith("driving_")}
+    cards = [Card(name=n.replace("_", " "), value=quantity_text(most, units[n], 4), about="largest")
+             for n, most in largest.items()]  # fmt: skip
+
+    def draw() -> "Figure":
+        names = [*found.one.driven, *largest]
+        figure, axes = panels(9.0, 1.4 * len(names) + 0.6, len(names), 1, "Driven places and forces", sharex=True)
+        for axis, name in zip(axes, names, strict=True):
+            factor, unit = axis_unit(units[name], table[name])
+            axis.plot(table["t"], table[name] * factor, color=BLUE)
+            axis.set_ylabel(f"{name.replace('_', ' ')} [{unit}]")
+        axes[-1].set_xlabel("time [s]")
+        return figure
+
+    see = "What each drive does, and the torque or force that it takes."
+    pictures = (Picture(name="driving", see=see, draw=draw),)
+    return View(title=f"Forces of {found.name}", cards=tuple(cards), pictures=pictures, columns=lambda: table)
 
 
 def numbers(found: DrivenForces, case: str) -> DrivenNumbers:

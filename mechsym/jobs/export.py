@@ -1,8 +1,9 @@
 """Case -> what leaves the tool: its run, with what its parts are made of, and the machine in motion, to scale."""
 
+import contextlib
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import scipy
@@ -20,12 +21,15 @@ from mechsym.hinge.guide import Guide
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.shown import hinge_scene
 from mechsym.hinge.torque import Hinge
+from mechsym.jobs.forces import motion
 from mechsym.jobs.gas import engine_with, gas, measured, one_cylinder
-from mechsym.jobs.machine import acting_on, drive_of, one_coordinate
+from mechsym.jobs.machine import acting_on, drive_of, mechanism_of, one_coordinate
 from mechsym.jobs.problem import Ready, beyond, guide_of
 from mechsym.jobs.problem import ready as running
 from mechsym.machine.loads import Load, settle
-from mechsym.mechanisms.drawing import Shapes, drawn
+from mechsym.mechanisms import listing
+from mechsym.mechanisms.drawing import Shapes, declared, drawn
+from mechsym.mechanisms.drawn_parts import turns_round
 from mechsym.mechanisms.turning import FRAMES, scene
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.constrained import LOCKED
@@ -116,13 +120,37 @@ def _spline(force: _Force, first: float, last: float) -> "scipy.interpolate.PPol
 
 
 def drawing(case: Case) -> Callable[[float], Shapes] | None:
-    """Crank angle [rad] to the machine of a case as its declaration draws it; None where nothing draws it."""
-    try:
+    """Crank angle [rad] to the machine of a case as its declaration draws it; None where nothing draws it.
+
+    What does not turn round is drawn over its motion, which takes one turn of that angle.
+    """
+    with contextlib.suppress(BadInput):
         acting = gas(case)
         bore = None if acting is None else float(acting.chamber.bore)
-        return drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
-    except BadInput:
-        return None
+        shapes = drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
+        if "motion" not in case.sections and shapes is not None and turns_round(shapes):
+            return shapes
+    with contextlib.suppress(BadInput):
+        return _in_motion(case)
+    return None
+
+
+def _in_motion(case: Case) -> Callable[[float], Shapes] | None:
+    """A drawing over a motion: there and back again as `[motion]` drives it, else as it runs in time."""
+    back = "motion" in case.sections
+    if back:
+        mechanism, table = mechanism_of(case), motion(case).columns
+    else:
+        problem = ready(case).problem
+        mechanism, table = problem.mechanism, simulate(problem, dataclasses.replace(Settings(), check="none")).columns
+    rows = np.array([table[q] for q in mechanism.coordinates])
+    curve = scipy.interpolate.CubicSpline(np.linspace(0.0, 1.0, rows.shape[1]), rows.T)
+
+    def pose(angle: float) -> Sequence[float]:
+        share = angle / (2 * math.pi)
+        return curve(1 - abs(1 - 2 * share) if back else share).tolist()
+
+    return declared(mechanism, listing(mechanism.name), pose)
 
 
 def with_gas(scenes: list[Json], case: Case) -> list[Json]:

@@ -37,6 +37,7 @@ from mechsym.simulate.loop.events import CYCLE
 from mechsym.simulate.loop.run import simulate_loop
 from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
+from mechsym.simulate.rest import RestPoses, rests
 from mechsym.simulate.result import RunNumbers, final_state, summary
 from mechsym.simulate.steady import steady_state
 from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
@@ -188,6 +189,16 @@ def run_of(case: Case, settings: Settings) -> tuple[Result, RunNumbers, float]:
         result = simulate(problem, settings)
     period = period_of(problem)
     return result, summary(result, problem.mechanism.coordinates, window_of(case, problem), period), period
+
+
+def at_rest(case: Case) -> RestPoses:
+    """Where a case stays at rest, under its constant forces, and whether it comes back there."""
+    if in_loop(case):
+        raise BadInput(f"{case.file}: the gas of an engine that runs has no pose at rest; leave [cycle] out")
+    try:
+        return rests(problem_of(beyond(case)), case.name)
+    except BadInput as error:
+        raise BadInput(f"{case.file}: {error}") from None
 
 
 def _start_ups(case: Case, result: Result, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:

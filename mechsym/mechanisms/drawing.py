@@ -9,6 +9,8 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of, sketched
@@ -21,6 +23,7 @@ from mechsym.quantities.units import Metre, Radian
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
 
+_PATHS, _WAY = ("rail", "trace"), 97  # kinds that follow a point, and over how many angles of a turn
 _PIN = 0.018  # radius of the pin of a link, by the width of all of them
 
 __all__ = ["Circle", "Line", "Point", "Shapes", "declared", "drawn", "extent_of", "shapes"]
@@ -55,28 +58,51 @@ def drawn(
     return declared(functions(), listing(mechanism))
 
 
-def declared(mechanism: Mechanism, said: "Listing") -> Callable[[float], Shapes] | None:
-    """Crank angle [rad] of a mechanism with one coordinate to the shapes of its declaration; None where it has none."""
+def declared(
+    mechanism: Mechanism, said: "Listing", poses: Callable[[float], Sequence[float]] | None = None
+) -> Callable[[float], Shapes] | None:
+    """Crank angle [rad] of a mechanism with one coordinate to the shapes of its declaration; None where it has none.
+
+    poses: coordinates over an angle [rad], of which a motion is a turn, for any number of them.
+    """
     if said.get("sketch"):
         return lambda angle: sketched(said, mechanism.parameters, angle, None)
-    if "drawing" not in mechanism.functions or len(mechanism.coordinates) != 1:
+    if "drawing" not in mechanism.functions or (poses is None and len(mechanism.coordinates) != 1):
         return None
     function, joints = mechanism.functions["drawing"], _joints(said["shapes"])
+    shaped = [shape for shape in said["shapes"] if shape["kind"] not in _PATHS]
 
     def places(angle: float) -> Mapping[str, float]:
-        return dict(zip(function.name_out(), map(float, function.call([angle])), strict=True))
+        return dict(
+            zip(function.name_out(), map(float, function.call(poses(angle) if poses else [angle])), strict=True)
+        )
 
     def shapes(angle: float) -> Shapes:
         at = places(angle)
         pins = (Circle(role="joint", centre=(at[x], at[y]), radius=radius) for x, y in joints)
-        return (*(_shape(shape, at) for shape in said["shapes"]), *pins)
+        return (*still, *(_shape(shape, at) for shape in shaped), *pins)
 
     start = places(0.0)
     if len({(start[x], start[y]) for shape in said["shapes"] for x, y in shape["points"]}) < 2:
         return None  # a point has no extent
+    way = [places(angle) for angle in np.linspace(0.0, 2 * math.pi, _WAY)] if len(shaped) < len(said["shapes"]) else []
+    still = [line for shape in said["shapes"] if shape["kind"] in _PATHS for line in _path(shape, way)]
     radius = _PIN * max((math.dist((start[a], start[b]), (start[c], start[d])) for a, b in joints for c, d in joints),
                         default=0.0)  # fmt: skip
     return shapes
+
+
+def _path(said: Json, way: Sequence[Mapping[str, float]]) -> list[Line]:
+    """What a point runs along: its path, or a rail on both sides of a slide that moves straight."""
+    (x, y), *ahead = said["points"]
+    points = np.array([(at[x], at[y]) for at in way])
+    if not ahead:
+        return [Line(role=said["role"], points=tuple(map(tuple, points.tolist())))]
+    along = np.array([way[0][n] for n in ahead[0]]) - points[0]
+    s = (points - points[0]) @ along / (along @ along)
+    ends = points[0] + np.outer([s.min() - 2.5, s.max() + 2.5], along)
+    sides = (ends + side * np.array([-along[1], along[0]]) for side in (1, -1))
+    return [Line(role=said["role"], points=tuple(map(tuple, side.tolist()))) for side in sides]
 
 
 def _joints(found: Sequence[Json]) -> list[tuple[str, str]]:

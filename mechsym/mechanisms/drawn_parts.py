@@ -38,7 +38,17 @@ Shapes = tuple[Line | Circle, ...]
 
 
 def extent_of(drawn: Callable[[float], Shapes]) -> tuple[float, float, float, float]:
-    """Box that holds a drawing at every crank angle [rad]: x_min, x_max, y_min, y_max [m]."""
+    """Box that holds a drawing at every crank angle [rad] where it is: x_min, x_max, y_min, y_max [m]."""
+    (left, low), (right, high) = (end(_corners(drawn), axis=0).tolist() for end in (np.nanmin, np.nanmax))
+    return left, right, low, high
+
+
+def turns_round(drawn: Callable[[float], Shapes]) -> bool:
+    """Whether a drawing is there at every crank angle."""
+    return bool(np.isfinite(_corners(drawn)).all())
+
+
+def _corners(drawn: Callable[[float], Shapes]) -> np.ndarray:
     corners: list[Point] = []
     for angle in np.linspace(0, 2 * math.pi, 24, endpoint=False):
         for shape in drawn(float(angle)):
@@ -47,8 +57,7 @@ def extent_of(drawn: Callable[[float], Shapes]) -> tuple[float, float, float, fl
             else:
                 (x, y), r = shape.centre, shape.radius
                 corners += [(x - r, y - r), (x + r, y + r)]
-    xs, ys = zip(*corners, strict=True)
-    return min(xs), max(xs), min(ys), max(ys)
+    return np.array(corners)
 
 
 def width_of(bore: float | None, stroke: float) -> float:

@@ -165,6 +165,12 @@ def _guess(mechanism: Mechanism, phi: ca.SX) -> tuple[ca.SX, int]:
     return ca.vertcat(*rows), turns
 
 
+def one_coordinate(mechanism: Mechanism, guesses: Mapping[str, float]) -> Mechanism:
+    """A mechanism whose loops leave one coordinate, as a function of that one; guesses: of the others [rad] or [m]."""
+    held = {name: float(guesses.get(name, guess)) for name, guess in mechanism.dependents.items()}
+    return reduced(replace(mechanism, dependents=held))[0]
+
+
 def reduced(mechanism: Mechanism) -> tuple[Mechanism, int]:
     """The mechanism with its first coordinate alone, the others closed at every angle.
 

@@ -214,11 +214,12 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
     from mechsym.jobs.problem import problem_of
     from mechsym.jobs.run import in_loop
     from mechsym.simulate import simulate, simulate_many
+    from mechsym.simulate.constrained import LOCKED
 
     looped = [i for i, case in enumerate(found) if in_loop(case)]
     problems = {i: guarded(problem_of, case) for i, case in enumerate(found) if i not in looped}
     results: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
-    results |= {i: guarded(_in_loop, found[i]) for i in looped}
+    results |= {i: guarded(_by_itself, found[i]) for i in looped}
     groups: dict[Settings, list[int]] = {}
     for i in (i for i in problems if i not in results):
         groups.setdefault(settings_of(found[i]), []).append(i)
@@ -229,12 +230,16 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
         except ARITHMETIC:  # one of them upset the others
             runs = [guarded(functools.partial(simulate, settings=settings), problem) for problem in own]
         for i, result in zip(members, runs, strict=True):
-            results[i] = result if isinstance(result, Gap) else _verdict(found[i], problems[i], result)
+            if isinstance(result, Gap):
+                results[i] = result
+                continue
+            ends = "sides" in problems[i].mechanism.functions and (result.end == LOCKED or result.status in _BAD)
+            results[i] = guarded(_by_itself, found[i]) if ends else _verdict(found[i], problems[i], result)
     return [results[i] for i in range(len(found))]
 
 
-def _in_loop(case: Case) -> Outcome:
-    """One point whose gas is integrated with the motion."""
+def _by_itself(case: Case) -> Outcome:
+    """One point whose gas is integrated with the motion, or that passes a dead point of its closed forms."""
     from mechsym.cases.settings import settings_of
     from mechsym.jobs.run import run_of
 

@@ -38,6 +38,7 @@ _SLIDERS = {
     "p0": (0.9, 1.1), "F0": (0.8, 1.2), "load_torque": (0.5, 1.5), "drive_1": (0.5, 2.0), "k1": (0.5, 2.0),
     "gas_scale": (0.5, 1.2),
 }  # fmt: skip
+_LETTER = (0.8, 1.25)
 
 
 @result
@@ -103,7 +104,9 @@ def _data(block: Block) -> Json:
     # the speed that people ask for: of the shaft whose standstill ends a run, else of the first coordinate
     ends = [stop.of for stop in block.stops if stop.name == "stall"]
     speed = next((s for s in block.states if s.name in ends), block.states[len(block.states) // 2])
+    letters = [p for p in block.parameters if not p.about and p.name not in _SLIDERS]  # of the declaration itself
     sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
+    sliders += [_slider(p, *_LETTER) for p in letters if p.start]
     if speed.start:  # an elastic shaft starts without twist
         alike = [s.name for s in block.states if s.unit == speed.unit and s.start == speed.start]
         sliders.append(_slider(speed, 0.9, 1.1) | {"about": "speed at the start", "sets": alike})

@@ -1,9 +1,9 @@
-"""Planar mechanisms from joints and one rough pose, with numbers in the file, for tests."""
+"""Linkages of the textbooks from joints and one rough pose, with their numbers."""
 
 from mechsym.derive import Mechanism, pi
 
 
-def begin(name):
+def _begin(name):
     m = Mechanism(name)
     phi = m.coordinates("phi")
     M = m.inputs("M", "N*m")
@@ -11,14 +11,14 @@ def begin(name):
     return m, phi
 
 
-def bar(m, name):
+def _bar(m, name):
     return m.link(name, mass="1 kg", centre=("40 mm", "10 mm"), inertia="0.01 kg*m^2")
 
 
 def chebyshev():
-    m, phi = begin("chebyshev")
+    m, phi = _begin("chebyshev")
     crank = m.link("crank", turns=phi, inertia=0.1)
-    coupler, rocker = bar(m, "coupler"), bar(m, "rocker")
+    coupler, rocker = _bar(m, "coupler"), _bar(m, "rocker")
     m.pose(phi=1.2, coupler="-10 deg", rocker="110 deg")
     m.pin("O", m.frame, crank)
     m.pin("A", crank.at(0.5), coupler)
@@ -29,9 +29,9 @@ def chebyshev():
 
 
 def hoeken():
-    m, phi = begin("hoeken")
+    m, phi = _begin("hoeken")
     crank = m.link("crank", turns=phi, inertia=0.1)
-    coupler, rocker = bar(m, "coupler"), bar(m, "rocker")
+    coupler, rocker = _bar(m, "coupler"), _bar(m, "rocker")
     m.pose(phi="90 deg", coupler="30 deg", rocker="95 deg")
     m.pin("O", m.frame, crank)
     m.pin("A", crank.at(0.1), coupler)
@@ -42,10 +42,10 @@ def hoeken():
 
 
 def peaucellier():
-    m, phi = begin("peaucellier")
+    m, phi = _begin("peaucellier")
     crank = m.link("crank", turns=phi, inertia=0.1)
-    l1, l2 = bar(m, "l1"), bar(m, "l2")
-    s1, s2, s3, s4 = (bar(m, n) for n in ("s1", "s2", "s3", "s4"))
+    l1, l2 = _bar(m, "l1"), _bar(m, "l2")
+    s1, s2, s3, s4 = (_bar(m, n) for n in ("s1", "s2", "s3", "s4"))
     m.pose(phi="20 deg", l1="20 deg", l2="-10 deg", s1="60 deg", s2="-50 deg", s3="-40 deg", s4="50 deg")
     m.pin("C", m.frame.at(0.2), crank)
     m.pin("O1", m.frame, l1)
@@ -62,9 +62,9 @@ def peaucellier():
 
 
 def toggle():
-    m, phi = begin("toggle")
+    m, phi = _begin("toggle")
     crank = m.link("crank", turns=phi, inertia=0.1)
-    rod, upper, lower, ram = (bar(m, n) for n in ("rod", "upper", "lower", "ram"))
+    rod, upper, lower, ram = (_bar(m, n) for n in ("rod", "upper", "lower", "ram"))
     m.pose(phi="90 deg", rod="10 deg", upper="-70 deg", lower="-110 deg")
     m.pin("O", m.frame, crank)
     m.pin("A", crank.at(0.05), rod)
@@ -78,9 +78,9 @@ def toggle():
 
 
 def shaper():
-    m, phi = begin("shaper")
+    m, phi = _begin("shaper")
     crank = m.link("crank", turns=phi, inertia=0.1)
-    rocker, link, ram = (bar(m, n) for n in ("rocker", "link", "ram"))
+    rocker, link, ram = (_bar(m, n) for n in ("rocker", "link", "ram"))
     m.pose(phi="0 deg", rocker="75 deg", link="170 deg")
     m.pin("O", m.frame, crank)
     m.pin("D", m.frame.at(0, -0.3), rocker)
@@ -92,9 +92,9 @@ def shaper():
 
 
 def klann():
-    m, phi = begin("klann")
+    m, phi = _begin("klann")
     crank = m.link("crank", turns=phi, inertia=0.1)
-    conn, low, up, leg = (bar(m, n) for n in ("conn", "low", "up", "leg"))
+    conn, low, up, leg = (_bar(m, n) for n in ("conn", "low", "up", "leg"))
     m.pose(phi="90 deg", conn="170 deg", low="100 deg", up="160 deg", leg="230 deg")
     m.pin("O", m.frame, crank)
     m.pin("M", crank.at(0.11), conn)
@@ -108,9 +108,9 @@ def klann():
 
 
 def scissor():
-    m, phi = begin("scissor")
+    m, phi = _begin("scissor")
     a = m.link("a", turns=phi, inertia=0.1)
-    b, c, d = (bar(m, n) for n in "bcd")
+    b, c, d = (_bar(m, n) for n in "bcd")
     top = m.link("top", mass="10 kg")
     foot = m.link("foot", mass="1 kg")
     m.pose(phi="30 deg", b="150 deg", c="150 deg", d="30 deg", top="0 deg")
@@ -134,7 +134,7 @@ def fivebar():
     m.torque(M1, along=a1)
     m.torque(M2, along=a2)
     one, two = m.link("one", turns=a1, inertia=0.1), m.link("two", turns=a2, inertia=0.1)
-    left, right = bar(m, "left"), bar(m, "right")
+    left, right = _bar(m, "left"), _bar(m, "right")
     m.pose(a1="120 deg", a2="60 deg", left="45 deg", right="135 deg")
     m.pin("O", m.frame, one)
     m.pin("Q", m.frame.at(0.2), two)
@@ -146,10 +146,10 @@ def fivebar():
 
 
 def jansen():
-    m, phi = begin("jansen")
+    m, phi = _begin("jansen")
     crank = m.link("crank", turns=phi, inertia=0.1)
     j, b, k, c, d, e, f, g, h, i = (
-        bar(m, n) for n in ("bar_j", "bar_b", "bar_k", "bar_c", "bar_d", "bar_e", "bar_f", "bar_g", "bar_h", "bar_i")
+        _bar(m, n) for n in ("bar_j", "bar_b", "bar_k", "bar_c", "bar_d", "bar_e", "bar_f", "bar_g", "bar_h", "bar_i")
     )
     m.pose(
         phi=0.0,
@@ -182,6 +182,3 @@ def jansen():
     m.pin("T", h.at(0.657), i.at(0.49))
     m.watch(h.at(0.657), "foot")
     return m
-
-
-ALL = {f.__name__: f for f in (chebyshev, hoeken, peaucellier, toggle, shaper, klann, scissor, fivebar, jansen)}
