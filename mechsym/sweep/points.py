@@ -172,8 +172,8 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
         run = _each(lambda case: {})
         return Route(analysis=analysis, run=run, together=hinges.MANY, seconds=0.0001, at=hinges.guides)
     if analysis in _SINGLES:
-        single, seconds = _SINGLES[analysis]
-        return Route(analysis=analysis, run=_each(single), together=1, seconds=seconds)
+        one, seconds = _SINGLES[analysis]
+        return Route(analysis=analysis, run=_each(one), together=1, seconds=seconds)
     if kind_of(case.need("cycle")).closed:
         return Route(analysis=analysis, run=_maps, together=_CYCLES, seconds=0.002)
     return Route(analysis=analysis, run=_each(single), together=1, seconds=0.01)
