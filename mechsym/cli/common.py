@@ -222,7 +222,7 @@ def emit(
         return
     said = text()  # it keeps its first line where that is one of what has to be known first
     head, _, rest = said.partition("\n")
-    others = [one.line for one in first if one.words != head]
+    others = [one.line for one in first if one.words not in head]
     said = "\n".join([*others, said] if len(others) == len(first) else [head, *others, rest])
     named = (f"written: {file}" for file in files)
     click.echo("\n".join([*filter(None, [said]), *named, *lines]))

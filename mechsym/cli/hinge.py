@@ -10,6 +10,7 @@ import click
 
 from mechsym.cases import Case
 from mechsym.cli.common import case_command, diagram_option, emit, out_option, progress, table
+from mechsym.hinge.result import ripple_text
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
         f"load torque      {quantity_text(numbers.load_torque, 'N*m')}",
         f"hinge torque     {torque[0]} to {torque[1]}, mean {ratio_text(mean)} of its peak",
         f"limits           {guide.reason.removeprefix(ALL_KEPT)}",
-        f"speed ripple     {ratio_text(check.speed_ripple, 4)} simulated {how}, "
+        f"speed ripple     {ripple_text(check.speed_ripple, 4)} simulated {how}, "
         f"energy residual {ratio_text(check.energy_residual)}",
         f"flywheel saved   {figure(numbers.flywheel_inertia_saved, 4)} kg*m^2 by an ideal hinge: what "
         f"{figure(100 * numbers.ripple_wanted)} % needs without one",
@@ -105,13 +106,13 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
     for offer in numbers.offers[1:]:
         lines.append(
             f"instead          balance = {offer.balance!r} with shaft_ratio = {offer.shaft_ratio:g}: ripple "
-            f"{ratio_text(offer.ripple_constant_load)} under constant, "
-            f"{ratio_text(offer.ripple_propeller_load)} under propeller load"
+            f"{ripple_text(offer.ripple_constant_load)} under constant, "
+            f"{ripple_text(offer.ripple_propeller_load)} under propeller load"
         )
     if isinstance(again, RetunedNumbers):
         lines.append(
             f"{'at ' + figure(again.speed_rpm, 4) + ' rpm':17}best setting {setting(again.p0)} "
-            f"({again.p0_ratio:.3g} times), ripple {ratio_text(again.speed_ripple)}"
+            f"({again.p0_ratio:.3g} times), ripple {ripple_text(again.speed_ripple, 3)}"
         )
     if numbers.loads:
         rows = [tell(row) | {"setting": setting(row.p0)} for row in numbers.loads]
@@ -131,7 +132,7 @@ def _left_out(numbers: "HingeNumbers") -> list[str]:
     if lost is None:
         return []
     after = "not known" if share is None else f"{share:.2g} of the speed" if share > 0 else "the shaft stops"
-    ripple = "no steady motion" if lost.speed_ripple is None else f"ripple {lost.speed_ripple:.2g}"
+    ripple = "no steady motion" if lost.speed_ripple is None else f"ripple {ripple_text(lost.speed_ripple)}"
     label, counted = "not counted ", []
     if run is not None:
         each = ", ".join(f"{kind} {quantity_text(torque, 'N*m', 3)}" for kind, torque in run.items())

@@ -35,7 +35,8 @@ def gas_view(gas: Gas) -> View:
     ]
     if pressure.t_max is not None:
         cards.append(card(Pressure, "t_max", pressure.t_max))
-    see = f"Absolute pressure over the {_angle(gas)}, and over the volume: the area is the work."
+    most = quantity_text(pressure.p_max, "Pa", 4)
+    see = f"Absolute pressure, at most {most}, over the {_angle(gas)}, and over the volume: the area is the work."
     drawn = (Picture(name="indicator", see=see, draw=lambda: indicator(gas)),)
     return View(title=f"Gas, {pressure.kind}", cards=tuple(cards), pictures=drawn, columns=lambda: _columns(gas))
 

@@ -18,8 +18,12 @@ _GROUND = [[(0, 0), (-9, -16), (9, -16), (0, 0)], _HATCH]  # tenths of a mark, a
 
 
 def draw(m: Declaration) -> None:
-    """Draw what the declaration leaves undrawn."""
-    if m.shapes:
+    """Name where pins are, and draw what the declaration leaves undrawn."""
+    m.pins = {pin.name: m.point_names((pin.first,))[0] for pin in m.link_joints if pin.kind == "pin"}
+    drawn = bool(m.shapes)
+    for point in m.watched.values():
+        m._shape("trace", "trace", (point,))
+    if drawn:
         return
     mark = _mark(m)
     for joint in m.link_joints if mark != 0 else ():
@@ -32,8 +36,6 @@ def draw(m: Declaration) -> None:
     for _, _, line, length in m.faces:
         if isinstance(line, LinkLine) and (length is not None or line.link is m.frame):
             _face(m, line, length, mark)
-    for point in m.watched.values():
-        m._shape("trace", "trace", (point,))
 
 
 def _face(m: Declaration, line: LinkLine, length: object, mark: Expr) -> None:

@@ -44,6 +44,7 @@ class Listing(TypedDict):
     requires: NotRequired[list[dict[str, str]]]
     roles: NotRequired[dict[str, list[Json]]]  #: Of each kind of `mechsym.mechanisms.roles`
     shapes: NotRequired[list[Json]]
+    pins: NotRequired[dict[str, list[str]]]  #: Coordinates of each pin in the drawing
     sketch: NotRequired[list[Json]]
     links: NotRequired[list[Json]]
     springs: NotRequired[list[str]]
@@ -88,6 +89,7 @@ def _own(m: Declaration) -> Json:
         "requires": m.requires,
         "roles": m.roles,
         "shapes": m.shapes,
+        "pins": m.pins,
         "sketch": m.sketches,
         "links": [link for link in map(partial(_link, m), m.links) if link],
         "springs": _constants(m, m.springs),

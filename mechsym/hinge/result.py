@@ -27,9 +27,10 @@ from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import Machine
 from mechsym.page import Shown
 from mechsym.quantities import record
-from mechsym.quantities.display import figure
+from mechsym.quantities.display import figure, per_cent, ratio_text
 from mechsym.quantities.records import Record
 from mechsym.quantities.results import computed, quantity, result
+from mechsym.quantities.units import Pure
 from mechsym.simulate.steady import Flywheel, Steady
 
 
@@ -131,8 +132,8 @@ class Target:
 
     @property
     def words(self) -> str:
-        """`2 % missed with losses: 9.9 %`."""
-        wanted, how = f"{figure(100 * self.ripple)} %", "with losses" if self.losses else "without losses"
+        """`ripple of 2 % missed with losses: 9.9 %`."""
+        wanted, how = f"ripple of {figure(100 * self.ripple)} %", "with losses" if self.losses else "without losses"
         if None in self.with_losses:
             return f"{wanted} missed: {how} there is no steady motion{' at some points' * (len(self.with_losses) > 1)}"
         worst = max(r for r in self.with_losses if r is not None)
@@ -150,6 +151,11 @@ def design_words(target: Target, status: str, reason: str) -> str:
     if not target.held:
         return f"{'not within the limits' if status == 'optimal' else status}: {reason}"
     return f"{'optimal' if target.met else 'a guide is found'}; {target.words}"
+
+
+def ripple_text(share: Pure | None, digits: int = 2) -> str:
+    """A ripple in per cent, one of round-off as the ratio that it is."""
+    return ratio_text(share, digits) if share is None or abs(share) < 1e-6 else per_cent(share, digits)
 
 
 @result

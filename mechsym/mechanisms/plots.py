@@ -10,7 +10,7 @@ from mechsym.mechanisms import constraints, own
 from mechsym.mechanisms.drawing import Circle, Shapes, declared, extent_of, shapes
 from mechsym.mechanisms.drawn_parts import turns_round
 from mechsym.mechanisms.record import bind
-from mechsym.mechanisms.turning import FRAMES, STYLES, ordered, rules, scene
+from mechsym.mechanisms.turning import STYLES, ordered, rules, scene
 from mechsym.page import page
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Metre, Radian
@@ -68,12 +68,8 @@ def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -
 
 def animation(mechanism: str, parameters: Record, title: str, bore: float | None = None) -> str:
     """A page in which the mechanism turns; it needs nothing from outside; with a bore [m] to scale."""
-    return animation_of(lambda at: shapes(mechanism, parameters, at, bore), title)
-
-
-def animation_of(drawn: Callable[[float], Shapes], title: str, turns: int = 1) -> str:
-    """A page in which a drawing over the crank angle [rad] turns so often; it needs nothing from outside."""
-    return turning_page([scene(drawn, "the mechanism to scale", turns, FRAMES * turns)], title)
+    drawn = scene(lambda at: shapes(mechanism, parameters, at, bore), "the mechanism to scale")
+    return turning_page([drawn], title)
 
 
 def turning_page(scenes: Sequence[Json], title: str) -> str:

@@ -21,7 +21,9 @@ def block_of(name: str, about: str, ready: Ready) -> Block:
     if ready.guide is not None:
         laws.append(hinge_law("hinge", ready.guide, ready.guide.spring))
     if ready.load is not None:
-        laws.append(load_law("load", ready.load, 2 * len(problem.mechanism.coordinates) - 1))
+        n = len(problem.mechanism.coordinates)
+        # the flywheel comes last on a shaft that twists, the shaft first of what loops hold
+        laws.append(load_law("load", ready.load, n if problem.mechanism.dependents else 2 * n - 1))
     return block(name, about, problem, laws)
 
 

@@ -1,6 +1,6 @@
 """What of a run in time, and of a start-up in it, is worth seeing, and what has to be known first."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import cycle
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,6 @@ from mechsym.torsion.startup import FinishedRun, StartUp
 from mechsym.torsion.twist import ShaftSection, TrainVibration, critical_words, pairs, section_words
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _ENDS = {"turns": "all turns", "t_end": "to its end", "stall": "the shaft stops"}
@@ -93,19 +92,23 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
 
     result, engine, starts, found = run.result, run.engine, run.start_ups, []
     if engine is not None and len(result.t) > 1:
-        see = "Speed over time with its mean over each period, and the last period over the angle."
+        see = f"Speed over time with its mean over each period, and the last period over the angle: {span(run.speed)}."
         found.append(Picture(name="speed", see=see, draw=lambda: speed(
             result, engine.coordinate, engine.period, engine.wanted, engine.words)))  # fmt: skip
     if result.happened.events:
         see = "The motion, and when each stop, contact and friction was met, left, stuck or slid."
         found.append(Picture(name="events", see=see, draw=lambda: met(result)))
     if run.twist:
-        see = "Twist of each shaft section: the peak decides on the shaft."
+        peak = quantity_text(max(section.twist_peak for section in run.twist), "rad", 4)
+        see = f"Twist of each shaft section: the peak, {peak}, decides on the shaft."
         found.append(Picture(name="twist", see=see, draw=lambda: twist(result, len(run.twist))))
     if starts:
-        see = "Where an order of the drive meets a natural frequency the start-up may be held."
+        natural = quantity_text(starts[0].natural, "rad/s", 4)
+        see = f"Where an order of the drive meets the natural frequency, {natural}, the start-up may be held."
         found.append(Picture(name="campbell", see=see, draw=lambda: campbell(starts[0])))
-        see = "The start-up with its dampers: held below a critical speed, or through it."
+        held = [f"at order {c.critical.order:g}, {quantity_text(c.critical.speed, 'rad/s', 4)}"
+                for start in starts for c in start.captures]  # fmt: skip
+        see = f"The start-up beside a rigid shaft: {'held ' + '; '.join(held) if held else 'nothing holds it'}."
         found.append(Picture(name="startup", see=see, draw=lambda: start_up(starts, starts[0].claim.claim_speed)))
     return tuple(found)
 
@@ -146,6 +149,12 @@ def of_run(run: FinishedRun) -> Iterator[Finding]:
         yield Finding(rank=NOT_MET, words=run.summary.reason or f"the run is {run.result.status}")
     if run.result.end == "stall":
         yield Finding(rank=NOT_MET, words="the shaft stops", value=float(run.result.t[-1]), unit="s")
+    for start in run.start_ups:
+        for stay in start.captures:
+            at, twist = (quantity_text(v, u, 4) for v, u in ((stay.critical.speed, "rad/s"), (start.twist_peak, "rad")))
+            words = f"the shaft is held at its critical speed of order {stay.critical.order:g}, {at}, from "
+            words += f"{figure(stay.t_start, 3)} s on; it twists by {twist}"
+            yield Finding(rank=NOT_MET, words=words, value=start.twist_peak, unit="rad")
     yield from criticals(run.vibration)
     if settling := drift(run):
         yield settling
@@ -197,21 +206,17 @@ def start_up(runs: Sequence[StartUp], claim_speed: RadPerSecond | None = None) -
     if claim_speed is not None:
         marks["printed"] = claim_speed * factor
         speed.set_ylim(top=1.12 * claim_speed * factor)
-    _levels(speed, marks)
+    # lines across a panel with their names at its right
+    low, high = speed.get_ylim()
+    shown = {name: at for name, at in marks.items() if low <= at <= high}
+    places = spread([(at - low) / (high - low) for at in shown.values()], 0.07, 0.0, 1.0)
+    for (name, at), place in zip(shown.items(), places, strict=True):
+        speed.axhline(at, color=GREY, lw=0.7, ls=":")
+        speed.text(1.01, place, name, transform=speed.transAxes, va="center", color=INK, fontsize=8)
     speed.set(ylabel=f"mean crank speed [{unit}]")
     legend(speed)
     twist.set(xlabel="time [s]", ylabel=f"twist amplitude [{angle_unit}]")
     return figure
-
-
-def _levels(axis: "Axes", marks: Mapping[str, float]) -> None:
-    """Lines across a panel with their names at its right."""
-    low, high = axis.get_ylim()
-    shown = {name: at for name, at in marks.items() if low <= at <= high}
-    places = spread([(at - low) / (high - low) for at in shown.values()], 0.07, 0.0, 1.0)
-    for (name, at), place in zip(shown.items(), places, strict=True):
-        axis.axhline(at, color=GREY, lw=0.7, ls=":")
-        axis.text(1.01, place, name, transform=axis.transAxes, va="center", color=INK, fontsize=8)
 
 
 def twist(result: Result, shafts: int) -> "Figure":
