@@ -25,9 +25,9 @@ from mechsym.derive.rates import output, output_dynamic
 from mechsym.derive.refuse import file_of_declaration, refuse
 from mechsym.derive.unilateral import Unilateral
 from mechsym.errors import BadInput, suggest
-from mechsym.inputs import sources
+from mechsym.files.inputs import sources
+from mechsym.files.tables import columns_of
 from mechsym.periodic.rises import RISES
-from mechsym.tables import columns_of
 
 _FOLLOWERS = ("knife", "flat", "roller")
 _TURN = 2 * pi

@@ -238,6 +238,7 @@ def test_a_word_goes_from_rest_to_rest_with_its_slopes(word):
     peaks = {
         "cycloid": 2 * np.pi,
         "3-4-5": 10 / np.sqrt(3),
+        "4-5-6-7": 84 * np.sqrt(5) / 25,
         "modified sine": 4 * np.pi**2 / (4 + np.pi),
         "trapezium": 16 / 3,
     }
