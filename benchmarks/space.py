@@ -176,7 +176,7 @@ def run_platform(folder):
     for closure in closures:
         datas.append(closure.createData())
     pin.initConstraintDynamics(model, data, closures, datas)
-    T = np.asarray(loops.motion(mechanism, ca.DM(q), ca.DM(u), tuple(mechanism.dependents))[0])
+    T = np.asarray(ca.evalf(loops.motion(mechanism, ca.SX(q), ca.SX(u), tuple(mechanism.dependents))[0]))
     full = dict(zip(mechanism.coordinates, T @ u, strict=True))
     R = pin.Quaternion(*e).toRotationMatrix()
     ed = np.array([full[f"e{k}_P"] for k in range(4)])

@@ -1,4 +1,4 @@
-"""Swash-plate engine: three pistons along the shaft rest by balls on a plate that stands slanting on it.
+r"""Swash-plate engine: three pistons along the shaft rest by balls on a plate that stands slanting on it.
 
       |\    <- plate, its normal tilted against the shaft        F_k away from the head, along -z
    ===|=\=====[ piston k ]| head        z along the shaft, pistons in a ring of the radius R about it
