@@ -27,8 +27,17 @@ from collections.abc import Callable, Sequence
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.breathing.flow import curtain_area, orifice_flow, valve_lift
-from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, FreshCharge, HeatSink, Surroundings
+from mechsym.cycle.breathing.flow import (
+    PERIOD,
+    Breath,
+    Breathing,
+    FreshCharge,
+    HeatSink,
+    Surroundings,
+    curtain_area,
+    orifice_flow,
+    valve_lift,
+)
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.run import METHOD
 from mechsym.cycle.heat import Adiabatic, GasAtWall, heat_flux, motored_swirl
@@ -172,7 +181,15 @@ def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps
     phi = cylinder.breathing.inlet_closes + np.linspace(0.0, PERIOD, steps + 1)
     fold, room = _fold(cylinder), _rooms(cylinder, phi)
     closed = float(room[0])
-    state = _start(cylinder, outside, closed)
+    # first guess of all states, shape (states, speeds)
+    b, c, (p_in, T_in, p_out) = cylinder.breathing, cylinder.charge, outside
+    rows: list[np.ndarray] = []
+    for p, V, T, burnt in (
+        (p_in, b.plenum_volume, T_in, 0.0), (p_in, closed, T_in, 0.0), (p_out, b.manifold_volume, _HOT * T_in, 1.0)
+    ):  # fmt: skip
+        mass = p * V / (c.R * T)
+        rows += [mass, p * V / (c.gamma - 1), burnt * mass]
+    state = np.vstack([*rows, np.zeros((_SUMS, outside.shape[1]))])
     past: list[tuple[np.ndarray, np.ndarray]] = []
     for count in range(_CYCLES + 1):
         history = fold(state, _given(cylinder, state, closed, speeds, outside), steps)
@@ -286,18 +303,6 @@ def _residuals(history: np.ndarray, sums: dict[str, float]) -> dict[str, float]:
         "mass_residual": float(abs(mass - sums["m_in"] + sums["m_out"])) / float(first[3]),
         "energy_residual": float(abs(left)) / float(first[4]),
     }
-
-
-def _start(cylinder: Cylinder, outside: np.ndarray, closed: float) -> np.ndarray:
-    """First guess of all states, shape (states, speeds)."""
-    b, c, (p_in, T_in, p_out) = cylinder.breathing, cylinder.charge, outside
-    rows: list[np.ndarray] = []
-    for p, V, T, burnt in (
-        (p_in, b.plenum_volume, T_in, 0.0), (p_in, closed, T_in, 0.0), (p_out, b.manifold_volume, _HOT * T_in, 1.0)
-    ):  # fmt: skip
-        mass = p * V / (c.R * T)
-        rows += [mass, p * V / (c.gamma - 1), burnt * mass]
-    return np.vstack([*rows, np.zeros((_SUMS, outside.shape[1]))])
 
 
 _ROUNDS, _BESIDE, _WORTH = 12, 1e-6, 0.5

@@ -35,9 +35,8 @@ from mechsym.cycle.breathing.flow import curtain_area, orifice_flow, valve_lift
 from mechsym.cycle.chamber import ChamberParameters, Motion, chamber, volume, volume_and_slope
 from mechsym.cycle.closed.equations import Build, Closed, contents
 from mechsym.cycle.friction import Friction
-from mechsym.cycle.heat import Law
+from mechsym.cycle.heat import ConstantGamma, Law, NasaMixture, properties
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition, charge, latent_heat, timing, vapour_energy
-from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pascal, Scalar
@@ -111,7 +110,9 @@ def open_function(build: Build, names: Sequence[str]) -> ca.Function:
         every = ca.repmat(design, 1, steps + 1), ca.repmat(t_end, 1, steps + 1)
         phi, p, swept = node.map(steps + 1)(at, history, *every)
         angles, pressures = [*angles, phi.T], [*pressures, p.T]
-        works.append(ca.dot(ca.DM(_simpson(steps)).T, p * swept))
+        weights = np.where(np.arange(steps + 1) % 2, 4.0, 2.0)
+        weights[[0, -1]] = 1.0
+        works.append(ca.dot(ca.DM(weights / (3 * steps)).T, p * swept))
         state = history[:, -1]
     rest = ca.Function("rest", [z, t, u], _behind_dead_centre(closed, u, t))
     drawn, closing, gamma = rest(design, t_end, pressures[-1][-1])
@@ -180,12 +181,6 @@ _RODAS3 = (
 )
 
 
-def _simpson(steps: int) -> np.ndarray:
-    weights = np.where(np.arange(steps + 1) % 2, 4.0, 2.0)
-    weights[[0, -1]] = 1.0
-    return weights / (3 * steps)
-
-
 def check_blowdown(valve: Blowdown, intake_pressure: Pascal) -> None:
     """Refuse an exhaust that draws fresh gas through the cylinder."""
     if valve.pressure < intake_pressure:
@@ -226,7 +221,10 @@ def at_design(engine: ClosedEngine, design: Mapping[str, Scalar]) -> ClosedEngin
             parameters = {**parts["motion"].parameters, key: value}
             parts["motion"] = dataclasses.replace(parts["motion"], parameters=parameters)
         elif isinstance(getattr(parts.get(section), key, None), (int, float)) and section != "motion":
-            parts[section] = _replaced(parts[section], key, value)
+            # dataclasses.replace would run the range checks, which cannot compare symbols
+            twin = copy.copy(parts[section])
+            object.__setattr__(twin, key, value)
+            parts[section] = twin
         else:
             raise BadInput(f"{name!r} is not a number of the engine; names are {', '.join(design_names(engine))}")
     return ClosedEngine(**parts)
@@ -273,10 +271,3 @@ def closed_period(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Closed:
         fuel_entry="premixed" if cycle.vaporisation == "none" else "vaporised",
         wiebe=(cycle.wiebe_a, cycle.wiebe_m, 1.0, 0.0, 0.0), blowdown=engine.blowdown,
     )  # fmt: skip
-
-
-def _replaced(record: object, key: str, value: object) -> object:
-    # dataclasses.replace would run the range checks, which cannot compare symbols
-    twin = copy.copy(record)
-    object.__setattr__(twin, key, value)
-    return twin

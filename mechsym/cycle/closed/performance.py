@@ -85,12 +85,15 @@ def performance(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Performan
     along = _along(engine, design, phi, p)
     largest = {name: peak(phi, values)[0] for name, values in along.items()}
     angles = burnt_angles(here.cycle, scalars["omega"])
+    fuel, released, heat = (scalars[k] for k in ("fuel_heat", "heat_released", "latent_heat"))
+    carried = scalars["energy_end"] - scalars["energy_start"] - scalars["exchange_work"]
     return Performance(
-        **figures(here.friction_pressure, scalars, p_max), **_shares(scalars),
-        pumping_mep=pumping / scalars["displacement"],
+        **figures(here.friction_pressure, scalars, p_max), heat=(scalars["wall_heat"] + heat) / fuel,
+        work=scalars["work"] / fuel, exhaust=(carried - scalars["fuel_energy"] - heat) / fuel,
+        unburnt=1 - released / fuel, pumping_mep=pumping / scalars["displacement"],
         p_max=p_max, p_max_angle=p_max_angle, burnt=angles, t_max=t.max(axis=1), knock=_knock(engine, design, result),
         torque_max=largest.pop("torque"), force_max=largest.pop("force"),
-        energy_residual=result.residual * scalars["heat_released"] / scalars["fuel_heat"], loads=largest,
+        energy_residual=result.residual * released / fuel, loads=largest,
     )  # fmt: skip
 
 
@@ -133,17 +136,6 @@ def peak(phi: Radian[Array], y: Pure[Array]) -> tuple[Pure[Array], Radian[Array]
     value = y0 + (vertex - x0) * (slope + (vertex - x1) * bend)
     higher = value > y[row, top]
     return np.where(higher, value, y[row, top]), np.where(higher, vertex, phi[row, top])
-
-
-def _shares(scalars: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    fuel, released, heat = (scalars[k] for k in ("fuel_heat", "heat_released", "latent_heat"))
-    carried = scalars["energy_end"] - scalars["energy_start"] - scalars["exchange_work"]
-    return {
-        "heat": (scalars["wall_heat"] + heat) / fuel,
-        "work": scalars["work"] / fuel,
-        "exhaust": (carried - scalars["fuel_energy"] - heat) / fuel,
-        "unburnt": 1 - released / fuel,
-    }
 
 
 def burnt_angles(cycle: SparkIgnition, omega: RadPerSecond[Array]) -> dict[str, np.ndarray]:
