@@ -13,7 +13,7 @@ from mechsym.style import significant
 if TYPE_CHECKING:
     import jinja2
 
-_KEYED = re.compile(r"[A-Za-z][\w.]*(?= ?=)")  # a key before its value
+_KEYED = re.compile(r"([A-Za-z][\w.]*) ?= ?")  # a key before its value
 _NAMED = re.compile(r"(?<![\w./\\])[A-Za-z]\w*_\w+(?![\w(/]|\.[a-z])")  # a key, no file
 _SYMBOL = 3  # letters before its index
 _GREEK = {name.lower(): lookup(f"GREEK SMALL LETTER {name}") for name in
@@ -48,7 +48,7 @@ def _environment() -> "jinja2.Environment":
     made.filters |= {
         "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "plain": pretty,
         "pretty": typeset, "pieces": pieces,
-        "words": key_words, "places": lambda text: _KEYED.sub(lambda found: key_words(found[0]), str(text)),
+        "words": key_words, "places": lambda text, said: _KEYED.sub(lambda found: f"{said(found[1])} = ", str(text)),
         "quantity": lambda value, unit, digits=5: typeset(quantity_text(value, unit, digits)),
     }  # fmt: skip
     return made
