@@ -2,7 +2,6 @@
 
 import functools
 import math
-import re
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -101,14 +100,6 @@ def _write(run: "FinishedRun", out: Path) -> list[str]:
     return [str(f) for f in files]
 
 
-_SHAFT = re.compile(r"^phi_?(f|\d+)$")
-
-
-def _part(found: re.Match[str]) -> str:
-    """What turns by an angle of a shaft with throws."""
-    return "flywheel" if found[1] == "f" else f"throw {found[1]}"
-
-
 def _text(report: Json, of: Mapping[str, str]) -> str:
     from mechsym.simulate.result import RunEvent
     from mechsym.torsion.startup import StartUpNumbers
@@ -131,7 +122,9 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
     rows = [{"over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
     for unit in dict.fromkeys(of[f"{c}d"] for c in report["speeds"]):
         rates = dict.fromkeys(("mean", "min", "max"), unit)
-        alike = [{**row, "of": _SHAFT.sub(_part, row["of"])} for row in rows if of[f"{row['of']}d"] == unit]
+        alike = [row for row in rows if of[f"{row['of']}d"] == unit]
+        if "phi_f" in report["speeds"]:  # a shaft with throws
+            alike = [row | {"of": row["of"].replace("phi_f", "flywheel").replace("phi", "throw ")} for row in alike]
         lines += ["", table(alike, ["over the last", "of", *rates], rates)]
     if sections := report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
