@@ -47,7 +47,8 @@ Ltac logarithms := unfold Rdiv; apply ln_inv; [ strictly | strictly | ];
   repeat first [ rewrite ln_mult by strictly | rewrite ln_Rinv by strictly | rewrite ln_of_pow by strictly
     | unfold Rpower; rewrite ln_exp | progress rewrite ?ln_1 ]; simpl INR; field; nonzero.
 Ltac circles := first
-  [ match goal with |- context [cos ?a] => solve [ generalize (sin2_cos2 a); unfold Rsqr; lra ] end
+  [ match goal with |- Rpower ?b ?e ^ ?k - ?c = 0 => solve [ apply Rminus_diag_eq; logarithms ] end
+  | match goal with |- context [cos ?a] => solve [ generalize (sin2_cos2 a); unfold Rsqr; lra ] end
   | match goal with |- context [sqrt ?u] =>
       solve [ let Q := fresh in assert (Q : 0 <= u) by assumption; generalize (sqrt_sqrt u Q); lra ] end ].
 """
@@ -81,6 +82,9 @@ class Script:
     relations: list[Expr] = field(default_factory=list)  #: What vanishes
     powers: dict[Symbol, tuple[Expr, Expr]] = field(default_factory=dict)  #: Letter of a power: base and exponent
     angles: list[tuple[Expr, CoqTerm]] = field(default_factory=list)  #: Arcsines, by what they are of
+    #: Functions that are taken as they are: which one, of what, and its letter
+    unopened: list[tuple[str, Expr, CoqTerm]] = field(default_factory=list)
+    divisors: dict[Expr, None] = field(default_factory=dict)  #: Factored, of several factors
     hypotheses: dict[str, None] = field(default_factory=dict)
     definitions: dict[str, str] = field(default_factory=dict)  #: Names of the tape and of the author, in their order
 

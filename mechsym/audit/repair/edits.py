@@ -8,13 +8,6 @@ from math import gcd
 from mechsym.audit.read.tree import Node, Path, binary, children, is_operation, number, replace, value_of, walk
 from mechsym.quantities import record
 
-# the simplest slip first; kinds of one rank compete by length
-RANKS = {
-    "sign": 0, "factor": 1, "argument": 1, "number": 1, "unit": 2, "letter": 3, "sine and cosine": 3, "power": 4,
-    "bracket": 5, "squares": 5, "operator": 5, "degrees": 5, "left out": 6, "put back": 6, "root": 7,
-    "inverted": 8, "everywhere": 9,
-}  # fmt: skip
-
 
 @record
 class Edit:

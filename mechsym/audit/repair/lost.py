@@ -8,7 +8,6 @@ give them all at once, and only whole or half exponents with a simple number c a
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import TypeGuard
 
 import mpmath
 import numpy as np
@@ -30,8 +29,7 @@ from mechsym.audit.read.tree import (
     value_of,
     walk,
 )
-from mechsym.audit.repair.edits import Edit, Spot, is_product, is_term, places, scaled
-from mechsym.audit.repair.required import Required, quotient
+from mechsym.audit.repair.edits import Edit, Spot, is_exponent, is_product, is_term, places, scaled
 from mechsym.audit.theory.record import dependencies
 from mechsym.quantities import record
 
@@ -54,8 +52,14 @@ class Vocabulary:
     basis: tuple[int, ...]  #: Words that are no products of powers of earlier ones
 
 
+Required = Mapping[Path, Sequence[Values]]  # what each part would have to be, the nearest to the print first
 Words = list[tuple[Node, Fraction]]  # with their exponents
 Product = tuple[Fraction, Words]
+
+
+def quotient(asked: Bench, above: Values, below: Values) -> Values:
+    """Quotient of values state by state, nan where it has none."""
+    return asked.algebra.operations[ast.Div](above, below)
 
 
 def candidate_words(question: Question, tree: Node) -> list[Node]:
@@ -227,41 +231,56 @@ def _power(word: Node, exponent: Fraction) -> Node:
 
 
 def insertions(
-    asked: Bench, tree: Node, wishes: Required, memo: Mapping[Node, Values], words: Vocabulary
+    asked: Bench,
+    tree: Node,
+    wishes: Required,
+    memo: Mapping[Node, Values],
+    words: Vocabulary,
+    solve: np.ndarray | None = None,
 ) -> Iterator[Edit]:
-    """Terms and factors, made of words, with which a part of the formula is what it is required to be."""
+    """Terms and factors, made of words, with which a part of the formula is what it is required to be.
+
+    solve: shape (words + 1, states), exponents of words from logarithms; with it all parts are looked at together, and
+    only what a few words of the basis make is believed.
+    """
     # what is put back must not be more than what stands there, or any formula could be mended
     most = sum(not children(p.node) for p in places(tree))
     nodes = {p.path: p.node for p in places(tree)}
+    gaps: list[tuple[Spot, bool, Values]] = []
     for place in places(tree):
         # a number that is a term of its own may have lost a letter
         bare = place.parent is not None and is_operation(place.parent, ast.Add, ast.Sub)
-        if place.path not in wishes or value_of(place.node) is not None and not bare:
+        if value_of(place.node) is not None and not bare or solve is not None and is_exponent(place):
             continue
         old = memo[place.node]
-        for wish in wishes[place.path]:
+        for wish in wishes.get(place.path, ()):
             if is_product(place):
-                yield from lost_factor(nodes, place, product(asked, words, quotient(asked, wish, old)), most)
+                gaps.append((place, True, quotient(asked, wish, old)))
             if is_term(place):
-                yield from lost_term(place, product(asked, words, wish - old), most)
+                gaps.append((place, False, wish - old))
+    for place, factor, gap in gaps if solve is None else _screened(asked, gaps, solve, min(4, most)):
+        lost = product(asked, words, gap)
+        if lost is None or not lost[1] or sum(not children(n) for w, _ in lost[1] for _, n in walk(w)) > most:
+            continue
+        if not factor:
+            yield Edit(kind="put back", path=place.path, new=_plus(place.node, *lost))
+        elif not _cancels(nodes, place.path, lost[1]):
+            yield Edit(kind="put back", path=place.path, new=_times(place.node, *lost))
 
 
-def lost_factor(nodes: Mapping[Path, Node], place: Spot, lost: Product | None, most: int) -> Iterator[Edit]:
-    """A factor put back, where it is one."""
-    if _is_little(lost, most) and not _cancels(nodes, place.path, lost[1]):
-        yield Edit(kind="put back", path=place.path, new=_times(place.node, *lost))
-
-
-def lost_term(place: Spot, lost: Product | None, most: int) -> Iterator[Edit]:
-    """A term put back, where it is one."""
-    if _is_little(lost, most):
-        yield Edit(kind="put back", path=place.path, new=_plus(place.node, *lost))
-
-
-def _is_little(lost: Product | None, most: int) -> TypeGuard[Product]:
-    if lost is None or not lost[1]:
-        return False
-    return sum(not children(node) for word, _ in lost[1] for _, node in walk(word)) <= most
+def _screened(
+    asked: Bench, gaps: list[tuple[Spot, bool, Values]], solve: np.ndarray, most: int
+) -> list[tuple[Spot, bool, Values]]:
+    if not gaps or len(solve) < 2:
+        return []
+    missing = np.array([np.broadcast_to(gap, np.shape(asked.expected)) for *_, gap in gaps])
+    logs = np.log(np.abs(missing))
+    good = np.all(np.isfinite(logs), axis=1)
+    halves = 2 * (np.where(good[:, None], logs, 0.0) @ solve.T)[:, 1:]
+    whole = np.round(halves)
+    used = np.count_nonzero(whole, axis=1)
+    few = good & (np.abs(halves - whole).max(axis=1) < 1e-4) & (used >= 1) & (used <= most)
+    return [gaps[i] for i in np.flatnonzero(few)]
 
 
 def _cancels(nodes: Mapping[Path, Node], path: Path, used: Words) -> bool:
