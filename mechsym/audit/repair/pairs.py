@@ -17,8 +17,8 @@ from mechsym.audit.read.tree import Node, Path, at, letters, replace, walk
 from mechsym.audit.repair.edits import Edit, apply, tidy
 from mechsym.audit.repair.examination import Examination, Repair, search_bench, simplicity, slips, standing
 from mechsym.audit.repair.lost import Vocabulary, candidate_words, insertions, vocabulary
-from mechsym.audit.repair.required import numbers, required
-from mechsym.audit.repair.rules import SYMBOL, Words, description, forms, rewritten, symbols
+from mechsym.audit.repair.required import numbers, required, words_of
+from mechsym.audit.repair.rules import Words, description, forms, length, rewritten
 from mechsym.quantities import record
 
 MAX_PARTS = 90
@@ -37,6 +37,7 @@ class _Known:
     listed: list[Edit]
     values: np.ndarray  #: shape (edits, states): What stands at the place of each edit [-]
     words: Vocabulary
+    angles: Words  #: Of all that rules may bring in
     solve: np.ndarray  #: shape (words + 1, states): Exponents of words from logarithms [-]
 
 
@@ -62,7 +63,7 @@ def paired_repair(exam: Examination, start: Repair) -> tuple[Repair | None, str]
         once = apply(start.tree, first)
         tree = apply(once, second)
         told = description(start.tree, first) + description(once, second) + 2 * np.log2(count)
-        if told > LONGEST * SYMBOL * symbols(tree).total():
+        if told > LONGEST * length(tree):
             continue
         if is_exact(exam.judged, tree):
             return standing(exam, tidy(tree, start.tree), (*start.edits, first, second)), ""
@@ -84,7 +85,14 @@ def _prepare(exam: Examination, tree: Node) -> _Known:
         known = names(asked, {n for e in listed for n in letters(e.new)})
         values = [shaped(asked, evaluate(e.new, known, asked.algebra, asked.memo)) for e in listed]
     known_values = np.array(values, dtype=float).reshape(len(listed), len(asked.expected))
-    return _Known(asked=asked, listed=listed, values=known_values, words=words, solve=np.linalg.pinv(matrix))
+    return _Known(
+        asked=asked,
+        listed=listed,
+        values=known_values,
+        words=words,
+        angles=Words(turned=words_of(exam.question).turned),
+        solve=np.linalg.pinv(matrix),
+    )
 
 
 def _plain_letter(exam: Examination, tree: Node, edit: Edit) -> bool:
@@ -138,7 +146,7 @@ def _meets(values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 def _near(known: _Known, first: Edit, tree: Node, wishes: Wishes) -> Iterator[Edit]:
     # on the way to the first edit, and in what it brought
-    asked, nothing = known.asked, Words()
+    asked = known.asked
     for form in forms(tree, wide=False):
         path = form.place.path
         if not (path[: len(first.path)] == first.path or first.path[: len(path)] == path):
@@ -146,8 +154,8 @@ def _near(known: _Known, first: Edit, tree: Node, wishes: Wishes) -> Iterator[Ed
         above = path
         while above not in wishes:
             above = above[:-1]
-        for kind, new in rewritten(form, nothing):
+        for kind, new in rewritten(form, known.angles):
             whole = replace(at(tree, above), path[len(above) :], new)
-            values = shaped(asked, evaluate(whole, names(asked, ()), asked.algebra, asked.memo))
+            values = shaped(asked, evaluate(whole, names(asked, letters(whole)), asked.algebra, asked.memo))
             if _meets(np.asarray(values, dtype=float), np.asarray(wishes[above], dtype=float)):
                 yield Edit(kind=kind, path=path, new=new)

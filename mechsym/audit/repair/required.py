@@ -30,11 +30,13 @@ from mechsym.audit.read.tree import (
     number,
     replace,
     value_of,
+    walk,
 )
 from mechsym.audit.repair.edits import Edit, Spot, is_exponent, is_product, places, scaled
 from mechsym.audit.repair.lost import (
     Required,
     candidate_words,
+    far_words,
     insertions,
     is_unit,
     quotient,
@@ -43,7 +45,7 @@ from mechsym.audit.repair.lost import (
     vocabulary,
 )
 from mechsym.audit.repair.rules import CIRCULAR, Words
-from mechsym.audit.theory.record import dependencies, known
+from mechsym.audit.theory.record import dependencies, known, related
 from mechsym.quantities import record
 
 _INVERSE = {
@@ -172,6 +174,10 @@ def _alike(question: Question, letter: str) -> list[str]:
             derived.append(k)
     free = [k for k in theory.letters if k in needed]
     alike = [k for k in [*question.formula.letters, *free, *derived] if kind_of_letter(question, k) == kind]
+    # of other results the one that is defined most shortly: F for F - m x''
+    entries = {k: theory.tape[k] for k in related(theory, question.quantity) if k not in needed}
+    sizes = {k: len([*walk(e)]) for k, e in entries.items() if isinstance(e, ast.expr)}
+    alike += sorted((k for k in sizes if kind_of_letter(question, k) == kind), key=lambda k: (sizes[k], k))[:1]
     alike.sort(key=lambda k: re.sub(r"\d+$", "", k) != stem)
     # m_fuel for mdot_fuel: another dimension, and still taken for each other
     same = [k for k in names if "_" in letter and k[0] == letter[0] and k.partition("_")[2] == letter.partition("_")[2]]
@@ -186,7 +192,7 @@ def matching_edits(question: Question, asked: Bench, tree: Node, listed: Sequenc
     edits = list(listed)
     with np.errstate(all="ignore"), mpmath.workdps(asked.digits or 15):
         if insert:
-            words = vocabulary(asked, candidate_words(question, tree))
+            words = vocabulary(asked, candidate_words(question, tree), far_words(question))
             edits += insertions(asked, tree, wishes, memo, words)
         else:
             edits += numbers(asked, tree, wishes, memo)

@@ -33,6 +33,7 @@ from mechsym.audit.read.tree import (
 from mechsym.audit.repair.edits import (
     Edit,
     Spot,
+    chained,
     is_exponent,
     is_product,
     is_term,
@@ -84,7 +85,8 @@ root            | wide factors   | a*b -> sqrt(a*b)
 power           | wide factors   | a*b -> (a*b)**2
 inverted        | wide factors   | a*b -> 1/(a*b)
 put back        | wide plain     | a -> 1 - a
-argument        | wide angle     | a -> a + turned , a - turned , a*known , a/known
+put back        | angle          | a -> a + turned , a - turned
+argument        | wide angle     | a -> a*known , a/known
 """
 # what a slip of a kind costs to tell, of the table's and of other kinds; a symbol that it brings costs more [bits]
 BITS = {
@@ -92,7 +94,7 @@ BITS = {
     "bracket": 5, "squares": 5, "operator": 5, "degrees": 5, "left out": 6, "put back": 6, "root": 7,
     "inverted": 8, "everywhere": 9,
 }  # fmt: skip
-SYMBOL = 4.0  # what a letter, number or function costs [bits]
+SYMBOL, OPERATION = 4.0, 2.0  # what a letter, number or function costs, and an operation [bits]
 _LONGEST = 7  # sum or product of which every run is tried
 CIRCULAR = ("sin", "cos", "tan")
 _EXACT = {ast.MatMult: ast.Mult, ast.FloorDiv: ast.Div, ast.Pow: ast.Pow}
@@ -100,6 +102,11 @@ _OTHER = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mu
 _FAMILY = {ast.Add: "+", ast.Sub: "+", ast.Mult: "*", ast.Div: "*"}
 _WORDS = ("alike", "pure", "turned", "known")
 _HOW = {"wide", "alike", "all"}
+
+
+def length(tree: Node) -> float:
+    """Length of the description of a formula, if nothing is known of it [bits]."""
+    return SYMBOL * symbols(tree).total() + OPERATION * sum(isinstance(n, ast.BinOp) for _, n in walk(tree))
 
 
 def symbols(tree: Node) -> Counter[str]:
@@ -188,13 +195,9 @@ def _matches(rule: Node, node: Node, bound: Bound) -> bool:
 
 def _meant(rule: Node, bound: Bound) -> Node:
     if isinstance(rule, ast.Name):
-        part = bound.get(rule.id, rule)
-        assert isinstance(part, ast.expr)
-        return part
+        return bound.get(rule.id, rule)  # type: ignore[return-value]
     if isinstance(rule, ast.Call):
-        function = _meant(rule.func, bound)
-        assert isinstance(function, ast.Name)
-        return call(function.id, _meant(rule.args[0], bound))
+        return call(to_python(_meant(rule.func, bound)), _meant(rule.args[0], bound))
     if isinstance(rule, ast.UnaryOp):
         return negative(_meant(rule.operand, bound))
     if not isinstance(rule, ast.BinOp):
@@ -253,7 +256,7 @@ def forms(tree: Node, wide: bool) -> Iterator[Form]:
             if not is_operation(place.node, *family) or not top:
                 continue
             parts = _parts(place.node, family)
-            if len(parts) <= (_LONGEST if wide else 99):
+            if not wide or len(parts) <= _LONGEST:
                 yield from _regrouped(place, parts, family, wide)
 
 
@@ -350,8 +353,8 @@ def repeated_edits(tree: Node, words: Words, wide: bool = False) -> list[Edit]:
             for k in range(len(rule.meant)):
                 instead = {n: new[k] for n, new in news.items() if len(new) > k}
                 if len(instead) > 1:
-                    old, changed = next(iter(instead.items()))
-                    shown = f"{to_python(old)} becomes {to_python(changed)}, in {len(instead)} places alike"
+                    old, changed = map(to_python, next(iter(instead.items())))
+                    shown = f"{old} becomes {changed}, in {len(instead)} places alike"
                     edits.append(_everywhere(tree, instead, shown))
     return edits
 
@@ -383,18 +386,6 @@ def _joined(parts: Run, family: tuple[type[ast.operator], ...]) -> Node:
     # what is added or multiplied first, then the rest; a product has one fraction bar
     first, rest = ([part for sign, part in parts if sign == plus] for plus in (True, False))
     if family is _PRODUCT:
-        above = _chained(first, ast.Mult)
-        return binary(ast.Div, above, _chained(rest, ast.Mult)) if rest else above
-    if not first:
-        return negative(_chained(rest, ast.Add))
-    tree = _chained(first, ast.Add)
-    for part in rest:
-        tree = binary(ast.Sub, tree, part)
-    return tree
-
-
-def _chained(parts: Sequence[Node], operator: type[ast.operator]) -> Node:
-    tree = parts[0] if parts else number(1)
-    for part in parts[1:]:
-        tree = binary(operator, tree, part)
-    return tree
+        above = chained(ast.Mult, first) if first else number(1)
+        return binary(ast.Div, above, chained(ast.Mult, rest)) if rest else above
+    return chained(ast.Sub, [chained(ast.Add, first), *rest]) if first else negative(chained(ast.Add, rest))

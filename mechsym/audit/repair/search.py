@@ -87,7 +87,7 @@ def search(exam: Examination, start: Repair) -> Found:
     lost = exact_repair(exam, start, insert=True)
     if lost is not None:
         added = is_operation(lost.edits[-1].new, ast.Add, ast.Sub)
-        if not mixed or added or _is_slip(exam, start.tree, lost.edits):
+        if not mixed or added or _of_number(start.tree) or _is_slip(exam, start.tree, lost.edits):
             return Found(repairs=(lost,))
     if mixed or mended:
         return Found(repairs=() if mixed else tuple(mended), mixed=mixed, note=mixed)
