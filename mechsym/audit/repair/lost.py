@@ -262,9 +262,12 @@ def insertions(
             continue
         old = memo[place.node]
         for wish in wishes.get(place.path, ()):
+            factor = quotient(asked, wish, old)
             if is_product(place):
-                gaps.append((place, True, quotient(asked, wish, old)))
-            if is_term(place):
+                gaps.append((place, True, factor))
+            # a multiple of what stands there is no term of its own
+            shares = np.asarray(factor, dtype=float)
+            if is_term(place) and not np.ptp(shares) <= _CLOSE * np.abs(np.median(shares)):
                 gaps.append((place, False, wish - old))
     for place, factor, gap in gaps if solve is None else _screened(asked, gaps, solve, min(4, most)):
         lost = product(asked, words, gap)

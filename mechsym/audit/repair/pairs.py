@@ -47,7 +47,7 @@ def paired_repair(exam: Examination, start: Repair) -> tuple[Repair | None, str]
     if count > MAX_PARTS:
         return None, ""
     known = _prepare(exam, start.tree)
-    pairs: list[tuple[tuple[int, int], Edit, Edit]] = []
+    pairs: list[tuple[tuple[float, int], Edit, Edit]] = []
     firsts = known.listed[:MAX_FIRST]
     most = MAX_WORK // count
     note = f"of two slips at once only the first {most} of {len(firsts)} were tried" if len(firsts) > most else ""

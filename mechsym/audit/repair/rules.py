@@ -14,6 +14,7 @@ from itertools import combinations
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import (
     Node,
+    Path,
     argument_of,
     at,
     binary,
@@ -85,16 +86,16 @@ root            | wide factors   | a*b -> sqrt(a*b)
 power           | wide factors   | a*b -> (a*b)**2
 inverted        | wide factors   | a*b -> 1/(a*b)
 put back        | wide plain     | a -> 1 - a
-put back        | angle          | a -> a + turned , a - turned
+angle           | angle          | a -> a + turned , a - turned
 argument        | wide angle     | a -> a*known , a/known
 """
 # what a slip of a kind costs to tell, of the table's and of other kinds; a symbol that it brings costs more [bits]
 BITS = {
     "sign": 0, "factor": 1, "argument": 1, "number": 1, "unit": 2, "letter": 3, "sine and cosine": 3, "power": 4,
     "bracket": 5, "squares": 5, "operator": 5, "degrees": 5, "left out": 6, "put back": 6, "root": 7,
-    "inverted": 8, "everywhere": 9,
+    "inverted": 8, "angle": 8, "everywhere": 9,
 }  # fmt: skip
-SYMBOL, OPERATION = 4.0, 2.0  # what a letter, number or function costs, and an operation [bits]
+SYMBOL, OPERATION, DIGIT = 4.0, 2.0, 3.3  # what a letter or a function costs, an operation, a digit [bits]
 _LONGEST = 7  # sum or product of which every run is tried
 CIRCULAR = ("sin", "cos", "tan")
 _EXACT = {ast.MatMult: ast.Mult, ast.FloorDiv: ast.Div, ast.Pow: ast.Pow}
@@ -106,7 +107,7 @@ _HOW = {"wide", "alike", "all"}
 
 def length(tree: Node) -> float:
     """Length of the description of a formula, if nothing is known of it [bits]."""
-    return SYMBOL * symbols(tree).total() + OPERATION * sum(isinstance(n, ast.BinOp) for _, n in walk(tree))
+    return _told(symbols(tree)) + OPERATION * sum(isinstance(n, ast.BinOp) for _, n in walk(tree))
 
 
 def symbols(tree: Node) -> Counter[str]:
@@ -115,9 +116,15 @@ def symbols(tree: Node) -> Counter[str]:
 
 
 def description(tree: Node, edit: Edit) -> float:
-    """Length of the description of a slip: its kind and the symbols that its mending brings [bits]."""
-    brought = symbols(edit.new) - symbols(at(tree, edit.path))
-    return BITS[edit.kind] + SYMBOL * (len(brought) if edit.about else brought.total())
+    """Length of the description of a slip: its kind, and the symbols that it lost or that it brought [bits]."""
+    new, old = symbols(edit.new), symbols(at(tree, edit.path))
+    brought, lost = (Counter(dict.fromkeys(d, 1)) if edit.about else d for d in (new - old, old - new))
+    return BITS[edit.kind] + max(_told(brought), _told(lost))
+
+
+def _told(words: Counter[str]) -> float:
+    # a long number has more to tell than a letter
+    return sum(count * max(SYMBOL, DIGIT * sum(map(str.isdigit, k)) * k[0].isdigit()) for k, count in words.items())
 
 
 @record
@@ -324,7 +331,7 @@ def _applied(rule: Rule, node: Node, words: Words) -> Iterator[Node]:
 
 def listed_edits(tree: Node, words: Words, wide: bool = False) -> list[Edit]:
     """Slips of one place, or the wider ones, of several parts at once; some give the same function."""
-    edits = {}
+    edits: dict[tuple[Path, bytes], Edit] = {}
     for form in forms(tree, wide):
         for kind, new in rewritten(form, words, wide):
             edits.setdefault((form.place.path, digest(new)), Edit(kind=kind, path=form.place.path, new=new))
@@ -370,7 +377,7 @@ def exchanged_edits(tree: Node, kind: Callable[[str], object]) -> Iterator[Edit]
     for one, other in combinations(kinds, 2):
         if kinds[one] is not None and kinds[one] == kinds[other]:
             both = {one: name(other), other: name(one)}
-            new = substitute(tree, lambda n, both=both: both.get(n.id) if isinstance(n, ast.Name) else None)
+            new = substitute(tree, lambda n, both=both: both.get(to_python(n)))  # type: ignore[misc]
             yield Edit(kind="everywhere", path=(), new=new, about=f"{one} and {other} are taken for each other")
 
 

@@ -25,7 +25,7 @@ _NOISE = 1e-12
 LARGEST_ERROR = 5.0
 _MOST = 2.0  # a truncation is off by little more than the first term that it leaves out
 _NOTHING = 1e-12  # of a term, by which another one beside it is none
-_PLAIN = {"root", "sign", "factor", "argument", "number", "unit", "letter", "sine and cosine", "power", "degrees"}
+_PLAIN = {*"root sign factor argument number unit letter power degrees angle".split(), "sine and cosine"}
 
 
 @record
