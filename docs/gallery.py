@@ -12,6 +12,7 @@ import runpy
 from pathlib import Path
 
 import mechsym
+from mechsym import cases
 from mechsym.style import svg
 
 SCRIPTS = Path(__file__).parent / "gallery"
@@ -22,7 +23,7 @@ def make(folder: Path) -> None:
     """Write the pages of all scripts and the page that shows them."""
     folder.mkdir(parents=True, exist_ok=True)
     package = digest_of_package()
-    cards = []
+    cards = [_card(f"../cases/{file.stem}.html", file.stem) for file in sorted((folder.parent / "cases").glob("*.svg"))]
     for script in sorted(SCRIPTS.glob("*.py")):
         text = script.read_text(encoding="utf-8")
         title = told(text)[0]
@@ -31,13 +32,19 @@ def make(folder: Path) -> None:
         if not kept.exists() or kept.read_text() != key:
             _page(script, folder)
             kept.write_text(key)
-        # where Sphinx puts the picture of the script's own page
-        image = f'<img src="../../_images/{script.stem}.svg" alt="{title}">'
-        cards.append(f'<a class="card" href="{script.stem}.html">{image}<b>{title}</b></a>')
+        cards.append(_card(f"{script.stem}.html", script.stem, title))
     hidden = "```{toctree}\n:hidden:\n" + "\n".join(sorted(p.stem for p in SCRIPTS.glob("*.py"))) + "\n```\n"
     links = "\n".join(cards)
-    _write(folder / "index.md", f"# Gallery\n\nEach picture is drawn by the script beside it.\n\n{hidden}\n"
+    about = "Each picture opens the case that made it: its numbers, its command, its script."
+    _write(folder / "index.md", f"# Gallery\n\n{about}\n\n{hidden}\n"
            f"```{{raw}} html\n<style>{_STYLE}</style><div class='gallery'>\n{links}\n</div>\n```\n")  # fmt: skip
+
+
+def _card(link: str, stem: str, title: str = "") -> str:
+    """A picture that opens its page; Sphinx puts it where it puts those of pages."""
+    words = title or stem.replace("-", " ")
+    image = f'<img src="../../_images/{stem}.svg" alt="{words}" loading="lazy">'
+    return f'<a class="card" href="{link}">{image}<b>{words}</b></a>'
 
 
 _STYLE = (
@@ -71,7 +78,12 @@ def run(script: Path) -> tuple[str, str]:
 def notebook(text: str) -> str:
     """A script as a notebook that has not been run."""
     title, about, command = told(text)
-    cells = [("markdown", f"# {title}\n\n{about}\n\nFrom the shell: `{command}`"), ("code", code(text) + "\nfigure")]
+    head = f"# {title}\n\n{about}\n\nFrom the shell: `{command}`"
+    return as_notebook([("markdown", head), ("code", code(text) + "\nfigure")])
+
+
+def as_notebook(cells: list[tuple[str, str]]) -> str:
+    """Cells as a notebook, each `markdown` or `code`."""
     made = [
         {"cell_type": kind, "id": f"cell-{k}", "metadata": {}, "source": source.splitlines(keepends=True)}
         | ({"execution_count": None, "outputs": []} if kind == "code" else {})
@@ -87,10 +99,12 @@ def _page(script: Path, folder: Path) -> None:
     _write(folder / f"{script.stem}.svg", figure)
     _write(folder / f"{script.stem}.py", text)
     _write(folder / f"{script.stem}.ipynb", notebook(text))
+    known = [name for name in cases.names() if f'"{name}"' in text]
+    opens = f"Its case: {', '.join(f'[{name}](../cases/{name}.md)' for name in known)}.\n\n" if known else ""
     output = f"It prints:\n\n```text\n{printed.rstrip()}\n```\n\n" if printed else ""
     _write(folder / f"{script.stem}.md",
            f"# {title}\n\n{about}\n\n![{title}]({script.stem}.svg)\n\n```python\n{code(text)}```\n\n{output}"
-           f"From the shell: `{command}`\n\n"
+           f"{opens}From the shell: `{command}`\n\n"
            f"{{download}}`script <{script.stem}.py>`, {{download}}`notebook <{script.stem}.ipynb>`\n")  # fmt: skip
 
 

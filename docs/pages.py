@@ -1,157 +1,143 @@
-"""Pages of the docs site that follow from the program: commands with real output, keys of cases, mechanisms, rooms."""
+"""Pages of the docs site that follow from the program: commands with real output, keys of cases, mechanisms, words."""
 
-import hashlib
-import importlib
-import inspect
 import json
-import os
 import re
-import tempfile
+import shlex
 from importlib import resources
 from pathlib import Path
 
-import gallery
+import equations
 import pictures
-from click.testing import CliRunner
 
 from mechsym import cases, mechanisms
 from mechsym.app.told import KNOWN
+from mechsym.audit.read.mathml import STYLE as FORMULAS
+from mechsym.audit.theory import catalogue
 from mechsym.cases.keys import keys
-from mechsym.cli import COMMANDS, mechsym
+from mechsym.cli import COMMANDS, GROUPS
+from mechsym.cli import mechsym as cli
 from mechsym.cli.results import RESULTS, rows
 from mechsym.jobs.export import drawing
+from mechsym.quantities import load
 from mechsym.quantities.display import key_words, without_unit
 
-# one example a command whose output is shown; each runs in some seconds
+PRINTED = Path(__file__).parent / "printed"  # what examples print, held against the program by tests/test_docs_runs.py
+# an example of each command: the name of a kept answer in tests/recorded, or a line whose answer docs/printed keeps
 EXAMPLES = {
-    "app": "app zotov-89 --check",
-    "audit": 'audit --formula "r*(1-cos(phi))+r**2/(4*l)*(1-cos(2*phi))" --against crosshead.x',
-    "cases": "cases",
-    "check": "check zotov-89",
-    "codesign": "codesign zotov-89 --ripple 5%",
-    "compare": "compare nunes-slider-crank nunes-hypocycloid --speeds 2000,6000",
-    "cycle": "cycle nunes-slider-crank --speeds 2000:8000:2000",
-    "derive": "derive --check crosshead",
-    "eval": "eval crosshead --case zotov-89 --set phi=1",
-    "flywheel": "flywheel zotov-89 --ripple 2%",
-    "fmu": "fmu zotov-89 --out engine.fmu",
-    "balance": "balance zotov-89 --shafts 1,2",
-    "forces": "forces moroianu",
-    "guide": "guide zotov-89 --dxf guide.dxf",
-    "hinge": "hinge zotov-89",
-    "identify": "identify chmielewski --trace run/series.csv --free I2,k1",
-    "mechanisms": "mechanisms",
-    "native": "native --info",
-    "new": 'new engine mine --kind inline --bore "86 mm" --stroke "86 mm" --cylinders 6',
-    "optimise": "optimise nunes-hypocycloid",
-    "page": "page zotov-89 --out engine.html",
-    "export": "export zotov-89 --to c --out engine",
-    "prove": "prove crosshead --samples 1000",
-    "reproduce": "reproduce moroianu2017",
-    "report": "report nunes-slider-crank --parts cycle,forces",
-    "sections": "sections spring",
-    "study": "study nunes2017-chapter-6 --only compression",
-    "sweep": 'sweep zotov-89 --of hinge --over "spring.p0=4..6 MPa:3"',
-    "simulate": "simulate alpha-stirling --set simulation.turns=3",
-    "size": "size nunes-hypocycloid",
-}
-# what has to have run before, in the same folder
+    "app": "app zotov-89 --check", "audit": "none/audit-formula", "balance": "zotov-89/balance",
+    "cases": "none/cases", "check": "zotov-89/check", "cite": "cite nunes-hypocycloid",
+    "codesign": "codesign zotov-89 --ripple 5%", "compare": "nunes-slider-crank/compare-two",
+    "cycle": "nunes-hypocycloid/cycle-speeds", "derive": "derive --check crosshead", "eval": "none/eval-state",
+    "export": "zotov-89/export", "flywheel": "zotov-89/flywheel",
+    "fmu": "fmu zotov-89 --platforms none --out engine.fmu",
+    "forces": "moroianu/forces", "guide": "zotov-89/guide", "hinge": "zotov-89/hinge",
+    "identify": "identify chmielewski --trace run/series.csv --free I2,k1", "mechanisms": "none/mechanisms",
+    "native": "native --info", "new": 'new engine mine --kind inline --bore "86 mm" --stroke "86 mm" --cylinders 6',
+    "optimise": "optimise nunes-hypocycloid", "page": "page zotov-89 --out engine.html", "prove": "none/prove",
+    "report": "report nunes-slider-crank --parts cycle,forces", "reproduce": "none/reproduce-moroianu",
+    "sections": "sections spring", "simulate": "alpha-stirling/simulate", "size": "nunes-hypocycloid/size",
+    "study": "study nunes2017-chapter-6 --only compression", "sweep": "nunes-hypocycloid/sweep-size",
+}  # fmt: skip
+#: What has to run before, in the same folder
 BEFORE = {
     "identify": 'simulate chmielewski --set "simulation.t_end=3 s" --set "simulation.window=1 s" --out run',
 }
+MACHINE = ("native",)  # what it prints is said of the machine at hand: its page is not kept
 # a built-in case that shows a mechanism with its sizes
 SHOWN = {
     "crosshead": "zotov-89", "crank_throw": "opposed-pistons", "hypocycloid": "nunes-hypocycloid",
     "rodless": "balandin", "crankshaft_flywheel": "chmielewski",
 }  # fmt: skip
 EXAMPLE_FILES = Path(__file__).parents[1] / "examples" / "mechanisms"
-ROOMS = (
-    "quantities periodic style page plausible convert native mechanisms cycle sizing machine simulate hinge "
-    "torsion forces optimise proof codesign cases jobs sweep audit papers out"
-).split()
-_COMMANDS = re.compile(r"```sh\n(?P<lines>(?:mechsym [^\n]+\n)+)```")
-_SHOWN = 16  # lines of what a command prints
+_SHOWN = 24  # lines of what a command prints
 _MEANINGS = 4  # of one word, in different results
-_UNIT = re.compile(r"typing\.Annotated\[([^\[\],]+), '([^']+)'\]")  # of a number in a signature
 
 
 def make(folder: Path) -> None:
-    """Write all of them; what a command printed is kept until the program changes."""
-    folder.mkdir(exist_ok=True)
-    pages = {
-        "commands": commands(folder / "printed"),
-        "sections": sections(),
-        "mechanisms": equations(),
-        "rooms": rooms(),
-        "glossary": glossary(),
-    }
+    """Write all of them."""
+    (folder / "commands").mkdir(parents=True, exist_ok=True)
+    (folder / "cases").mkdir(exist_ok=True)
+    pages = {"sections": sections(), "mechanisms": derived(), "glossary": glossary(), "theories": theories()}
+    pages |= {f"commands/{name}": command(name) for name in COMMANDS} | {"commands/index": commands()}
+    pages |= {f"cases/{Path(name).stem}": case_page(name, folder / "cases") for name in every_case()}
+    pages |= {"cases/index": case_index()}
     for name, text in pages.items():
-        path = folder / f"{name}.md"
-        if not path.exists() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
+        write(folder / f"{name}.md", text)
 
 
-def commands(kept: Path) -> str:
-    """Each command with its help, and what an example prints."""
-    kept.mkdir(exist_ok=True)
-    package = gallery.digest_of_package()
-    parts = ["# Commands\n\nThe output stands as the program printed it when this page was made.\n"]
-    for name in COMMANDS:
-        parts.append(f"## {name}\n\n{_block(_printed(kept, package, f'{name} --help'))}\n")
-        if name in EXAMPLES:
-            lines = [line for line in (BEFORE.get(name), EXAMPLES[name]) if line]
-            shown = "\n".join(f"$ mechsym {line}" for line in lines)
-            parts.append(_block(f"{shown}\n{_printed(kept, package, *lines)}"))
-    return "\n".join(parts) + "\n"
+def write(path: Path, text: str) -> None:
+    """Write a page that has changed; what has not is left alone, so that Sphinx does."""
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
 
 
-def _printed(kept: Path, package: str, *lines: str) -> str:
-    """What the last of some commands prints, from the last time where neither it nor the program has changed."""
-    file = kept / f"{hashlib.sha256(repr(lines).encode()).hexdigest()[:16]}.txt"
-    if file.exists() and file.read_text(encoding="utf-8").startswith(f"{package}\n"):
-        return file.read_text(encoding="utf-8").partition("\n")[2]
-    text = _run(*lines)
-    file.write_text(f"{package}\n{text}", encoding="utf-8")
-    return text
-
-
-def _run(*lines: str) -> str:
-    import shlex
-
-    here = os.getcwd()
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        try:
-            for line in lines:
-                done = CliRunner().invoke(mechsym, shlex.split(line), prog_name="mechsym", catch_exceptions=False)
-                if done.exit_code not in (0, 1):
-                    raise RuntimeError(f"mechsym {line} ended with {done.exit_code}: {done.output}")
-        finally:
-            os.chdir(here)
-    return str(done.output).rstrip().replace(str(Path.home()), "~")
-
-
-def _block(text: str) -> str:
+def block(text: str) -> str:
     return f"````text\n{text}\n````\n"
 
 
-def with_results(text: str, kept: Path) -> str:
-    """A page with what each of its commands prints below it; the first one makes what the others read."""
-    kept.mkdir(exist_ok=True, parents=True)
-    package, first = gallery.digest_of_package(), ""
+def commands() -> str:
+    """All commands by what they are for."""
+    parts = ["# Commands\n\nEach has its help, an example with what it printed, and the fields of its `--json`.\n"]
+    for title, names in GROUPS.items():
+        parts.append(f"## {title}\n\n| command | does |\n|---|---|")
+        parts += [f"| [{name}]({name}.md) | {load(place).get_short_help_str(120)} |" for name, place in names.items()]
+        parts.append("")
+    tree = "\n".join(COMMANDS)
+    return "\n".join([*parts, f"```{{toctree}}\n:hidden:\n\n{tree}\n```"]) + "\n"
 
-    def shown(found: re.Match[str]) -> str:
-        nonlocal first
-        parts = [found[0]]
-        for line in found["lines"].splitlines():
-            command = line.removeprefix("mechsym ")
-            printed = _printed(kept, package, *dict.fromkeys(c for c in (first, command) if c)).splitlines()
-            first = first or command
-            short = printed[:_SHOWN] + ["..."] * (len(printed) > _SHOWN)
-            parts.append(_block("\n".join((f"$ {line}", *short))))
-        return "\n\n".join(parts)
 
-    return _COMMANDS.sub(shown, text)
+def command(name: str) -> str:
+    """Help of a command, what an example prints, and every number of its JSON."""
+    import click
+
+    shown = cli.get_command(click.Context(cli), name)  # with the options that all commands have
+    context = click.Context(shown, info_name=f"mechsym {name}", max_content_width=100)
+    parts = [f"# mechsym {name}\n\n{block(shown.get_help(context))}", example(name)]
+    if name in RESULTS:
+        schema = f"`mechsym sections --results --schema {name}` prints them as JSON Schema"
+        parts.append(f"## JSON\n\nFields of `--json`, a `*` for names, `[]` for places of a list; {schema}.\n")
+        parts.append(
+            table(("path", "unit", "meaning"), ((f"`{r['path']}`", r["unit"], r["about"]) for r in rows(name)))
+        )
+    return "\n".join(parts)
+
+
+def example(name: str) -> str:
+    """What an example of a command printed."""
+    kept = EXAMPLES[name]
+    if name in MACHINE:
+        words = "It names the compiler, its options and the cache of the machine."
+        return f"## Example\n\n{block(f'$ mechsym {kept}')}{words}"
+    if shlex.split(kept)[0] == name:
+        before = [f"$ mechsym {BEFORE[name]}"] if name in BEFORE else []
+        text = "\n".join([*before, printed(kept)])
+    else:
+        text = equations.recorded(kept, _SHOWN)
+    return f"## Example\n\n{block(text)}"
+
+
+def printed(line: str) -> str:
+    """What docs/printed keeps of a command, below its line."""
+    return f"$ mechsym {line}\n" + (PRINTED / f"{slug(line)}.txt").read_text(encoding="utf-8").rstrip()
+
+
+def slug(line: str) -> str:
+    """The name of a file for what a command prints."""
+    return re.sub(r"[^a-z0-9]+", "-", line.lower()).strip("-")[:80]
+
+
+def table(heads: tuple[str, ...], lines) -> str:
+    """A table of Markdown; what would end a cell or set a formula is escaped."""
+    cells = (" | ".join(escaped(str(cell)) for cell in line) for line in lines)
+    return "\n".join([f"| {' | '.join(heads)} |", "|" + "---|" * len(heads), *(f"| {line} |" for line in cells)]) + "\n"
+
+
+def escaped(text: str) -> str:
+    """Words as Markdown shows them; what stands between backticks stays."""
+    return "".join(
+        piece.replace("|", "/") if k % 2 else re.sub(r"([*_\[\]<>|$])", r"\\\1", piece)
+        for k, piece in enumerate(re.split(r"(`[^`]*`)", text))
+    )
 
 
 def glossary() -> str:
@@ -170,14 +156,10 @@ def glossary() -> str:
     for word, entry in sorted({w.lower(): (w, e) for w, e in entries.items()}.values(), key=lambda one: one[0].lower()):
         units = ", ".join(f"`{unit}`" for unit in entry["unit"] if unit != "-")
         told = "; ".join(about.rstrip(".") for about in entry["about"][:_MEANINGS])
-        parts.append(f"{word}\n  {_escaped(told)}. {f'Unit {units}. ' if units else ''}"
+        parts.append(f"{word}\n  {escaped(told)}. {f'Unit {units}. ' if units else ''}"
                      f"Told by {', '.join(f'`{by}`' for by in entry['by'])}.\n")  # fmt: skip
     head = "# Glossary\n\nWhat the numbers of results mean, from the results themselves. Units are those of `--json`.\n"
     return "\n".join([head, ":::{glossary}", *parts, ":::"]) + "\n"
-
-
-def _escaped(text: str) -> str:
-    return re.sub(r"([*_\[\]<>|])", r"\\\1", text)
 
 
 def sections() -> str:
@@ -206,7 +188,7 @@ def _row(row: dict) -> str:
     return f"| `{row['key']}` | {unit} | {limits} | {usual} | {row['about'].replace('|', '/')} |"
 
 
-def equations() -> str:
+def derived() -> str:
     """The derived mechanisms: letters with units, and their equations set by the browser."""
     parts = ["# Mechanisms\n\nEquations as they were derived; `mechsym eval NAME --latex` prints them as LaTeX.\n"]
     for name in mechanisms.names():
@@ -214,54 +196,80 @@ def equations() -> str:
             continue
         stored = json.loads((resources.files("mechsym.generated") / "equations" / f"{name}.json").read_text())
         parts.append(f"## {name}\n\n{stored['about']}\n")
-        if name in SHOWN:
-            parts.append(_turning(SHOWN[name]))
+        if name in SHOWN and (Path(__file__).parent / "made" / "cases" / f"{SHOWN[name]}.svg").exists():
+            picture = f"![{name}, turning](cases/{SHOWN[name]}.svg){{.machine}}"
+            parts.append(f"{picture}\n\nTo scale: [{SHOWN[name]}](cases/{SHOWN[name]}.md).\n")
         letters = [f"`{n} [{u}]`" for kind in ("coordinates", "parameters", "inputs") for n, u in stored[kind].items()]
         parts.append(f"Letters: {', '.join(letters)}.\n")
-        rows = "".join(f"<p><math display='block'>{row['mathml']}</math></p>" for row in stored["equations"])
-        parts.append(f"```{{raw}} html\n<div style='overflow-x:auto'>{rows}</div>\n```\n")
+        parts.append(f"```{{derived}} {name}\n```\n")
     parts.append(
-        "## Of files\n\nEach is [declared in a file](../own-mechanism.md) of examples/mechanisms and drawn from it.\n"
+        "Those of files are among the [cases](cases/index.md): each is declared as [your own](../own-mechanism.md).\n"
     )
-    for case in sorted(EXAMPLE_FILES.glob("*.toml")):
-        if turning := _turning(str(case)):
-            parts.append(f"### {case.stem.replace('-', ' ')}\n\n{turning}")
     return "\n".join(parts) + "\n"
 
 
-def _turning(name: str) -> str:
-    """The machine of a case, turning to scale."""
-    case = cases.load(name)
-    shapes = drawing(case)
-    if shapes is None:
-        return ""
-    picture = pictures.moving(shapes, f"{case.mechanism}, turning".rpartition("/")[2], {})
-    return f"{case.about}, to scale:\n\n```{{raw}} html\n<div style='max-width:34rem'>{picture}</div>\n```\n"
-
-
-def rooms() -> str:
-    """What each room exports, with signature and docstring."""
-    parts = ["# Rooms\n\nThe public interface of Python is what each room's `__all__` names.\n"]
-    for room in ROOMS:
-        module = importlib.import_module(f"mechsym.{room}")
-        parts.append(f"## mechsym.{room}\n\n{_block(inspect.getdoc(module) or '')}\n")
-        for name in getattr(module, "__all__", ()):
-            found = getattr(module, name)
-            if inspect.ismodule(found):
-                continue
-            told = inspect.getdoc(found) if callable(found) else repr(found)
-            parts.append(
-                f"### {room}.{name}\n\n{_block(f'{name}{_signature(found)}{chr(10)}{chr(10)}{told or str()}')}\n"
-            )
-    return "\n".join(parts) + "\n"
-
-
-def _signature(found: object) -> str:
-    if not callable(found):
-        return ""
-    try:
-        return _UNIT.sub(
-            lambda m: f"{'float' if m[1].startswith('~') else m[1]} [{m[2]}]", str(inspect.signature(found))
+def theories() -> str:
+    """What formulas can be held against: every theory with its letters and quantities."""
+    parts = ["# Theories of the auditor\n\nWhat `mechsym audit --formula TEXT --against THEORY.QUANTITY` knows. A "
+             "theory of a mechanism has all names of its derivation; slopes (`dx_dphi`), rates (`x_d`, `x_dd`) and "
+             "harmonics (`x_mean`, `x_cos2`) come by themselves.\n\n"
+             f"```{{raw}} html\n<style>{FORMULAS}</style>\n```\n"]  # fmt: skip
+    shipped = catalogue.shipped()
+    for name in catalogue.names():
+        theory = catalogue.theory(name)
+        letters = ", ".join(f"`{letter}` [{one.unit}]" for letter, one in theory.letters.items())
+        parts.append(f"## {name}\n\n{theory.data or ''}\n\nLetters: {escaped(letters)}.\n")
+        known = [n for n in theory.results if not n.startswith("_")]
+        parts.append(
+            "Quantities: "
+            + ", ".join(f"`{n}`" for n in known[:_MOST])
+            + (" and more" if len(known) > _MOST else "")
+            + ".\n"
         )
-    except (TypeError, ValueError):
-        return "(..)"
+        if name in shipped:
+            parts.append(f"```{{theory}} {name}\n```\n")
+    return "\n".join(parts) + "\n"
+
+
+_MOST = 60  # quantities of a theory that are listed
+
+
+def every_case() -> list[str]:
+    """Built-in cases, and those of the examples by their files."""
+    return [*cases.names(), *(str(file) for file in sorted(EXAMPLE_FILES.glob("*.toml")))]
+
+
+def case_page(name: str, folder: Path) -> str:
+    """A case: its machine turning, what commands say of it, and its text to copy."""
+    case, stem = cases.load(name), Path(name).stem
+    parts = [f"# {stem.replace('-', ' ') if name.endswith('.toml') else stem}\n\n{escaped(case.about)}.\n"]
+    shapes = drawing(case)
+    if shapes is not None:
+        write(folder / f"{stem}.svg", pictures.moving(shapes, f"{stem}, turning", {}))
+        parts.append(f"![{stem}, turning]({stem}.svg){{.machine}}\n")
+    for one in ("hinge", "cycle", "forces", "simulate"):
+        kept = equations.RECORDED / stem / f"{one}.json"
+        if kept.exists() and json.loads(kept.read_text(encoding="utf-8"))["exit"] == 0:
+            parts.append(f"```{{recorded}} {stem}/{one}\n:lines: 12\n```\n")
+    parts.append(f"## Its text\n\n{_how_to_open(name)}\n\n````toml\n{cases.text(name).rstrip()}\n````\n")
+    declared = Path(name).with_name(f"{stem.replace('-', '_')}.py")
+    if declared.exists():
+        parts.append(f"## Its mechanism\n\n````python\n{declared.read_text(encoding='utf-8').rstrip()}\n````\n")
+    return "\n".join(parts)
+
+
+def _how_to_open(name: str) -> str:
+    stem = Path(name).stem
+    if name.endswith(".toml"):
+        file = f"examples/mechanisms/{stem}.toml"
+        return f"`{file}`; `mechsym app {file}` opens it in the workbench."
+    return f"`mechsym cases {stem} > mine.toml` copies it; `mechsym app {stem}` opens it in the workbench."
+
+
+def case_index() -> str:
+    """The list of all cases."""
+    told = ((f"[{Path(n).stem}]({Path(n).stem}.md)", cases.load(n).about) for n in every_case())
+    lines = "\n".join(f"| {link} | {escaped(about)} |" for link, about in told)
+    tree = "\n".join(Path(n).stem for n in every_case())
+    head = "# Cases\n\nData to start from: built in, and of `examples/mechanisms`.\n\n| case | about |\n|---|---|"
+    return f"{head}\n{lines}\n\n```{{toctree}}\n:hidden:\n\n{tree}\n```\n"

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from mechsym import cases, jobs
-from mechsym.hinge import report
+from mechsym.hinge import shown
 
 
 def main(folder: Path) -> None:
@@ -20,7 +20,7 @@ def main(folder: Path) -> None:
         print(f"{trial.about:40} {ripple}")
     print(f"an ideal hinge saves {found.flywheels.steady.inertia:.0f} kg*m^2")
 
-    files = report.write(found, folder)
+    files = shown.write(found, folder)
     print(f"open {files[0]}")
 
 

@@ -11,6 +11,7 @@ import importlib
 from pathlib import Path
 from typing import Any
 
+__version__ = "1.0.0"  # its one home: packages, pages, units and `mechsym --version` read it here
 __all__ = [
     # ground: errors with the way out, units, files, periodic curves, what pictures and pages share
     "errors", "quantities", "files", "periodic", "style", "page",
@@ -32,10 +33,6 @@ if not (Path(__file__).parent / "generated").is_dir():
 def __getattr__(name: str) -> Any:
     if name in __all__:
         return importlib.import_module(f"mechsym.{name}")
-    if name == "__version__":
-        from importlib.metadata import version
-
-        return version("mechsym")
     raise AttributeError(f"module 'mechsym' has no attribute {name!r}")
 
 

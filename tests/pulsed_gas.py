@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber
-from mechsym.cycle.cylinder import CylinderGas
 from mechsym.cycle.kinds import Kind
 from mechsym.cycle.pressure import Pressure, pressure_over
+from mechsym.cycle.source import CylinderGas
 from mechsym.quantities import quantity, record
 
 

@@ -6,11 +6,12 @@ import re
 import shutil
 import subprocess
 import sys
-import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
+
+import mechsym
 
 ROOT = Path(__file__).parent.parent
 # folders of the source tree that go into the wheel, and where they go
@@ -69,10 +70,27 @@ def test_wheel_runs_where_it_is_installed(installed, tmp_path):
 
 
 def test_citation_is_of_this_version():
-    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    version = mechsym.__version__
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert re.search(rf"^version: {re.escape(version)}$", citation, re.M)
     assert "\nlicense: MIT\n" in citation
+
+
+def test_licences_of_files_of_others_are_named():
+    """Whatever carries a notice of somebody else stands in LICENSE-VENDORED, and nothing there is gone."""
+    named = (ROOT / "LICENSE-VENDORED").read_text(encoding="utf-8")
+    kinds = (".h", ".c", ".js", ".css", ".html", ".py", ".toml")
+    files = [p for p in (ROOT / "mechsym").rglob("*") if p.suffix in kinds and "__pycache__" not in p.parts]
+    foreign = [p for p in files if re.search(r"Copyright \((?:C|c)\) \d", p.read_text(encoding="utf-8"))]
+    assert len(foreign) == len(re.findall(r"\w+\.(?:h|js)\b", named)) == 7
+    assert [p.name for p in foreign if p.name not in named] == []
+
+
+@pytest.mark.slow
+def test_the_wheel_is_small_and_has_its_licences(wheel):
+    assert wheel.stat().st_size < 3_000_000
+    names = zipfile.ZipFile(wheel).namelist()
+    assert {"LICENSE", "LICENSE-VENDORED"} <= {Path(name).name for name in names if ".dist-info/licenses/" in name}
 
 
 YOKE = """from mechsym.derive import Mechanism, pi

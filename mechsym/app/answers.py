@@ -1,6 +1,5 @@
 """What the workbench shows as a slider moves: verdict in words, limits with their margins, curves, a moving picture."""
 
-import functools
 import math
 from collections.abc import Callable, Mapping
 
@@ -9,22 +8,22 @@ import numpy as np
 from mechsym import cases
 from mechsym.app.told import measure, span
 from mechsym.errors import BadInput
+from mechsym.files import Json
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
-from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.limits import ALL_KEPT
 from mechsym.hinge.result import Design
-from mechsym.hinge.shown import engine, of_design
+from mechsym.hinge.shown import of_design, scenes
 from mechsym.hinge.summary import guide_turn
-from mechsym.jobs.export import turning
+from mechsym.jobs.export import turning, with_gas
 from mechsym.jobs.hinge import hinge
 from mechsym.machine.loads import PropellerLoad
 from mechsym.mechanisms import plots
-from mechsym.mechanisms.drawing import Shapes, extent_of
-from mechsym.mechanisms.drawn_parts import turned
 from mechsym.page import Finding, ranked
 from mechsym.periodic import even_angles
 from mechsym.plausible import sifted
 from mechsym.quantities import quantity, record
+from mechsym.report import case_report, html
+from mechsym.report.parts import PARTS
 
 _POINTS = 241  # of each curve
 _DIGITS = 6  # of its largest value
@@ -64,8 +63,8 @@ class Answer:
     doubts: tuple[str, ...] = ()
     #: tells what has to be known first, the worst first; it runs the machine without a combustion
     findings: Callable[[], tuple[Finding, ...]] = tuple
-    #: makes the drawing of mechanism and guide over the crank angle [rad]; it costs more than all of the rest
-    drawn: Callable[[], Callable[[float], Shapes] | None] = lambda: None
+    #: makes the scenes of mechanism and guide in motion; they cost more than all of the rest
+    scenes: Callable[[], list[Json]] = list
     turns: int = 1  #: of the crank in a cycle
     ratio: float = quantity("-", default=1.0, about="turns of the guide in a turn of the crank")
 
@@ -85,24 +84,35 @@ def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
     return Answer(
         good=design.target.met, words=words, rows=_rows(design), doubts=doubts,
         bars=tuple(Bar(name=c.name, text=c.text, kept=c.kept, margin=c.margin) for c in verdict.checks),
-        curves=_curves(design), findings=lambda: ranked(of_design(design)), drawn=functools.partial(_drawing, design),
+        curves=_curves(design), findings=lambda: ranked(of_design(design)),
+        scenes=lambda: with_gas(scenes(design), case),
         turns=round(design.hinge.period / (2 * math.pi)), ratio=design.guide.parameters.shaft_ratio,
     )  # fmt: skip
 
 
 def moving(answer: Answer, title: str) -> str | None:
-    """A page in which the drawing of an answer turns; None without a drawing."""
-    drawn = answer.drawn()
-    return None if drawn is None else plots.animation_of(drawn, title, answer.turns)
+    """A page in which what an answer draws turns; None where it draws nothing."""
+    shown = answer.scenes()
+    return plots.turning_page(shown, title) if shown else None
+
+
+def reading(name: str, values: Mapping[str, float], part: str) -> str:
+    """The part of a report that a command gives of a case with other values, as a page; empty where it has none."""
+    if part not in PARTS:
+        return ""
+    try:
+        return html([case_report(cases.load(name, values), [part])])
+    except BadInput:
+        return ""
 
 
 def machine(name: str, values: Mapping[str, float]) -> str | None:
     """A page in which the machine of a case with other values turns [SI unit of the key]; None where nothing draws."""
     try:
-        scenes = turning(cases.load(name, values))
+        shown = turning(cases.load(name, values))
     except BadInput:
         return None
-    return plots.turning_page(scenes, "the machine") if scenes else None
+    return plots.turning_page(shown, "the machine") if shown else None
 
 
 def _rows(design: Design) -> tuple[tuple[str, str], ...]:
@@ -168,15 +178,3 @@ def _short(values: np.ndarray) -> tuple[float, ...]:
     largest = float(np.max(np.abs(values)))
     places = _DIGITS - 1 - math.floor(math.log10(largest)) if largest > 0 else 0
     return tuple(np.round(values, places).tolist())
-
-
-def _drawing(design: Design) -> Callable[[float], Shapes] | None:
-    """Engine and hinge below it, both to one scale."""
-    machine = engine(design)
-    if machine is None or design.usable is None:
-        return machine
-    left, right, low, _ = extent_of(machine)
-    hinge = elastic_hinge(design.usable, design.rollers)
-    *_, high = extent_of(hinge)
-    place = ((left + right) / 2, low - 1.1 * high)
-    return lambda angle: (*machine(angle), *turned(hinge(angle), 0.0, origin=place))

@@ -12,11 +12,15 @@ from mechsym.style import DARK, QUIET
 
 _COLOURS = ("#3f7fca", "#c9503f", "#3f9d68")
 _SENTENCE = 40  # letters
+# what the tab says itself: head, answer, data
+_ALONE = (
+    "<style>h1, h1 + .findings, .turning, .whole { display: none } body { padding: 0; max-width: none }</style></head>"
+)
 _TALL = "this.style.height = this.contentDocument.body.offsetHeight + 16 + 'px'"
 # no one grey has a contrast of 4.5 on both papers: the browser chooses
 _GREY = f"document.body.classList.contains('body--dark') ? '{DARK[QUIET]}' : '{QUIET}'"
 # in the picture: it tells its angle, and stands where it is told to
-_LINK = """<style>h1 { display: none } body { padding: 0 } .turning .scene svg { max-height: 21rem }</style><script>
+_LINK = """<style>h1 { display: none } body { padding: 1px } .turning .scene svg { max-height: 21rem }</style><script>
 const [label, angle, play] = ["label", "angle", "play"].map(name => document.querySelector(".turn ." + name));
 let stopped = false;
 const tell = () => parent.postMessage({ crank: parseFloat(label.textContent) }, "*");
@@ -93,7 +97,8 @@ def run_groups(found: Run, pinned: Run | None = None) -> str:
     told = f"<div class='mechsym-groups'>{''.join(parts)}</div>"
     if not found.page:
         return told
-    page = f'<iframe class="mechsym-page" title="page of the command" srcdoc="{html.escape(found.page)}"'
+    shown = found.page.replace("</head>", _ALONE)
+    page = f'<iframe class="mechsym-page" title="page of the command" srcdoc="{html.escape(shown)}"'
     return f'{page} onload="{_TALL}"></iframe><details><summary>all numbers</summary>{told}</details>'
 
 

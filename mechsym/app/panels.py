@@ -3,10 +3,11 @@
 import asyncio
 import json
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from mechsym.app import commands
-from mechsym.app.answers import Answer, Plotted, hinge_answer, machine, moving
+from mechsym.app.answers import Answer, Plotted, hinge_answer, machine, moving, reading
 from mechsym.app.commands import Run
 from mechsym.app.markup import bars, chart, findings, frame, run_groups, run_head, table
 
@@ -76,8 +77,8 @@ class HingePanel(Panel):
                 self.first = ui.html("", sanitize=False).props('data-findings="1"')
                 self.doubts = ui.label().classes("text-orange-9 whitespace-pre-line")
                 self.bars = ui.html("", sanitize=False)
-        self.rows = ui.html("", sanitize=False)
         self.charts = ui.element("div").classes("w-full grid gap-2 grid-cols-1 sm:grid-cols-2 xl:grid-cols-3")
+        self.rows = ui.html("", sanitize=False)
 
     async def show(self, values: Mapping[str, float], newest: Callable[[], bool]) -> None:
         """The answer at once, the picture when the sliders rest."""
@@ -155,6 +156,8 @@ class RunPanel(Panel):
     async def show(self, values: Mapping[str, float], newest: Callable[[], bool]) -> None:
         """Run the command anew where it is fast; else say that what is shown has other values."""
         self.values = dict(values)
+        if self.drawn_for is None:  # the machine first
+            await self._turn(dict(values))
         if self.found_for == self.values:
             self.note.text = ""
         elif self.name not in commands.LIVE:
@@ -177,7 +180,9 @@ class RunPanel(Panel):
             self.stage.visible = picture is not None
 
     async def start(self) -> None:
-        """Run the command; a run that is still on its way ends."""
+        """Run the command, and show its part of the report beneath; a run that is still on its way ends."""
+        from nicegui import run
+
         if self.running is not None and not self.running.done():
             self.running.cancel()
         asked, self.seconds, self.busy.visible = dict(self.values), 0, True
@@ -188,6 +193,10 @@ class RunPanel(Panel):
             return
         self.busy.visible, self.note.text = False, ""
         self._show(self.found)
+        page = await run.io_bound(reading, self.path, asked, self.name)
+        if page and self.found_for == asked:
+            self.found = replace(self.found, page=page)
+            self._show(self.found)
 
     def _tick(self) -> None:
         if self.busy.visible:

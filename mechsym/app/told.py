@@ -13,8 +13,9 @@ from mechsym.quantities.display import figure, key_words, quantity_text, ratio_t
 Rows = list[tuple[str, str]]
 
 # of a folder that is gone; beside their values; ends of curves; at the head of the page
-_SILENT = ("files", "written", "units", "final_state", "case", "mechanism")
+_SILENT = ("files", "written", "units", "final_state", "case", "mechanism", "each")
 _MOST = 8  # entries of a list that are told
+_DIGITS = 4
 _SENTENCE = 90  # letters: a longer text stands under a heading of its own
 _SPANNED = ("min", "max", "angle_of_max_deg", "reactions")
 _TURN = "least to largest over the turn"
@@ -112,15 +113,15 @@ def pretty_words(text: str) -> str:
 def measure(value: float, unit: str) -> str:
     """A number in SI with its unit for people; frequencies in Hz; what rounds to nothing is said to be [unit]."""
     if unit in ("", "-", "1"):
-        return ratio_text(value, 5) if unit == "-" else figure(value)
+        return ratio_text(value, _DIGITS) if unit == "-" else figure(value)
     value = 0.0 if unit in _BARE and abs(value) < _BARE[unit] else value
-    return pretty(quantity_text(value / (2 * math.pi) if unit == "Hz" else value, unit))
+    return pretty(quantity_text(value / (2 * math.pi) if unit == "Hz" else value, unit, _DIGITS))
 
 
 def span(low: float, high: float, unit: str) -> str:
     """Least and largest value in one unit of people [unit]."""
     (a, b), shown = shown_in([low, high], unit)
-    return f"{figure(a)} to {figure(b)}{_after(shown)}"
+    return f"{figure(a, _DIGITS)} to {figure(b, _DIGITS)}{_after(shown)}"
 
 
 def _spans(found: Json, units: Units) -> Rows:
@@ -228,7 +229,7 @@ def _listed(values: Sequence[Any], unit: str) -> str:
         return measure(values[0], unit)
     numbers = [v / (2 * math.pi) if unit == "Hz" and _number(v) else v for v in values]
     changed, shown = shown_in(numbers, unit) if unit not in ("", "1") else (numbers, "")
-    texts = [figure(float(v)) if _number(v) else _text(v, "") for v in changed]
+    texts = [figure(float(v), _DIGITS) if _number(v) else _text(v, "") for v in changed]
     short = texts if len(texts) <= _MOST else [texts[0], "..", texts[-1]]
     return ", ".join(short) + _after(shown)
 

@@ -18,6 +18,7 @@ from typing import Any
 from mechsym.cases import schema
 from mechsym.cases.doubts import acceptances, judged
 from mechsym.cases.laws import Records
+from mechsym.cases.older import renewed
 from mechsym.cases.values import Place, convert, override, paths, place, without_unit
 from mechsym.errors import BadInput, MissingSection, shown, suggest
 from mechsym.files import Json
@@ -28,7 +29,7 @@ from mechsym.quantities import record
 from mechsym.quantities.records import Record
 
 __all__ = ["Case", "load", "locate", "names", "text", "underlaid", "written"]
-_HEAD = ("mechanism", "source", "about")
+HEAD = ("mechanism", "source", "about")  # what stands above the sections of a file
 
 
 class Sections(dict[str, Any]):
@@ -109,25 +110,23 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
     """
     file, head, sections = _raw(name, overrides)
     try:
-        accepted = acceptances(_tables(*_read(name)).get("doubts", {}))
-        records = {key: _beside(_section(head["mechanism"], key, table), name) for key, table in sections.items()}
+        tables, notes = renewed(_tables(*_read(name)))
+        accepted = acceptances(tables.get("doubts", {}))
+        # the points of a sweep differ in one section; a mechanism of the user's own may change its parameters
+        one = _record_of if own.is_file(head["mechanism"]) else _record_once
+        records = {}
+        for key, table in sections.items():
+            written = _Written(text=repr(table), values=table)
+            records[key] = _beside(one(head["mechanism"], key, written), name)
         doubts = judged(records, head["mechanism"])
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
     short = Path(name).stem if name not in names() else name
-    mechanism, source, about = (head[key] for key in _HEAD)
+    mechanism, source, about = (head[key] for key in HEAD)
     return Case(
-        name=short,
-        file=file,
-        mechanism=mechanism,
-        source=source,
-        about=about,
-        sections=records,
-        path=name,
-        overrides=overrides or {},
-        doubts=doubts,
-        acceptances=accepted,
-    )
+        name=short, file=file, mechanism=mechanism, source=source, about=about, sections=records, path=name,
+        overrides=overrides or {}, doubts=(*doubts, *notes), acceptances=accepted,
+    )  # fmt: skip
 
 
 def _beside(record: Record, name: str) -> Record:
@@ -170,11 +169,19 @@ def locate(name: str, key: str, overrides: Mapping[str, object] | None = None, o
 def _raw(name: str, overrides: Mapping[str, object] | None) -> tuple[str, dict[str, str], Json]:
     """File, head and sections of a case with what is replaced, not yet checked."""
     file, content = _read(name)
-    tables = _tables(file, content)
+    tables, _ = renewed(_tables(file, content))
     usual = {"source": "own", "about": ""} if own.is_file(str(tables.get("mechanism"))) else {}
-    head = {key: _head(usual | tables, key, file) for key in _HEAD}
+    head = {}
+    for key in HEAD:
+        if key not in usual | tables:
+            raise BadInput(f'{file}: key {key} is missing at the top; write {key} = "..." above the first section')
+        head[key] = (usual | tables)[key]
+        if not isinstance(head[key], str):
+            raise BadInput(f"{file}: key {key} = {shown(head[key])} at the top is not a text")
     head["mechanism"] = own.located(head["mechanism"], Path(name).parent)
-    sections = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items() if k not in (*_HEAD, "doubts")}
+    sections = {k: dict(v) if isinstance(v, dict) else v for k, v in tables.items() if k not in (*HEAD, "doubts")}
+    if own.is_file(head["mechanism"]):
+        sections.setdefault("parameters", {})  # its letters may all have values of their own
     for key, value in (overrides or {}).items():
         override(sections, head["mechanism"], key, value)
     return file, head, sections
@@ -210,21 +217,6 @@ def _tables(file: str, content: str) -> Json:
         raise BadInput(f"{file}: not valid TOML: {error}; see 'mechsym cases zotov-89' for one that is") from None
 
 
-def _head(tables: Json, key: str, file: str) -> str:
-    if key not in tables:
-        raise BadInput(f'{file}: key {key} is missing at the top; write {key} = "..." above the first section')
-    if not isinstance(tables[key], str):
-        raise BadInput(f"{file}: key {key} = {shown(tables[key])} at the top is not a text")
-    return tables[key]
-
-
-def _section(mechanism: str, section: str, table: object) -> Record:
-    # the points of a sweep differ in one section; a mechanism of the user's own may change its parameters
-    return (_record_of if own.is_file(mechanism) else _record_once)(
-        mechanism, section, _Written(text=repr(table), values=table)
-    )
-
-
 @record
 class _Written:
     """The keys of a section, equal where they are written alike."""
@@ -235,7 +227,14 @@ class _Written:
 
 def _record_of(mechanism: str, section: str, written: _Written) -> Record:
     table = written.values
-    cls = _record_class(mechanism, section, table)
+    if section not in schema.sections():
+        raise BadInput(f"section [{section}] is not known; {suggest(section, schema.sections())}")
+    if not isinstance(table, dict):
+        raise BadInput(f"{section} = {shown(table)} is no section; write [{section}] and its keys below it")
+    try:
+        cls = schema.record(mechanism, section, table)
+    except BadInput as error:
+        raise BadInput(f"[{section}] {error}") from None
     values = _values(cls, section, table)
     try:
         return cls(**values)
@@ -244,17 +243,6 @@ def _record_of(mechanism: str, section: str, written: _Written) -> Record:
 
 
 _record_once = functools.lru_cache(maxsize=256)(_record_of)
-
-
-def _record_class(mechanism: str, section: str, table: object) -> type[Record]:
-    if section not in schema.sections():
-        raise BadInput(f"section [{section}] is not known; {suggest(section, schema.sections())}")
-    if not isinstance(table, dict):
-        raise BadInput(f"{section} = {shown(table)} is no section; write [{section}] and its keys below it")
-    try:
-        return schema.record(mechanism, section, table)
-    except BadInput as error:
-        raise BadInput(f"[{section}] {error}") from None
 
 
 def _values(cls: type[Record], section: str, table: Json) -> Json:

@@ -10,12 +10,13 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from mechsym import cases, mechanisms
-from mechsym.cases import schema
+from mechsym.cases import HEAD, schema
 from mechsym.cases.doubts import acceptances, judged
 from mechsym.cases.facts import CaseFacts, facts_of
 from mechsym.cases.keys import required, takes
 from mechsym.cases.laws import Records
 from mechsym.cases.needs import COMMANDS, in_words, lacking, read_by
+from mechsym.cases.older import renewed
 from mechsym.cases.values import convert, without_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
@@ -23,8 +24,6 @@ from mechsym.mechanisms import own
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
 from mechsym.quantities.records import Record, check_value, moved, unread
-
-_HEAD = ("mechanism", "source", "about")
 
 
 @record
@@ -55,11 +54,17 @@ def check_file(name: str, trust: bool = False) -> Checked:
     """
     text = cases.text(name)
     try:
-        tables = tomllib.loads(text)
+        tables, notes = renewed(tomllib.loads(text))
     except (ValueError, RecursionError) as error:
         return Checked(problems=(CaseProblem(key="", why=f"not valid TOML: {error}"),), commands={}, reasons={})
-    head, mechanism = list(_head(tables)), _mechanism(tables, name)
-    sections = {k: v for k, v in tables.items() if k not in (*_HEAD, "doubts")}
+    head, mechanism = list(_head(tables)), tables.get("mechanism")
+    if isinstance(mechanism, str) and own.is_file(mechanism):
+        mechanism = own.located(mechanism, Path(name).parent)
+    elif mechanism not in mechanisms.names():
+        mechanism = None
+    sections = {k: v for k, v in tables.items() if k not in (*HEAD, "doubts")}
+    if mechanism is not None and own.is_file(mechanism):
+        sections.setdefault("parameters", {})
     untold = mechanism is None or (own.is_file(mechanism) and not trust)
     skipped = tuple(s for s in sections if s in schema.LETTERS) if untold else ()
     problems, records = [*head], dict[str, Record]()
@@ -73,14 +78,14 @@ def check_file(name: str, trust: bool = False) -> Checked:
     kind = sections["cycle"].get("kind", "") if isinstance(sections.get("cycle"), dict) else ""
     every = {name: records.get(name) for name in sections}
     facts = facts_of(mechanism or "", every, kind=str(kind), trust=trust)
-    unread = unused(facts, sections)
+    doubts = (*unused(facts, sections), *notes)
     commands = lacking(facts)
     reasons = {command: "; ".join(in_words(facts, missing)) for command, missing in commands.items() if missing}
-    return Checked(problems=tuple(problems), commands=commands, reasons=reasons, skipped=skipped, doubts=unread)
+    return Checked(problems=tuple(problems), commands=commands, reasons=reasons, skipped=skipped, doubts=doubts)
 
 
 def _head(tables: Json) -> Iterator[CaseProblem]:
-    for key in _HEAD:
+    for key in HEAD:
         mine = own.is_file(str(tables.get("mechanism"))) and key != "mechanism"
         if key not in tables and not mine:
             way = f'write {key} = ".." above the first section'
@@ -90,13 +95,6 @@ def _head(tables: Json) -> Iterator[CaseProblem]:
     name = tables.get("mechanism")
     if isinstance(name, str) and not own.is_file(name) and name not in mechanisms.names():
         yield CaseProblem(key="mechanism", why=f"{name!r} is not known", allowed=suggest(name, mechanisms.names()))
-
-
-def _mechanism(tables: Json, name: str) -> str | None:
-    mechanism = tables.get("mechanism")
-    if isinstance(mechanism, str) and own.is_file(mechanism):
-        return own.located(mechanism, Path(name).parent)
-    return mechanism if mechanism in mechanisms.names() else None
 
 
 def _section(mechanism: str, section: str, table: object) -> tuple[list[CaseProblem], Record | None]:

@@ -33,13 +33,8 @@ def in_line(count: int, turns: int) -> CylinderLayout:
     """Cylinders in line, evenly fired, one throw each. turns: 1 for two-stroke, 2 for four-stroke."""
     order = _ORDERS.get(count, (*range(1, count + 1, 2), *range(count - count % 2, 0, -2)))
     firing, bank = firing_angles(order, turns * 2 * math.pi), (0.0,) * count
-    return CylinderLayout(
-        throw=tuple(range(1, count + 1)),
-        bank=bank,
-        firing=_degrees(firing),
-        phase=_degrees(crank_phases(firing, bank)),
-        period=360.0 * turns,
-    )
+    throw, phase = tuple(range(1, count + 1)), _degrees(crank_phases(firing, bank))
+    return CylinderLayout(throw=throw, bank=bank, firing=_degrees(firing), phase=phase, period=360.0 * turns)
 
 
 def in_v(count: int, hangs: bool = False) -> CylinderLayout:

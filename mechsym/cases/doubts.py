@@ -11,31 +11,24 @@ A value in the wrong unit, or with a slip of three decimals, is out of proportio
 absolute range wide enough for a model and a ship would let it pass. Zero leaves a part away and is never doubted.
 """
 
+import csv
 import dataclasses
 import functools
+import itertools
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator, Mapping
+from importlib import resources
 
-from mechsym.cases.laws import Records, by_firing, by_law, by_links, by_sign, by_speed, by_throws, by_twist, value
+from mechsym.cases import laws
+from mechsym.cases.laws import Records, value
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.proportions import Proportions
-from mechsym.mechanisms.shaft import elastic
-from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, Doubt, inputs, moving_mass, proportion
+from mechsym.mechanisms.shaft import ElasticShaft, elastic
+from mechsym.plausible import INPUTS, PROPORTIONS, RESULTS, Acceptance, Doubt, inputs, letters, moving_mass, proportion
 from mechsym.quantities import parse
 from mechsym.quantities.records import Field
-
-if TYPE_CHECKING:
-    from mechsym.derive.listing import Listing
-import csv
-import itertools
-from collections.abc import Iterable, Iterator, Mapping
-from importlib import resources
-
-from mechsym.cases.laws import load_torques
-from mechsym.mechanisms.shaft import ElasticShaft
-from mechsym.plausible import letters
 from mechsym.quantities.units import Metre
 
 # doubts about measured diagrams, in the units that they name
@@ -72,12 +65,12 @@ def judged(sections: Records, mechanism: str) -> tuple[Doubt, ...]:
     values = {}
     for section, record in sections.items():
         for key, name in _keys(section, record.__class__):
-            value = getattr(record, name)
-            if isinstance(value, tuple) and value and all(isinstance(v, float) for v in value):
-                value = max(value, key=abs)
-            if isinstance(value, float) and math.isfinite(value):
-                values[key] = value
-    doubts = inputs(values) + by_unit(sections, _LETTERS) + by_law(sections)
+            number = getattr(record, name)
+            if isinstance(number, tuple) and number and all(isinstance(v, float) for v in number):
+                number = max(number, key=abs)
+            if isinstance(number, float) and math.isfinite(number):
+                values[key] = number
+    doubts = inputs(values) + by_unit(sections, _LETTERS) + laws.by_law(sections)
     parameters = sections.get("parameters")
     # a file that nobody trusts yet has no content, and is not run
     if parameters is None or own.is_file(mechanism) and not own.content(mechanism):
@@ -85,38 +78,36 @@ def judged(sections: Records, mechanism: str) -> tuple[Doubt, ...]:
     plan = plan_of(mechanism)
     sizes, area = plan.proportions(parameters), _piston_area(sections)
     if own.is_file(mechanism):
-        doubts += tuple(by_sign(plan.listing(None), dataclasses.asdict(parameters)))
+        doubts += tuple(laws.by_sign(plan.listing(None), dataclasses.asdict(parameters)))
     if sizes is None:
-        return doubts + _of_links(sections, plan.listing(None))
+        coordinates, speed = plan.listing(None)["coordinates"], getattr(sections.get("operation"), "speed", None)
+        steady = dataclasses.asdict(sections["inputs"]) if "inputs" in sections else {}
+        steady |= {next(iter(coordinates)): value(sections, "drive", "torque")}
+        fast = dict.fromkeys(coordinates, speed) if speed else {}
+        return doubts + laws.by_links(plan.listing(None), dataclasses.asdict(parameters), steady, fast)
     bore = None if area is None else math.sqrt(4 * area / math.pi)
     alone, together = _sizes(sections, sizes, bore), by_size(sections, sizes, bore)
     if any(d.code == "reciprocating_mass" for d in alone):  # one slip is told once
         together = tuple(d for d in together if not d.quantity.startswith(MOVING))
-    doubts += (*alone, *together, *by_firing(sections, parameters), *by_throws(parameters))
+    doubts += (*alone, *together, *laws.by_firing(sections, parameters), *laws.by_throws(parameters))
     shaft = elastic(mechanism, parameters)
     if shaft is None:
         return doubts
-    return doubts + by_shaft(shaft) + by_twist(sections, shaft, sizes.stroke, area)
-
-
-def _of_links(sections: Records, listing: "Listing") -> tuple[Doubt, ...]:
-    """Doubts about the links of a mechanism that says no stroke."""
-    letters, steady = (
-        dataclasses.asdict(sections[name]) if name in sections else {} for name in ("parameters", "inputs")
-    )
-    steady |= {next(iter(listing["coordinates"])): value(sections, "drive", "torque")}
-    speed = getattr(sections.get("operation"), "speed", None)
-    return by_links(listing, letters, steady, dict.fromkeys(listing["coordinates"], speed) if speed else {})
+    return doubts + by_shaft(shaft) + laws.by_twist(sections, shaft, sizes.stroke, area)
 
 
 def _sizes(sections: Records, sizes: Proportions, bore: float | None) -> tuple[Doubt, ...]:
     """Doubts about an engine by its stroke and the area of its pistons."""
-    doubts = by_speed(sections, sizes)
+    doubts = laws.by_speed(sections, sizes)
     guide, spring = getattr(sections.get("guide"), "rho0", None), getattr(sections.get("spring"), "A", None)
     if guide is not None and sizes.stroke:
         doubts += proportion("guide_size", "guide.rho0 / stroke", guide / sizes.stroke)
+    faces = sections.get("faces")
     for part in sizes.moving:
-        area = _driven(sections, part.axis)
+        area = _piston_area(sections)
+        if faces is not None:  # of the pistons on this axis
+            each = zip(faces.sides, faces.areas, strict=True)
+            area = sum(area for side, area in each if side.startswith(part.axis))
         if bore and area and part.mass:  # without mass is a model, not a mistake
             doubts += moving_mass(f"parameters.{part.letters}", part.mass, area, bore, sizes.stroke)
     if spring is not None and bore:
@@ -124,25 +115,13 @@ def _sizes(sections: Records, sizes: Proportions, bore: float | None) -> tuple[D
     return doubts
 
 
-def _driven(sections: Records, axis: str) -> float | None:
-    """Area of the pistons on an axis; of the only one where the mechanism has no axes [m^2]."""
-    faces = sections.get("faces")
-    if faces is None:
-        return _piston_area(sections)
-    return sum(area for side, area in zip(faces.sides, faces.areas, strict=True) if side.startswith(axis))
-
-
 @functools.lru_cache(maxsize=256)
 def _keys(section: str, kind: object) -> tuple[tuple[str, str], ...]:
-    """Dotted keys and names of the values of a section."""
+    """Dotted keys and names of the values of a section; of a mechanism's letters those that mean what they say."""
     fields = dataclasses.fields(kind) if dataclasses.is_dataclass(kind) else ()
-    return tuple((f"{section}.{f.name}", f.name) for f in fields if section not in _LETTERS or _known(section, f))
-
-
-def _known(section: str, letter: Field) -> bool:
-    """Whether a letter of a mechanism is meant for what its name and its unit say."""
-    unit = letter.metadata.get("unit")
-    return any(k.section == section and letter.name in k.keys and k.unit == unit for k in INPUTS)
+    known = {(name, k.unit) for k in INPUTS if k.section == section for name in k.keys}
+    every = section not in _LETTERS
+    return tuple((f"{section}.{f.name}", f.name) for f in fields if every or (f.name, f.metadata.get("unit")) in known)
 
 
 def _piston_area(sections: Records) -> float | None:
@@ -280,7 +259,7 @@ def _areas(sections: Records, sizes: Proportions, bore: float) -> Iterator[_Told
         yield "back_pressure_share", f"{section}.{name} / charge", share
     faces = getattr(sections.get("faces"), "areas", ())
     swept = (sum(faces) or area * sizes.pistons) * sizes.stroke * (value(sections, "chamber", "pistons") or 1)
-    for name, torque in load_torques(sections):
+    for name, torque in laws.load_torques(sections):
         yield "load_pressure", f"{name} * 2 pi / swept volume", 2 * math.pi * torque / swept
     for name in ("k_a", "k_b", "k_c"):
         about = f"closing.{name} * bore / (1 MPa * piston area)"

@@ -123,11 +123,6 @@ def forces(case: CaseFacts) -> set[str]:
     return of_turn(case) | rubs | {"shaking", "shaft", "comparison", "gas_limits"} | shaft
 
 
-def hinge(case: CaseFacts) -> set[str]:
-    """Sections that a hinge, its runs and its losses read."""
-    return guide(case) | {"losses", "trials", "retune", "gas_limits"}
-
-
 def flywheel(case: CaseFacts) -> set[str]:
     """Sections that the motion of a loaded shaft reads."""
     return of_turn(case) | {"flywheel", "load", "drive"}
@@ -169,8 +164,3 @@ def simulate(case: CaseFacts) -> set[str]:
         loop = of_turn(case) - {"closing"} | of_friction(case) | {"simulation", "load", "flywheel"}
         return loop | shaft | {"gas_limits"}
     return run(case) | shaft | ({"gas_limits"} if case.has("cycle") else set())
-
-
-def identify(case: CaseFacts) -> set[str]:
-    """Sections that a model for a measured run reads."""
-    return {"parameters", "drive", "simulation", "flywheel", "inputs", "start"}

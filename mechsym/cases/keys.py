@@ -46,15 +46,20 @@ def variants(section: str) -> Mapping[str, type[Record]]:
 
 
 def _rows(section: str, variant: str, cls: type[Record]) -> list[Json]:
-    commands = commands_of(section)
-    return [
-        {"section": section, "variant": variant, "key": field.name, "kind": kind(field),
-         "unit": field.metadata.get("unit"), **{name: field.metadata.get(name) for name in _BOUNDS},
-         "options": list(field.metadata.get("options", ())) or None, "default": _default(field),
-         "required": required(field), "about": meaning(cls, field),
-         "commands": commands}
-        for field in dataclasses.fields(cls)
-    ]  # fmt: skip
+    rows = []
+    for field in dataclasses.fields(cls):
+        default: object = None
+        if field.default is not dataclasses.MISSING:
+            default = list(field.default) if isinstance(field.default, tuple) else field.default
+        elif field.default_factory is not dataclasses.MISSING:
+            default = field.default_factory()
+        rows.append({
+            "section": section, "variant": variant, "key": field.name, "kind": kind(field),
+            "unit": field.metadata.get("unit"), **{name: field.metadata.get(name) for name in _BOUNDS},
+            "options": list(field.metadata.get("options", ())) or None, "default": default,
+            "required": required(field), "about": meaning(cls, field), "commands": commands_of(section),
+        })  # fmt: skip
+    return rows
 
 
 def meaning(cls: object, field: Field) -> str:
@@ -91,12 +96,6 @@ def takes(field: Field) -> str:
     inside = f" in {unit}" if unit and unit != "-" else ""
     bounds = allowed(meta) if unit else ""
     return f"{kind(field)}{inside}" + (f", {bounds}" if bounds else "")
-
-
-def _default(field: Field) -> object:
-    if field.default is not dataclasses.MISSING:
-        return list(field.default) if isinstance(field.default, tuple) else field.default
-    return field.default_factory() if field.default_factory is not dataclasses.MISSING else None
 
 
 def json_schema() -> Json:

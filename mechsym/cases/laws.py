@@ -26,7 +26,6 @@ from mechsym.machine.loads import Load, PropellerLoad, TableLoad
 from mechsym.mechanisms.proportions import Proportions
 from mechsym.mechanisms.shaft import ElasticShaft
 from mechsym.plausible import Doubt, inputs, piston_speed, proportion, proportions
-from mechsym.quantities.records import Record
 from mechsym.quantities.units import NewtonMetre
 
 if TYPE_CHECKING:
@@ -62,7 +61,7 @@ def driven(sections: Records) -> bool:
 
 def by_law(sections: Records) -> tuple[Doubt, ...]:
     """Doubts that need no size of the mechanism."""
-    return (*_timing(sections), *_burning(sections), *_compressing(sections), *_power(sections), *_run(sections))
+    return (*_timing(sections), *_burning(sections), *_power(sections), *_run(sections))
 
 
 def by_speed(sections: Records, sizes: Proportions) -> tuple[Doubt, ...]:
@@ -186,29 +185,16 @@ def _burning(sections: Records) -> Iterator[Doubt]:
         yield from proportion("fuel_heat", what, cycle.heating_value / cycle.stoichiometric_ratio)
 
 
-def _compressing(sections: Records) -> Iterator[Doubt]:
-    if value(sections, "cycle", "p_suction"):
-        what = "cycle.p_delivery / cycle.p_suction"
-        ratio = value(sections, "cycle", "p_delivery") / value(sections, "cycle", "p_suction")
-        yield from proportion("pressure_ratio", what, ratio)
-
-
 def _power(sections: Records) -> Iterator[Doubt]:
-    """Whether a load takes what the gas gives, or gives what it takes."""
+    """How far a compressor compresses, and whether a load takes what the gas gives, or gives what it takes."""
+    if suction := value(sections, "cycle", "p_suction"):
+        what = "cycle.p_delivery / cycle.p_suction"
+        yield from proportion("pressure_ratio", what, value(sections, "cycle", "p_delivery") / suction)
     cycle = sections.get("cycle")
     if cycle is not None and kind_of(cycle).measured:  # of an engine, or motored
         return
     for name, torque in load_torques(sections):
         yield from proportion("driven_load" if driven(sections) else "braking_load", name, torque)
-
-
-def _starts(start: Record | None) -> Iterator[Doubt]:
-    """Angles of a start, as those of any machine."""
-    for field in dataclasses.fields(start) if start is not None else ():
-        angle = getattr(start, field.name)
-        if field.metadata.get("unit") == "rad" and isinstance(angle, float):
-            for doubt in inputs({"simulation.phi_start": angle}, refusing=False):
-                yield replace(doubt, quantity=f"start.{field.name}")
 
 
 def _run(sections: Records) -> Iterator[Doubt]:
@@ -222,7 +208,12 @@ def _run(sections: Records) -> Iterator[Doubt]:
             why = "one is the other with rpm taken for rad/s: a number without a unit is in rad/s"
             what = "simulation.speed_start / operation.speed, the digits of one speed in two units"
             yield Doubt(code="speed_unit", quantity=what, value=ratio, usual="another ratio", why=why)
-    yield from _starts(sections.get("start"))
+    first = sections.get("start")
+    for field in dataclasses.fields(first) if first is not None else ():
+        angle = getattr(first, field.name)
+        if field.metadata.get("unit") == "rad" and isinstance(angle, float):  # as that of any machine
+            for doubt in inputs({"simulation.phi_start": angle}, refusing=False):
+                yield replace(doubt, quantity=f"start.{field.name}")
     end = getattr(simulation, "t_end", None)
     if simulation is None or not end:
         return

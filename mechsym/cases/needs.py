@@ -70,17 +70,12 @@ def _of_any() -> Mapping[str, set[str]]:
     known = {name: mechanisms.roles_of(name) for name in mechanisms.names()} | {"own.py": None}
     every: dict[str, Any] = {**dict.fromkeys(("cycle", "spring", "guide")), "friction_pressure": fitted}
     cases = [
-        CaseFacts(
-            mechanism=name,
-            sections=every | dict.fromkeys(more),
-            kind=kind,
-            roles=roles,
-            free=1 if roles is None else plan_of(name).free,
-        )
+        CaseFacts(mechanism=name, sections=every | dict.fromkeys(more), kind=kind, roles=roles,
+                  free=1 if roles is None else plan_of(name).free)
         for name, roles in known.items()
         for kind in (None, *KINDS.values())
         for more in ((), ("drive",), ("part_crosshead",), ("motion",))
-    ]
+    ]  # fmt: skip
     own_ways = COMMANDS.keys() - {"app", "report", "sweep"}  # those run the others
     return {name: set().union(*map(COMMANDS[name].reads, cases)) for name in own_ways}
 
@@ -158,11 +153,6 @@ def _hinge(case: CaseFacts) -> list[str]:
     return _turning(case, *facts.GUIDE)
 
 
-def _codesign(case: CaseFacts) -> list[str]:
-    acts = case.has("cycle") or case.has("torque")
-    return _hinge(case) + ([] if acts else ["[cycle] or [torque]"])
-
-
 def _size(case: CaseFacts) -> list[str]:
     if not case.rules or not case.closed:
         given = case.rules == "slider crank" and case.has("part_crosshead")
@@ -170,45 +160,33 @@ def _size(case: CaseFacts) -> list[str]:
     return _turning(case, "cycle", "speeds", *(() if case.rules == "slider crank" else facts.PARTS))
 
 
-def _spark(case: CaseFacts) -> list[str]:
-    return [_SPARK] if case.kind is not None and not case.closed else []
-
-
 def _compare(case: CaseFacts) -> list[str]:
     if case.twists:
-        return [
-            "an engine on a shaft that twists is no single cylinder; 'mechsym cycle' gives its figures over the speeds"
-        ]
+        figures = "'mechsym cycle' gives its figures over the speeds"
+        return [f"an engine on a shaft that twists is no single cylinder; {figures}"]
+    spark = [_SPARK] if case.kind is not None and not case.closed else []
     wanted = [] if case.has("speeds") else [SPEEDS]
-    return [*_spark(case), *_missing(case, "parameters", "cycle"), *wanted, *_gas(case)]
-
-
-def _hinged(case: CaseFacts) -> bool:
-    return case.has("spring", "guide") and not case.twists and case.value("simulation", "hinge") != "none"
+    return [*spark, *_missing(case, "parameters", "cycle"), *wanted, *_gas(case)]
 
 
 def _simulate(case: CaseFacts) -> list[str]:
     simulation = ["simulation"] if not case.has("simulation") and not case.has("operation") else []
     if case.in_loop:
         faces = ["faces"] if case.undetermined else []
-        return [*_missing(case, "parameters", "operation", *simulation, *faces), *_gas(case), *_loop_load(case)]
+        missing = [*_missing(case, "parameters", "operation", *simulation, *faces), *_gas(case)]
+        if case.roles is not None and not case.roles.load:
+            missing.append("nothing takes the load; declare m.rotor('crank', angle=phi, load=M_r)")
+        return missing
     explained = _missing(case, "drive") if case.has("startup") else []
     return [*_missing(case, *simulation), *explained, *_run(case)]
-
-
-def _loop_load(case: CaseFacts) -> list[str]:
-    return (
-        []
-        if case.roles is None or case.roles.load
-        else ["nothing takes the load; declare m.rotor('crank', angle=phi, load=M_r)"]
-    )
 
 
 def _run(case: CaseFacts) -> list[str]:
     """What a run in time lacks whose gas hangs on the angle alone."""
     if case.twists and not {"drive", "cycle", "inputs", "start"} & case.sections.keys():
         return [*_missing(case, "parameters"), *([] if case.value("simulation", "speed_start") else [_ACTS])]
-    if case.has("cycle") or case.has("torque") or _hinged(case):
+    hinged = case.has("spring", "guide") and not case.twists and case.value("simulation", "hinge") != "none"
+    if case.has("cycle") or case.has("torque") or hinged:
         return _turning(case)
     length = case.value("simulation", "t_end") or case.value("simulation", "speed_start")
     return [*_missing(case, "parameters"), *([] if length else [_STILL])]
@@ -231,14 +209,6 @@ def meant(case: CaseFacts) -> str:
     return "simulate" if case.has("simulation") else ""
 
 
-def _sweep(case: CaseFacts) -> list[str]:
-    return COMMANDS[meant(case)].lacks(case) if meant(case) else [_ACTS]
-
-
-def _optimise(case: CaseFacts) -> list[str]:
-    return [*_cycle(case), *_missing(case, "optimise")]
-
-
 def _identify(case: CaseFacts) -> list[str]:
     if case.roles is not None and mechanisms.lists(case.mechanism):
         return [
@@ -250,6 +220,16 @@ def _identify(case: CaseFacts) -> list[str]:
     if case.held:
         return [f"{case.mechanism} has loops that close by constraint; identify takes those that close in closed form"]
     return _missing(case, "parameters")
+
+
+def _prove(case: CaseFacts) -> list[str]:
+    if case.roles is not None and mechanisms.lists(case.mechanism):
+        return [f"{case.mechanism} is put together from lists, and prove takes mechanisms with one value a letter"]
+    if case.held:
+        return [f"{case.mechanism} has loops that close by constraint; prove encloses those that close in closed form"]
+    if acting := [f"[{name}]" for name in ("cycle", "torque", "spring") if case.has(name)]:
+        return [f"{', '.join(acting)} acts by no smooth closed form that can be enclosed; leave it out"]
+    return _simulate(case)
 
 
 def _reads_report(case: CaseFacts) -> set[str]:
@@ -272,7 +252,10 @@ class Command:
 COMMANDS: Mapping[str, Command] = {
     "app": Command(asks=lambda case: [], reads=_reads_report),
     "balance": Command(asks=_turning, reads=lambda case: facts.of_turn(case) | {"shaft"}),
-    "codesign": Command(asks=_codesign, reads=lambda case: facts.guide(case) | {"codesign", "losses"}),
+    "codesign": Command(
+        asks=lambda case: _hinge(case) + ([] if case.has("cycle") or case.has("torque") else ["[cycle] or [torque]"]),
+        reads=lambda case: facts.guide(case) | {"codesign", "losses"},
+    ),
     "compare": Command(asks=_compare, reads=lambda case: facts.of_turn(case) | facts.of_friction(case) | {"speeds"}),
     "cycle": Command(asks=_cycle, reads=facts.cycle),
     "eval": Command(asks=lambda case: _missing(case, "parameters"), reads=lambda case: {"parameters"}),
@@ -281,12 +264,21 @@ COMMANDS: Mapping[str, Command] = {
     "fmu": Command(asks=_export, reads=facts.run),
     "forces": Command(asks=_forces, reads=facts.forces),
     "guide": Command(asks=_hinge, reads=facts.guide),
-    "hinge": Command(asks=_hinge, reads=facts.hinge),
-    "identify": Command(asks=_identify, reads=facts.identify),
-    "optimise": Command(asks=_optimise, reads=lambda case: facts.cycle(case) | {"optimise"}),
+    "hinge": Command(asks=_hinge, reads=lambda case: facts.guide(case) | {"losses", "trials", "retune", "gas_limits"}),
+    "identify": Command(
+        asks=_identify, reads=lambda case: {"parameters", "drive", "simulation", "flywheel", "inputs", "start"}
+    ),
+    "optimise": Command(
+        asks=lambda case: [*_cycle(case), *_missing(case, "optimise")],
+        reads=lambda case: facts.cycle(case) | {"optimise"},
+    ),
     "page": Command(asks=_export, reads=facts.page),
+    "prove": Command(asks=_prove, reads=facts.run),
     "report": Command(asks=lambda case: [], reads=_reads_report),
     "simulate": Command(asks=_simulate, reads=facts.simulate),
     "size": Command(asks=_size, reads=facts.size),
-    "sweep": Command(asks=_sweep, reads=lambda case: COMMANDS[meant(case)].reads(case) if meant(case) else set()),
+    "sweep": Command(
+        asks=lambda case: COMMANDS[meant(case)].lacks(case) if meant(case) else [_ACTS],
+        reads=lambda case: COMMANDS[meant(case)].reads(case) if meant(case) else set(),
+    ),
 }

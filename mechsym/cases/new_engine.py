@@ -50,7 +50,10 @@ def write_engine(
     if not 1 <= count <= _MOST:
         raise BadInput(f"--cylinders {count}: allowed are 1 to {_MOST}")
     hangs = (rods or _RODS.get(kind)) == "articulated"
-    engine = _KINDS[kind](bore, stroke, count, *([hangs] if kind in _RODS else []))
+    if kind in _LAYOUTS:
+        engine = _four_stroke(kind, bore, stroke, count, hangs)
+    else:
+        engine = _KINDS[kind](bore, stroke, count)
     text = _detuned(engine + _load_of(kind, gas, bore, stroke), bore, stroke)
     file = out / f"{name or f'{kind}-{count}'}.toml"
     if file.exists():
@@ -91,15 +94,10 @@ def _throw_inertia(bore: float, stroke: float) -> float:
     return 11 * PISTON_MASS * bore**3 * (stroke / 2) ** 2
 
 
-def _speed(stroke: float, usual: str) -> float:
-    """Speed at the usual mean piston speed, rounded to two digits [rpm]."""
-    rpm = _PISTON_SPEED[usual] / (2 * stroke) * 60
-    step = 10 ** (math.floor(math.log10(rpm)) - 1)
-    return round(rpm / step) * step
-
-
 def _head(mechanism: str, about: str, stroke: float, usual: str) -> str:
-    speed = _speed(stroke, usual)
+    rpm = _PISTON_SPEED[usual] / (2 * stroke) * 60  # at the usual mean piston speed, rounded to two digits
+    step = 10 ** (math.floor(math.log10(rpm)) - 1)
+    speed = round(rpm / step) * step
     mean = speed * RPM / math.pi * stroke
     return (
         "# Starting values by similarity: replace them by yours, with where each comes from in the comment.\n"
@@ -143,29 +141,11 @@ def _crosshead(bore: float, stroke: float, count: int) -> str:
     )
 
 
-def _inline(bore: float, stroke: float, count: int) -> str:
-    cylinders = f"{count} in line" if count > 1 else "one cylinder"
-    about = f"Four-stroke engine, {cylinders}, bore {1e3 * bore:g} mm"
-    return _spark(in_line(count, turns=2), about, bore, stroke)
-
-
-def _v(bore: float, stroke: float, count: int, hangs: bool) -> str:
-    layout = in_v(count, hangs)
-    about = f"Four-stroke V{count}, {2 * layout.bank[-1]:g} degrees, bore {1e3 * bore:g} mm"
-    return _spark(layout, about, bore, stroke)
-
-
-def _boxer(bore: float, stroke: float, count: int) -> str:
-    return _spark(boxer(count), f"Four-stroke boxer engine, {count} cylinders, bore {1e3 * bore:g} mm", bore, stroke)
-
-
-def _radial(bore: float, stroke: float, count: int, hangs: bool) -> str:
-    about = f"Four-stroke radial engine, {count} cylinders, bore {1e3 * bore:g} mm"
-    return _spark(radial(count, hangs), about, bore, stroke)
-
-
-def _spark(layout: CylinderLayout, about: str, bore: float, stroke: float) -> str:
-    head = _head("crank_train", about, stroke, "four-stroke")
+def _four_stroke(kind: str, bore: float, stroke: float, count: int, hangs: bool) -> str:
+    lay_out, words = _LAYOUTS[kind]
+    layout = lay_out(count, hangs)
+    what = words.format(n=count, angle=2 * layout.bank[-1]) if count > 1 else "engine, one cylinder"
+    head = _head("crank_train", f"Four-stroke {what}, bore {1e3 * bore:g} mm", stroke, "four-stroke")
     return head + _train(layout, bore, stroke, 3.5)
 
 
@@ -183,8 +163,7 @@ def _hypocycloid(bore: float, stroke: float, count: int) -> str:
     values = {"e": stroke / 4 * 1e3, "module": stroke / 52 * 1e3, "pin": bore * 1e3 / 4, "I1": 30 * size * stroke**2}
     values |= {"piston": 780 * size, "planet": 300 * size, "I2": 300 * size * (stroke / 4) ** 2 / 2}
     values["flywheel"] = 320 * 780 * size * (stroke / 2) ** 2
-    text = fill(_start("hypocycloid"), **values)
-    return head + text
+    return head + fill(_start("hypocycloid"), **values)
 
 
 def compression_below_knock(bore: Metre) -> Pure:
@@ -199,8 +178,8 @@ def _load_of(kind: str, gas: str, bore: float, stroke: float) -> str:
     """
     if kind not in _FOUR_STROKES:
         if gas != "exchange":
-            raise BadInput(f"--gas {gas}: an engine of kind {kind} has two strokes, its gas is closed for its mean "
-                           "pressure; leave --gas away")  # fmt: skip
+            why = f"an engine of kind {kind} has two strokes, its gas is closed for its mean pressure"
+            raise BadInput(f"--gas {gas}: {why}; leave --gas away")
         return ""
     inlet, exhaust, swept = 0.34 * bore * 1e3, 0.3 * bore * 1e3, math.pi / 4 * bore**2 * stroke * 1e6
     return fill(
@@ -226,11 +205,16 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, fly
         middles.append(angle if abs(there) > 1e-9 else 0.0)
     heavy = flywheel * (2 if throws < 3 else 1)  # few throws push unevenly
     far = 2 * (radius + rod + bore) + 0.02 * stroke
+    ranked = sorted(range(len(layout.firing)), key=lambda i: layout.firing[i])
+    together = len(set(layout.firing)) == 1 and len(ranked) > 1
+    also = " and half of the oscillating masses, all of their first order" if layout.turned else ""
+    row = throws // 2 if layout.opposed else throws  # those of opposed pistons stand beside each other
     lists = {
         "throw": str(list(layout.throw)), "bank": _numbers(layout.bank, "deg"), "phase": _numbers(layout.phase, "deg"),
-        "order": _order(layout), **_rods(layout, bore, radius, rod), "weights": _weights(layout),
-        "u0": _numbers(unbalance, "kg*m"), "u_phase": _numbers(middles, "deg"), "z": _places(layout, bore),
-        "axes": _axes(layout, far),
+        "order": (" and " if together else "-").join(str(i + 1) for i in ranked), **_rods(layout, bore, radius, rod),
+        "weights": f"counterweights balance the turning part of the rods{also}",
+        "u0": _numbers(unbalance, "kg*m"), "u_phase": _numbers(middles, "deg"),
+        "z": _numbers([k % row * layout.pitch * bore * 1e3 for k in range(throws)], "mm"), "axes": _axes(layout, far),
     }  # fmt: skip
     numbers = {
         "period": layout.period, "r": radius * 1e3, "rod": rod_mass, "piston": piston, "m0": 4 * piston,
@@ -274,18 +258,6 @@ def _rods(layout: CylinderLayout, bore: float, radius: float, rod: float) -> dic
     }  # fmt: skip
 
 
-def _weights(layout: CylinderLayout) -> str:
-    also = " and half of the oscillating masses, all of their first order" if layout.turned else ""
-    return f"counterweights balance the turning part of the rods{also}"
-
-
-def _places(layout: CylinderLayout, bore: float) -> str:
-    """Throws along the shaft; those of opposed pistons stand beside each other."""
-    throws = max(layout.throw)
-    row = throws // 2 if layout.opposed else throws
-    return _numbers([k % row * layout.pitch * bore * 1e3 for k in range(throws)], "mm")
-
-
 def _axes(layout: CylinderLayout, far: float) -> str:
     if not layout.opposed:
         return ""
@@ -295,12 +267,6 @@ def _axes(layout: CylinderLayout, far: float) -> str:
         f"axis_x = {places}   # assumed: distance of the two cranks\n"
         "sense = 1   # the gears between them have an odd number of wheels\n"
     )
-
-
-def _order(layout: CylinderLayout) -> str:
-    ranked = sorted(range(len(layout.firing)), key=lambda i: layout.firing[i])
-    shown = [str(i + 1) for i in ranked]
-    return " and ".join(shown) if len(set(layout.firing)) == 1 and len(shown) > 1 else "-".join(shown)
 
 
 def _numbers(values: Sequence[float], unit: str) -> str:
@@ -331,13 +297,19 @@ _BUILT = {
     "hypocycloid": (0.01, 0.3, 0.4, 2.0),
 }
 _FOUR_STROKE = (0.01, 0.65, 0.35, 1.8)
-_KINDS: Mapping[str, Callable[..., str]] = {
-    "two-stroke-crosshead": _crosshead, "inline": _inline, "v": _v, "boxer": _boxer, "radial": _radial,
-    "opposed": _opposed, "hypocycloid": _hypocycloid,
+# kind: layout of a four-stroke engine, by its number of cylinders and whether rods hang on others, and its words
+_LAYOUTS: Mapping[str, tuple[Callable[[int, bool], CylinderLayout], str]] = {
+    "inline": (lambda count, _: in_line(count, turns=2), "engine, {n} in line"),
+    "v": (in_v, "V{n}, {angle:g} degrees"),
+    "boxer": (lambda count, _: boxer(count), "boxer engine, {n} cylinders"),
+    "radial": (radial, "radial engine, {n} cylinders"),
+}
+_KINDS: Mapping[str, Callable[[float, float, int], str]] = {
+    "two-stroke-crosshead": _crosshead, "opposed": _opposed, "hypocycloid": _hypocycloid,
 }  # fmt: skip
 _CYLINDERS = {"two-stroke-crosshead": 1, "inline": 4, "v": 2, "boxer": 4, "radial": 5, "opposed": 1, "hypocycloid": 1}
 _FOUR_STROKES = ("inline", "v", "boxer", "radial", "hypocycloid")
 RODS = ("side-by-side", "articulated")  #: Of several cylinders on a throw
 _RODS = {"v": "side-by-side", "radial": "articulated"}
 GASES = {"exchange": "four_stroke", "closed": "four_stroke_closed"}  #: Gas of a four-stroke engine, and its start
-KINDS = tuple(_KINDS)
+KINDS = tuple(_CYLINDERS)

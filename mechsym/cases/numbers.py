@@ -10,12 +10,8 @@ from mechsym.mechanisms.own import file_of, is_file, located
 
 def usual(mechanism: str) -> str:
     """The first built-in case of a mechanism, or the first beside its file; empty where there is none."""
-    if is_file(mechanism):
-        return _beside(mechanism)
-    return next((c for c in cases.names() if tomllib.loads(cases.text(c)).get("mechanism") == mechanism), "")
-
-
-def _beside(mechanism: str) -> str:
+    if not is_file(mechanism):
+        return next((c for c in cases.names() if tomllib.loads(cases.text(c)).get("mechanism") == mechanism), "")
     folder = file_of(mechanism)[0].resolve().parent
     for file in sorted(folder.glob("*.toml")):
         try:
@@ -42,9 +38,8 @@ def numbers(case: str, mechanism: str = "") -> dict[str, float]:
     """
     data = cases.load(case)
     if mechanism and not _same(data.mechanism, mechanism):
-        raise BadInput(
-            f"case {case} is of the mechanism {data.mechanism}, not of {mechanism}; name another with --case"
-        )
+        other = f"of the mechanism {data.mechanism}, not of {mechanism}"
+        raise BadInput(f"case {case} is {other}; name another with --case")
     values = {k: v for k, v in dataclasses.asdict(data.need("parameters")).items() if isinstance(v, float)}
     operation = data.sections.get("operation")
     return values | ({"speed": operation.speed} if operation else {})

@@ -9,9 +9,8 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cases.laws import by_links, fired, linked
-from mechsym.cycle.gas import Gas
+from mechsym.cycle.gas import Gas, pistons_of, travel_of
 from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.motion import pistons_of, travel_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.result import Forces
@@ -55,9 +54,8 @@ def of_limits(case: Case, columns: Json) -> tuple[Doubt, ...]:
             continue
         why = f"gas_limits.{key} of the case; change the design, or the limit"
         worst = float(np.nanmax(values))
-        doubts.append(
-            Doubt(code=f"limit_{key}", quantity=name, value=worst, usual=f"at most {limit / unit:g}", why=why)
-        )
+        usual = f"at most {limit / unit:g}"
+        doubts.append(Doubt(code=f"limit_{key}", quantity=name, value=worst, usual=usual, why=why))
     return tuple(doubts)
 
 
@@ -148,7 +146,8 @@ def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
 def of_forces(case: Case, found: Forces) -> tuple[Doubt, ...]:
     """Doubts of the forces of a turn: its gas, and pins, bearings and guides by the largest gas force."""
     pushes = [float(np.abs(push).max()) for push in found.turn.inputs.values()]
-    largest = max((float(np.hypot(x, y).max()) for x, y in _vectors(found)), default=0.0)
+    vectors = [*((pin.x, pin.y) for pin in found.loads.pins), *found.loads.bearings.values()]
+    largest = max((float(np.hypot(x, y).max()) for x, y in vectors), default=0.0)
     largest = max([largest, *(float(np.abs(side).max()) for side in found.loads.guides.values())])
     doubts = of_gas(case, found.turn.gas) + _driven(case, found)
     if found.turn.gas is None or not max(pushes, default=0.0) > 0:
@@ -182,13 +181,9 @@ def _driven(case: Case, found: Forces) -> tuple[Doubt, ...]:
     return proportion("driven", "work of the gas in a turn", work * turn.period)
 
 
-def _vectors(found: Forces) -> list[tuple[np.ndarray, np.ndarray]]:
-    return [*((pin.x, pin.y) for pin in found.loads.pins), *found.loads.bearings.values()]
-
-
 def of_motion(case: Case, found: "DrivenForces") -> tuple[Doubt, ...]:
     """Doubts of a driven motion: how far its words move, results by what moves, speeds of links, torques that bend."""
-    from mechsym.forces.motion import WORDS  # splines, which no other case needs
+    from mechsym.forces.driven import WORDS  # splines, which no other case needs
 
     section, table, listing = case.need("motion"), found.columns, plan_of(case.mechanism).listing(None)
     angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]
@@ -220,6 +215,6 @@ def of_cycle(case: Case, columns: Json, bound: Pure | None) -> tuple[Doubt, ...]
     beyond = of_limits(case, columns)
     if "work_j" in columns:  # a Stirling engine whose cold piston leads is none
         beyond += proportion("driven", "work of the gas in a turn", float(np.min(columns["work_j"])))
-    return beyond + (
-        proportion("efficiency_bound", "efficiency / its bound", best / bound) if best > 0 and bound else ()
-    )
+    if best > 0 and bound:
+        beyond += proportion("efficiency_bound", "efficiency / its bound", best / bound)
+    return beyond

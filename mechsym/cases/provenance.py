@@ -20,9 +20,11 @@ from mechsym.quantities.display import chosen, figure, quantity_text
 
 _SECTION = re.compile(r"\s*\[\[?\s*([\w.-]+)\s*\]\]?")
 _KEY = re.compile(r"\s*([\w-]+(?:\.[\w-]+)*)\s*=")
+_CHOICE = re.compile(r"^[a-z]+(_[a-z]+)+$")  # a word to choose
+_NAMES = ("Wiebe", "Young's", "Poisson's", "Hertz", "Nusselt", "Reynolds")
 _OPEN, _CLOSED = "[{", "]}"
 _FAR = 1e3  # a length that may be so large is told in metres [m]
-_UNTOLD = "the case file does not say"
+_UNTOLD = "stated in the case, without a source"
 
 
 @record
@@ -45,8 +47,15 @@ def sourced(case: Case) -> list[SourcedValue]:
         for field in dataclasses.fields(values):
             key, shown = f"{section}.{field.name}", _shown(getattr(values, field.name), field.metadata)
             if shown:
-                origin = "set for this run" if key in replaced else origins.get(key) or _usual(origins, key)
-                about = _plain(meaning(type(values), field))
+                # a key may carry its unit: speed_rpm = 142
+                written = [k for k in origins if k == key or k.startswith(f"{key}_")]
+                usual = _UNTOLD if written else "usual value of mechsym"
+                origin = next((origins[k] for k in [key, *written] if origins.get(k)), usual)
+                origin = "set for this run" if key in replaced else origin
+                # a comment of a record as a reader's meaning: no marks of code, no capital before a small letter
+                about = meaning(type(values), field).replace("`", "")
+                small = about[1:2].islower() and not about.startswith(_NAMES)
+                about = about[:1].lower() + about[1:] if small else about
                 rows.append(SourcedValue(key=key, value=shown, about=about, origin=origin))
     return rows
 
@@ -94,25 +103,15 @@ def _parted(line: str) -> tuple[str, str]:
     return line, ""
 
 
-def _usual(origins: Mapping[str, str], key: str) -> str:
-    # a key may carry its unit: speed_rpm = 142
-    written = [k for k in origins if k == key or k.startswith(f"{key}_")]
-    return next((origins[k] for k in written if origins[k]), _UNTOLD if written else "usual value of mechsym")
-
-
-def _plain(text: str) -> str:
-    """A comment of a record as a reader's meaning: no marks of code, no capital before a small letter."""
-    words = text.replace("`", "")
-    return words[:1].lower() + words[1:] if words[1:2].islower() else words
-
-
 def _shown(value: object, about: Mapping[str, Any]) -> str:
     unit = about.get("unit") or ""
     if unit == "m" and (about.get("high") or 0.0) >= _FAR and not chosen() and isinstance(value, (int, float)):
         return f"{figure(float(value), 6)} m"  # no length of a machine: a height above the sea
-    if isinstance(value, bool) or isinstance(value, str):
-        text = str(value)
-        return Path(text).name if Path(text).is_absolute() else text  # a reader has not the writer's folders
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, str):
+        # a reader has not the writer's folders
+        return Path(value).name if Path(value).is_absolute() else _CHOICE.sub(lambda m: m[0].replace("_", " "), value)
     if isinstance(value, (int, float)):
         return quantity_text(float(value), unit, 6)
     if isinstance(value, (tuple, list)) and value and all(isinstance(v, (int, float)) for v in value):

@@ -9,6 +9,7 @@ from types import NoneType, UnionType
 from typing import Any, get_args, get_origin
 
 from mechsym.cases import schema
+from mechsym.cases.older import RENAMED
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
 from mechsym.quantities import parse, record, units
@@ -73,7 +74,7 @@ class Place:
 
 def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
     """Find the field of a dotted key, or of a bare one that is unique. option: where it was written, for messages."""
-    section, dot, name = key.partition(".")
+    section, dot, name = RENAMED.get(key, (key, ""))[0].partition(".")
     if not dot:
         section, name = _home(tables, mechanism, key, option), key
     # a section that is left out has its defaults, unless a key has to choose its record first
@@ -94,7 +95,7 @@ def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
 
 def override(tables: Json, mechanism: str, key: str, value: object) -> None:
     """Replace one value, by its dotted key or a bare one that is unique. tables: raw values; changed in place."""
-    section, dot, name = key.partition(".")
+    section, dot, name = RENAMED.get(key, (key, ""))[0].partition(".")
     if not dot:
         section, name = _home(tables, mechanism, key, "--set"), key
     table = tables.setdefault(section, {})

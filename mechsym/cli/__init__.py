@@ -4,7 +4,7 @@ import contextlib
 import gc
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NoReturn
 
 import click
@@ -12,57 +12,27 @@ import click
 # before numpy is there: threads of BLAS would wait for small matrices with a processor each
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from mechsym import interrupts  # noqa: E402
+from mechsym import __version__, interrupts  # noqa: E402
 from mechsym.errors import BadInput, suggest  # noqa: E402
 from mechsym.quantities import load  # noqa: E402
 from mechsym.transaction import forget  # noqa: E402
 
-# commands by what they are for, in the order of `mechsym --help`: name and "module:function"
+# commands by what they are for, in the order of `mechsym --help`
 GROUPS = {
-    "Start": {
-        "new": "mechsym.cli.new:new",
-        "check": "mechsym.cli.check:check",
-        "cases": "mechsym.cli.catalogue:cases",
-        "sections": "mechsym.cli.sections:sections",
-        "mechanisms": "mechsym.cli.catalogue:mechanisms",
-    },
-    "Analyse": {
-        "cycle": "mechsym.cli.cycle:cycle",
-        "forces": "mechsym.cli.forces:forces",
-        "balance": "mechsym.cli.balance:balance",
-        "flywheel": "mechsym.cli.flywheel:flywheel",
-        "simulate": "mechsym.cli.simulate:simulate",
-        "identify": "mechsym.cli.identify:identify",
-        "eval": "mechsym.cli.evaluate:evaluate",
-    },
-    "Design": {
-        "hinge": "mechsym.cli.hinge:hinge",
-        "codesign": "mechsym.cli.codesign:codesign",
-        "size": "mechsym.cli.size:size",
-        "optimise": "mechsym.cli.optimise:optimise",
-        "guide": "mechsym.cli.guide:guide",
-    },
-    "Many": {
-        "sweep": "mechsym.cli.sweep:sweep",
-        "study": "mechsym.cli.study:study",
-        "compare": "mechsym.cli.compare:compare",
-    },
-    "Give": {
-        "report": "mechsym.cli.report:report",
-        "app": "mechsym.cli.app:app",
-        "page": "mechsym.cli.page:page",
-        "fmu": "mechsym.cli.fmu:fmu",
-        "export": "mechsym.cli.export:export",
-    },
-    "Verify": {
-        "audit": "mechsym.cli.audit:audit",
-        "reproduce": "mechsym.cli.reproduce:reproduce",
-        "prove": "mechsym.cli.prove:prove",
-        "derive": "mechsym.cli.derive:derive",
-        "native": "mechsym.cli.native:native",
-    },
+    "Start": ("new", "check", "cases", "sections", "mechanisms"),
+    "Analyse": ("cycle", "forces", "balance", "flywheel", "simulate", "identify", "eval"),
+    "Design": ("hinge", "codesign", "size", "optimise", "guide"),
+    "Many": ("sweep", "study", "compare"),
+    "Give": ("report", "app", "page", "fmu", "export"),
+    "Verify": ("audit", "reproduce", "prove", "derive", "native", "cite"),
 }
-COMMANDS = {name: place for group in GROUPS.values() for name, place in group.items()}
+# a command stands in the file of its name, but for these
+_ELSEWHERE = {"page": "export:page", "fmu": "export:fmu", "eval": "evaluate:evaluate"} | {
+    name: f"catalogue:{name}" for name in ("cases", "mechanisms", "native")
+}
+COMMANDS = {
+    name: f"mechsym.cli.{_ELSEWHERE.get(name, f'{name}:{name}')}" for group in GROUPS.values() for name in group
+}
 
 
 class _BrokenPipe(Exception):
@@ -159,38 +129,33 @@ def _cases_and_files(ctx: click.Context, param: click.Parameter, typed: str) -> 
 
 
 def _everywhere() -> list[click.Parameter]:
-    """Options of every command."""
-    help_ = "Exit status 3 when there are doubts, or a target is missed."
-    strict = click.Option(["--strict"], is_flag=True, expose_value=False, callback=_strict, help=help_)
-    help_ = 'Show text and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.'
-    units = click.Option(["--units"], metavar="LIST", expose_value=False, callback=_units, is_eager=True, help=help_)
-    with_units = click.Option(["--with-units"], is_flag=True, expose_value=False, callback=_with_units, hidden=True)
-    help_ = "Run the Python file that a case names, wherever it lies; kept for its folder."
-    trust = click.Option(["--trust"], is_flag=True, expose_value=False, callback=_trust, help=help_)
-    return [strict, units, with_units, trust]
+    """Options of every command; what they say stands in `ctx.meta`."""
 
+    def option(name: str, then: Callable[[click.Context, Any], object], **more: Any) -> click.Option:
+        def noted(ctx: click.Context, _: click.Parameter, wanted: Any) -> None:
+            ctx.meta[f"mechsym.{name.replace('-', '_')}"] = wanted
+            then(ctx, wanted)
 
-def _strict(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
-    ctx.meta["mechsym.strict"] = wanted
+        return click.Option([f"--{name}"], expose_value=False, callback=noted, **more)
 
+    def guard(ctx: click.Context, wanted: bool) -> None:
+        if not ctx.resilient_parsing:
+            ctx.with_resource(load("mechsym.trust:guarded")(ctx.meta.get("mechsym.words", ()), wanted))
 
-def _trust(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
-    ctx.meta["mechsym.trust"] = wanted
-    if not ctx.resilient_parsing:
-        ctx.with_resource(load("mechsym.trust:guarded")(ctx.meta.get("mechsym.words", ()), wanted))
-
-
-def _with_units(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
-    ctx.meta["mechsym.with_units"] = wanted
-
-
-def _units(ctx: click.Context, _: click.Parameter, wanted: str | None) -> None:
-    ctx.meta["mechsym.units"] = wanted
-    load("mechsym.quantities.display:choose")(wanted)
+    show = 'Show text and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.'
+    return [
+        option("strict", lambda ctx, wanted: None, is_flag=True,
+               help="Exit status 3 when there are doubts, or a target is missed."),
+        option("units", lambda ctx, wanted: load("mechsym.quantities.display:choose")(wanted), metavar="LIST",
+               is_eager=True, help=show),
+        option("with-units", lambda ctx, wanted: None, is_flag=True, hidden=True),
+        option("trust", guard, is_flag=True,
+               help="Run the Python file that a case names, wherever it lies; kept for its folder."),
+    ]  # fmt: skip
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
-@click.version_option(package_name="mechsym", prog_name="mechsym")
+@click.version_option(__version__, prog_name="mechsym")
 def mechsym() -> None:
     """From a mechanism on paper to verified machine code.
 

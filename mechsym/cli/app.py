@@ -3,7 +3,6 @@
 import click
 
 from mechsym.cli.common import emit, json_option
-from mechsym.files import Json
 
 
 @click.command(short_help="The workbench in the browser: sliders, verdict, runs.")
@@ -11,7 +10,7 @@ from mechsym.files import Json
 @click.option("--port", type=click.IntRange(0, 65535), default=8080, show_default=True, help="Port on this machine.")
 @click.option("--check", "checked", is_flag=True, help="Start it, read its page without a browser, and end.")
 @json_option
-def app(case_name: str, port: int, checked: bool, as_json: bool) -> None:
+def app(case_name: str, port: int, checked: bool) -> None:
     """Move the values of CASE with sliders and see at once whether its hinge can be built; run commands on it.
 
     It listens on this machine alone (127.0.0.1), and answers the browser that opens the address it prints, which holds
@@ -25,11 +24,8 @@ def app(case_name: str, port: int, checked: bool, as_json: bool) -> None:
 
     if checked:
         found = check(case_name, 0)
-        emit(found, as_json, lambda: _text(found))
+        told = f"the workbench of {found['case']} answers: {found['sliders']} sliders, {', '.join(found['tabs'])}"
+        hinge = "" if found["hinge"] is None else f"; hinge: {found['hinge']}"
+        emit(found, lambda: told + hinge)
     else:
         serve(case_name, port, lambda address: click.echo(f"{address}  (Ctrl-C ends it)", err=True))
-
-
-def _text(found: Json) -> str:
-    hinge = "" if found["hinge"] is None else f"; hinge: {found['hinge']}"
-    return f"the workbench of {found['case']} answers: {found['sliders']} sliders, {', '.join(found['tabs'])}{hinge}"

@@ -11,7 +11,7 @@ from mechsym.errors import BadInput
 from mechsym.files import Json
 
 if TYPE_CHECKING:
-    from mechsym.papers.sources import Source
+    pass
 
 _ROUND_OFF = 1e-10  # relative error that the floats of a right formula leave [-]
 _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", "corrected_max_rel_error"]
@@ -43,20 +43,9 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 @json_option
 @click.pass_context
 def audit(
-    ctx: click.Context,
-    /,
-    paper: Path | None,
-    source: str | None,
-    formula: str | None,
-    against: str | None,
-    code: str | None,
-    file: Path | None,
-    certificate: Path | None,
-    write: bool,
-    out: Path | None,
-    as_json: bool,
-    **said: object,
-) -> None:
+    ctx: click.Context, /, paper: Path | None, source: str | None, formula: str | None, against: str | None,
+    code: str | None, file: Path | None, certificate: Path | None, write: bool, out: Path | None, **said: object,
+) -> None:  # fmt: skip
     """Compare published hand formulas with the derivations; repair misprints by search.
 
     PAPER is a LaTeX file: each of its display equations is one row. --out writes a page of formulas of your own.
@@ -69,6 +58,8 @@ def audit(
     Example: mechsym audit paper.tex --theory slider_crank --letters "\\omega=phid" --out page
     Example: mechsym audit --formula "R*sin(phi) + R*lam*sin(2*phi)" --against crosshead.dx_dphi --letters "R=r1+r2"
     """
+    from mechsym.files import write_text
+
     if own := [o for o in (paper, formula, file, code) if o is not None]:
         if source or write or len(own) > 1:
             raise BadInput(
@@ -76,29 +67,26 @@ def audit(
             )
         rows = _own(formula, against, file, code, said) if paper is None else _paper(paper, against, said)
         if certificate is not None:
-            _certify(certificate, formula, against, said, rows)
+            from mechsym.audit.hosts.sources import certificate_of_formula
+            from mechsym.audit.judge.asked import Asked
+
+            if formula is None:
+                raise BadInput("--certificate goes with --formula, or with the sources")
+            asked: Any = Asked(text=formula, against=str(against), **said)  # type: ignore[arg-type]
+            click.echo(str(write_text(certificate, certificate_of_formula(asked, rows[0]))), err=True)
         summary = _counted(rows, paper)
         if out is not None:
-            _page(out, str(own[0]), summary, rows)
+            from mechsym.audit.row import html
+
+            click.echo(str(write_text(out / "audit.html", html(str(own[0]), summary, rows))), err=True)
         lines = [*map(_told, rows), *([summary] if paper else [])]
-        emit(rows[0] if formula is not None else rows, as_json, lambda: "\n\n".join(lines))
+        emit(rows[0] if formula is not None else rows, lambda: "\n\n".join(lines))
         ctx.exit(_status(rows))
     if out or against or any(said.values()):
         raise BadInput(
             "--against, --letters, --out and --case belong to --formula; write for example --formula 'r*sin(phi)'"
         )
-    ctx.exit(_published(source, write, certificate, as_json))
-
-
-def _certify(file: Path, formula: str | None, against: str | None, said: dict[str, Any], rows: Sequence[Json]) -> None:
-    from mechsym.audit.hosts.sources import certificate_of_formula
-    from mechsym.audit.judge.asked import Asked
-    from mechsym.files import write_text
-
-    if formula is None:
-        raise BadInput("--certificate goes with --formula, or with the sources")
-    asked = Asked(text=formula, against=str(against), **said)
-    click.echo(str(write_text(file, certificate_of_formula(asked, rows[0]))), err=True)
+    ctx.exit(_published(source, write, certificate))
 
 
 def _paper(paper: Path, against: str | None, said: dict[str, Any]) -> list[Json]:
@@ -118,13 +106,6 @@ def _counted(rows: Sequence[Json], paper: Path | None) -> str:
         return summary(rows)
     found = sum(r["verdict"] in FINDINGS for r in rows)
     return f"{few(len(rows), 'formula')}, {few(found, 'finding')}"
-
-
-def _page(folder: Path, title: str, summary: str, rows: Sequence[Json]) -> None:
-    from mechsym.audit.row import html
-    from mechsym.files import write_text
-
-    click.echo(str(write_text(folder / "audit.html", html(title, summary, rows))), err=True)
 
 
 def _own(
@@ -155,11 +136,12 @@ def _status(rows: Sequence[Json]) -> int:
     return 3 if any(v in OPEN for v in verdicts) else 0
 
 
-def _published(source: str | None, write: bool, certificate: Path | None, as_json: bool) -> int:
+def _published(source: str | None, write: bool, certificate: Path | None) -> int:
     from mechsym.audit.hosts import sources as published
-    from mechsym.audit.hosts.sources import certificate_of_sources
     from mechsym.files import write_text
-    from mechsym.papers import record, sources
+    from mechsym.papers import rows as record
+    from mechsym.papers import sources
+    from mechsym.papers.sources import short_name
 
     if write and source:
         raise BadInput("--write records the findings of all sources; leave out --source")
@@ -167,24 +149,21 @@ def _published(source: str | None, write: bool, certificate: Path | None, as_jso
     with progress(sum(len(s.entries) for s in chosen), "auditing") as bar:
         rows = published.rows(chosen, lambda: bar.update(1))
     differences = record.differences("mechsym.audit", rows, published.NAME, published.COMPARED)
-    emit(rows, as_json, lambda: table(_shown(rows), _COLUMNS))
+    errors = ("max_rel_error", "corrected_max_rel_error")
+    shown = [row | {"source": short_name(row["source"])} | {key: _error(row[key]) for key in errors} for row in rows]
+    emit(rows, lambda: table(shown, _COLUMNS))
     if certificate is not None:
-        text, without = certificate_of_sources(chosen, rows)
+        text, without = published.certificate_of_sources(chosen, rows)
         click.echo(str(write_text(certificate, text)), err=True)
         click.echo("\n".join(f"proved, without a script: {name}" for name in without), err=True)
     if write:
-        _write(chosen, rows)
+        trial = published.TRIAL.read_text(encoding="utf-8") if published.TRIAL.is_file() else ""
+        record.write("mechsym.audit", rows, (*published.NAME, *published.COMPARED))
+        click.echo(str(write_text(published.ERRATA, published.errata(chosen, rows, trial))), err=True)
         return 0
     for line in differences:
         click.echo(f"differs from the record: {line}", err=True)
     return 1 if differences else 0
-
-
-def _shown(rows: list[Json]) -> list[Json]:
-    from mechsym.papers.sources import short_name
-
-    errors = ("max_rel_error", "corrected_max_rel_error")
-    return [row | {"source": short_name(row["source"])} | {key: _error(row[key]) for key in errors} for row in rows]
 
 
 def _error(value: float | None) -> str | None:
@@ -192,16 +171,6 @@ def _error(value: float | None) -> str | None:
     if value is None:
         return None
     return f"{value:.3g}" if value > _ROUND_OFF else f"below {_ROUND_OFF:g}"
-
-
-def _write(sources: "Sequence[Source]", rows: list[Json]) -> None:
-    from mechsym.audit.hosts import sources as published
-    from mechsym.files import write_text
-    from mechsym.papers import record
-
-    trial = published.TRIAL.read_text(encoding="utf-8") if published.TRIAL.is_file() else ""
-    record.write("mechsym.audit", rows, (*published.NAME, *published.COMPARED))
-    click.echo(str(write_text(published.ERRATA, published.errata(sources, rows, trial))), err=True)
 
 
 def _told(row: Json) -> str:

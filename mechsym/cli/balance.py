@@ -1,25 +1,23 @@
 """`mechsym balance`: counterweights and balancer shafts, forces and couples before and after."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option, table
+from mechsym.cases import Case
+from mechsym.cli.common import case_command, emit, out_option, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import figure, quantity_text
 
 if TYPE_CHECKING:
-    from mechsym.jobs.balance import BalanceOfEngine, WeightNumbers
-
+    from mechsym.jobs.forces import BalanceOfEngine, WeightNumbers
 
 _SEEN = 1e-6  # of the largest order: a lower one is not listed
 
 
-@click.command(short_help="Counterweights and balancer shafts.")
-@click.argument("case")
+@case_command("Counterweights and balancer shafts.", out_option)
 @click.option(
     "--weights", type=click.Choice(["ends", "webs", "none"]), default="ends", show_default=True,
     help="Counterweights at the first and last throw, at every throw, or none besides those of the case.",
@@ -34,19 +32,8 @@ _SEEN = 1e-6  # of the largest order: a lower one is not listed
     "--apart", metavar="LENGTH", default="0 m", show_default=True,
     help="Distance of both shafts of a pair along the cylinders: they take roll too.",
 )  # fmt: skip
-@json_option
-@out_option
-@set_option
 def balance(
-    case: str,
-    weights: str,
-    shafts: str,
-    least: str,
-    largest: str | None,
-    apart: str,
-    as_json: bool,
-    out: Path | None,
-    overrides: tuple[str, ...],
+    case: Case, weights: str, shafts: str, least: str, largest: str | None, apart: str, out: Path | None
 ) -> None:
     """What shakes the frame of CASE, and the weights that leave the least of it at its speed of operation.
 
@@ -56,36 +43,39 @@ def balance(
     Examples: mechsym balance opposed-pistons --shafts 1
               mechsym balance zotov-89 --weights none --shafts 1,2 --out balance
     """
-    from mechsym.jobs.balance import balance as run
-    from mechsym.jobs.balance import numbers, write
+    from mechsym.jobs.forces import balance as run
+    from mechsym.jobs.forces import numbers, write_balance
     from mechsym.mechanisms import listing
     from mechsym.quantities import parse
 
     most = None if largest is None else parse(largest, "kg*m", "--largest")
     if most is not None and most <= 0:
         raise BadInput(f"--largest = {largest}: give more than 0 kg*m, or leave it away")
-    loaded = case_of(case, pairs(overrides))
-    one = run(loaded, weights, _orders(shafts), least, most, parse(apart, "m", "--apart"))
-    told = numbers(loaded, one)
-    files = write(one, told, out, loaded.about or listing(loaded.mechanism)["about"]) if out else []
-    emit(told, as_json, lambda: _text(told), files=files)
-
-
-def _orders(text: str) -> tuple[int, ...]:
-    orders = [one.strip() for one in text.split(",") if one.strip()]
+    orders = [one.strip() for one in shafts.split(",") if one.strip()]
     if any(one not in ("1", "2", "3", "4") for one in orders):
-        raise BadInput(f"--shafts = {text}: balancer shafts turn 1 to 4 times as fast as the crank; write 1,2")
-    return tuple(dict.fromkeys(map(int, orders)))
+        raise BadInput(f"--shafts = {shafts}: balancer shafts turn 1 to 4 times as fast as the crank; write 1,2")
+    turning = tuple(dict.fromkeys(map(int, orders)))
+    one = run(case, weights, turning, least, most, parse(apart, "m", "--apart"))
+    told = numbers(case, one)
+    files = write_balance(one, told, out, case.about or listing(case.mechanism)["about"]) if out else []
+    emit(told, lambda: _text(told), files=files)
 
 
 def _text(told: "BalanceOfEngine") -> str:
     before, after = told.before, told.after
-    rows = [
-        row
-        for kind, unit in (("force", "N"), ("couple", "N*m"), ("roll", "N*m"))
-        for row in _rows(kind, unit, getattr(before, kind), getattr(after, kind))
-    ]
-    lines = [f"{told.case}: balance at {told.speed_rpm:.6g} rpm", _left(told), ""]
+    rows: list[Json] = []
+    left = []
+    for kind, unit in (("force", "N"), ("couple", "N*m"), ("roll", "N*m")):
+        was, remains = getattr(before, kind), getattr(after, kind)
+        for order, value in was.items():
+            if max(value, remains[order]) > _SEEN * max(was.values()):
+                texts = [quantity_text(size, unit, 4) for size in (value, remains[order])]
+                rows.append({"on the frame": kind, "order": order, "before": texts[0], "after": texts[1]})
+        worst = max(remains, key=remains.__getitem__, default=None)
+        if kind != "roll" and worst is not None and remains[worst]:
+            left.append(f"{kind} of order {worst}, {quantity_text(remains[worst], unit, 4)}")
+    words = f"largest left: {'; '.join(left)}" if left else "nothing is left that shakes the frame"
+    lines = [f"{told.case}: balance at {told.speed_rpm:.6g} rpm", words, ""]
     if rows:
         lines += [table(rows, ["on the frame", "order", "before", "after"]), ""]
     lines += [_weight("counterweight", one) for one in told.counterweights]
@@ -94,28 +84,6 @@ def _text(told: "BalanceOfEngine") -> str:
         loads = (quantity_text(value, "N", 4) for value in (before.main_bearing_max, after.main_bearing_max))
         lines.append(f"largest load of a main bearing {' -> '.join(loads)}")
     return "\n".join(lines)
-
-
-def _left(told: "BalanceOfEngine") -> str:
-    words = []
-    for name, orders, unit in (("force", told.after.force, "N"), ("couple", told.after.couple, "N*m")):
-        order, largest = max(orders.items(), key=lambda one: one[1])
-        if largest:
-            words.append(f"{name} of order {order}, {quantity_text(largest, unit, 4)}")
-    return f"largest left: {'; '.join(words)}" if words else "nothing is left that shakes the frame"
-
-
-def _rows(kind: str, unit: str, before: Mapping[int, float], after: Mapping[int, float]) -> list[Json]:
-    return [
-        {
-            "on the frame": kind,
-            "order": order,
-            "before": quantity_text(value, unit, 4),
-            "after": quantity_text(after[order], unit, 4),
-        }
-        for order, value in before.items()
-        if max(value, after[order]) > _SEEN * max(before.values())
-    ]
 
 
 def _weight(name: str, one: "WeightNumbers") -> str:

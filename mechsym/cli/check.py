@@ -12,7 +12,7 @@ from mechsym.files import Json
 @click.argument("case")
 @json_option
 @click.pass_context
-def check(ctx: click.Context, case: str, as_json: bool) -> None:
+def check(ctx: click.Context, case: str) -> None:
     """Every problem of CASE with key, reason and what is allowed; and what each command still lacks to run on it.
 
     Exit status 2 when there are problems. A mechanism file of the user's own is not run without --trust; its letters
@@ -35,7 +35,7 @@ def check(ctx: click.Context, case: str, as_json: bool) -> None:
         "skipped": list(found.skipped),
         **({} if whole else {"doubts": found.doubts}),
     }
-    emit(report, as_json, lambda: _text(report, found.reasons))
+    emit(report, lambda: _text(report, found.reasons))
     ctx.exit(2 if found.problems else 0)
 
 

@@ -7,23 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mechsym.cli.common import (
-    budget_option,
-    case_of,
-    emit,
-    heads,
-    json_option,
-    out_option,
-    pairs,
-    progress,
-    set_option,
-    table,
-)
+from mechsym.cases import Case
+from mechsym.cli.common import budget_option, case_command, emit, heads, out_option, progress, table
 from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, quantity_text
 
 if TYPE_CHECKING:
-    from mechsym.codesign.peers import Rival
+    from mechsym.codesign.front import Rival
     from mechsym.codesign.realise import RealisedNumbers
     from mechsym.codesign.result import CoDesignLosses, CoDesignNumbers
     from mechsym.codesign.settings import CoDesignSettings
@@ -33,8 +23,7 @@ _MOST = 100  # values of one option
 _UNITS = {"speed": "rad/s", "mep": "Pa", "p0": "Pa", "p0 1": "Pa", "p0 2": "Pa", "p0 3": "Pa"}
 
 
-@click.command(short_help="Guide, pressures and flywheel for a range of speeds and loads.")
-@click.argument("case_name", metavar="CASE")
+@case_command("Guide, pressures and flywheel for a range of speeds and loads.", out_option)
 @click.option("--speeds", metavar="N,N..", help="Speeds in rpm: 60,75,89.")
 @click.option("--curve", help="propeller or constant_speed.")
 @click.option("--loads", metavar="A,B..", help="Shares of the full load, at each speed.")
@@ -53,11 +42,8 @@ _UNITS = {"speed": "rad/s", "mep": "Pa", "p0": "Pa", "p0 1": "Pa", "p0 2": "Pa",
 @click.option("--cylinders", type=click.IntRange(1, 24), help="Also what 1 to N of these cylinders on a shaft need.")
 @click.option("--realise", metavar="GOAL", help="Hardware of least bearing_loss, roller_reaction, gas_volume, ..")
 @click.option("--peers", is_flag=True, help="Also coil springs, noncircular gears and two springs at the same ripples.")
-@out_option
-@set_option
 @budget_option
-@json_option
-def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_json: bool, **options: Any) -> None:
+def codesign(case: Case, out: Path | None, **options: Any) -> None:
     """Design guide, pressures of the spring and a small flywheel together, for all speeds and loads of CASE.
 
     A case without [codesign] is designed at its own speed and load; --speeds and --loads ask for more.
@@ -77,15 +63,12 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
     from mechsym.jobs.codesign import codesign as design
     from mechsym.quantities.results import tell
 
-    case = case_of(case_name, pairs(overrides))
     settings, ripples = _settings(settings_of(case), options)
     cylinders, goal = options["cylinders"] or 0, check_goal(options["realise"]) if options["realise"] else ""
     if out is not None:
         make_folder(out)
-    with progress(
-        STEPS + len(ripples) + bool(cylinders) + bool(goal) + bool(out) + 2 * options["peers"],
-        f"co-design of {case.name}",
-    ) as bar:
+    steps = STEPS + len(ripples) + bool(cylinders) + bool(goal) + bool(out) + 2 * options["peers"]
+    with progress(steps, f"co-design of {case.name}") as bar:
         found = design(case, settings, ripples, lambda: bar.update(1))
         if options["peers"]:
             found = compared(found, lambda: bar.update(1))
@@ -99,7 +82,7 @@ def codesign(case_name: str, out: Path | None, overrides: tuple[str, ...], as_js
 
             files = write(for_report(case, settings, found), numbers, report, out)
             bar.update(1)
-    emit(report, as_json, lambda: _text(numbers, found.peers, more), files=files, findings=found.view.findings())
+    emit(report, lambda: _text(numbers, found.peers, more), files=files, findings=found.view.findings())
     if not numbers.feasible:
         sys.exit(1)
 
@@ -109,36 +92,30 @@ def _settings(settings: "CoDesignSettings", options: dict[str, Any]) -> tuple["C
     import dataclasses
 
     from mechsym.errors import BadInput
+    from mechsym.quantities import parse
     from mechsym.quantities.ranges import values
 
-    changed: dict[str, Any] = {}
-    if options["speeds"] is not None:
-        changed["speeds"] = tuple(values(options["speeds"], "rad/s", "--speeds", "rpm", most=_MOST))
-    if options["loads"] is not None:
-        changed["loads"] = tuple(values(options["loads"], "-", "--loads", most=_MOST))
-    for name in ("curve", "springs", "schedule", "losses"):
-        if options[name] is not None:
-            changed[name] = options[name]
-    for name in ("ripple", "misfire_speed"):
-        if options[name] is not None:
-            changed[name] = _one(options[name], "--" + name.replace("_", "-"))
-    if options["robust"] is not None:
-        key, _, value = options["robust"].rpartition("=")
+    given = {name: value for name, value in options.items() if value is not None}
+    changed: dict[str, Any] = {
+        name: given[name] for name in ("curve", "springs", "schedule", "losses") if name in given
+    }
+    if "speeds" in given:
+        changed["speeds"] = tuple(values(given["speeds"], "rad/s", "--speeds", "rpm", most=_MOST))
+    if "loads" in given:
+        changed["loads"] = tuple(values(given["loads"], "-", "--loads", most=_MOST))
+    if "robust" in given:
+        key, _, given["robust"] = given["robust"].rpartition("=")
         if key not in ("", "spring.p0", "p0"):
             raise BadInput(f"--robust {options['robust']!r}: only spring.p0 can be made robust; write spring.p0=1%")
-        changed["robust"] = _one(value, "--robust")
-    if options["free"] is not None:
-        changed["free"] = tuple(name.strip() for name in options["free"].split(",") if name.strip())
-    ripples = values(options["pareto"], "-", "--pareto", most=_MOST) if options["pareto"] is not None else []
+    for name in ("ripple", "misfire_speed", "robust"):
+        if name in given:
+            changed[name] = parse(given[name].strip(), "-", "--" + name.replace("_", "-"))
+    if "free" in given:
+        changed["free"] = tuple(name.strip() for name in given["free"].split(",") if name.strip())
+    ripples = values(given["pareto"], "-", "--pareto", most=_MOST) if "pareto" in given else []
     if any(not 0 < r < 1 for r in ripples) or len(set(ripples)) < len(ripples):
         raise BadInput(f"--pareto {options['pareto']!r}: ripples between 0 and 1, each of them once, such as 1,2,5%")
     return dataclasses.replace(settings, **changed), ripples
-
-
-def _one(text: str, option: str) -> float:
-    from mechsym.quantities import parse
-
-    return parse(text.strip(), "-", option)
 
 
 def _percent(share: float | None) -> str | None:
@@ -185,12 +162,8 @@ def _text(numbers: "CoDesignNumbers", peers: "Sequence[Rival]", more: "Beside") 
         front = [tell(row) | {"status": "found" if row.status == "optimal" else row.status} for row in numbers.pareto]
         lines += ["", table(front, ["ripple", "flywheel_inertia", "status"], heads(type(numbers.pareto[0])))]
     if peers:
-        columns = ["name", "ripple", "flywheel_inertia", "about"]
-        lines += [
-            "",
-            "other machines at the same points",
-            table([tell(p) for p in peers], columns, heads(type(peers[0]))),
-        ]
+        rows, columns = [tell(p) for p in peers], ["name", "ripple", "flywheel_inertia", "about"]
+        lines += ["", "other machines at the same points", table(rows, columns, heads(type(peers[0])))]
     if more.cylinders is not None:
         counts = [tell(count) for count in more.cylinders]
         title = "flywheel of several cylinders that fire evenly, bare and with one spring (an estimate)"

@@ -1,5 +1,6 @@
 """Options and output that every command shares, and the ranges of a performance map."""
 
+import functools
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import asdict, replace
@@ -27,7 +28,7 @@ from mechsym.quantities.units import RadPerSecond
 # endings of files: a folder of such a name is a slip, and so is a file of another kind
 _ENDINGS = tuple(".csv .fmu .gz .html .json .nc .pdf .png .py .svg .tar .toml .txt .zip".split())
 _CASES, _ABOUT, DOUBTED, _RUN = "mechsym.cases", "mechsym.about", "mechsym.doubted", "mechsym.run"
-WITH_UNITS = "mechsym.with_units"  #: JSON of a command is {value, units}, for the workbench
+_JSON, WITH_UNITS = "mechsym.json", "mechsym.with_units"  #: with units JSON is {value, units}, for the workbench
 
 
 def tried(ctx: click.Context, param: click.Parameter, path: Path | None, endings: tuple[str, ...] = ()) -> Path | None:
@@ -58,34 +59,44 @@ def tried_run(ctx: click.Context, param: click.Parameter, path: Path | None) -> 
     return tried(ctx, param, path)
 
 
-json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON value to standard output.")
+json_option = click.option(
+    "--json", is_flag=True, expose_value=False, callback=lambda ctx, _, wanted: ctx.meta.update({_JSON: wanted}),
+    help="Print one JSON value to standard output.",
+)  # fmt: skip
+_FOLDER = click.Path(path_type=Path, file_okay=False)
 out_option = click.option(
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=_FOLDER,
     callback=tried_run,
     help="Folder for the files of the run and summary.json; made when missing.",
 )
-folder_option = click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False),
-    callback=tried,
-    help="Folder for files; made when missing.",
-)
+folder_option = click.option("--out", type=_FOLDER, callback=tried, help="Folder for files; made when missing.")
 set_option = click.option(
     "--set", "overrides", multiple=True, metavar="KEY=VALUE", help='Override a value, e.g. --set spring.p0="9.5 MPa".'
 )
-
-
-def _chosen(ctx: click.Context, param: click.Parameter, text: str | None) -> None:
-    from mechsym import budget
-
-    budget.choose(text or "")
-
-
+diagram_option = click.option(
+    "--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle."
+)
 budget_option = click.option(
-    "--budget", callback=_chosen, expose_value=False, metavar="TEXT",
-    help='What it may take, "10 min, 2 GB" without: what is forecast to take more does not begin.',
+    "--budget", callback=lambda ctx, _, text: load("mechsym.budget:choose")(text or ""), expose_value=False,
+    metavar="TEXT", help='What it may take, "10 min, 2 GB" without: what is forecast to take more does not begin.',
 )  # fmt: skip
+
+
+def case_command(short_help: str, *out: Callable[..., Any]) -> Callable[[Callable[..., None]], click.Command]:
+    """A command on one CASE, with --set and --json: its function gets the case as read, and what `out` brings."""
+
+    def command(function: Callable[..., None]) -> click.Command:
+        @functools.wraps(function)
+        def run(case: str, overrides: tuple[str, ...], **options: Any) -> None:
+            function(case_of(case, pairs(overrides)), **options)
+
+        given: Any = run
+        for option in (json_option, *out, set_option, click.argument("case")):
+            given = option(given)
+        return click.command(short_help=short_help)(given)
+
+    return command
 
 
 def file_option(usual: str, *endings: str) -> Callable[..., Any]:
@@ -165,7 +176,6 @@ def judge_ends(case: Case, key: str, values: Sequence[float]) -> None:
 
 def emit(
     value: object,
-    as_json: bool,
     text: Callable[[], str],
     *,
     beside: Mapping[str, object] | None = None,
@@ -203,22 +213,19 @@ def emit(
         lines = []
     missed = isinstance(told, Mapping) and told.get("target", {}).get("met") is False
     context.meta[DOUBTED] = bool(doubts) or missed
-    if as_json and context.meta.get(WITH_UNITS):
-        from mechsym.cli.results import units_by_path
+    if context.meta.get(_JSON):
+        if context.meta.get(WITH_UNITS):
+            from mechsym.cli.results import units_by_path
 
-        told = {"value": told, "units": units_by_path(value, context.info_name or "")}
-    if as_json:
+            told = {"value": told, "units": units_by_path(value, context.info_name or "")}
         click.echo(to_json(told))
-    else:
-        named = (f"written: {file}" for file in files)
-        click.echo("\n".join([*filter(None, [_headed(text(), first)]), *named, *lines]))
-
-
-def _headed(text: str, first: Sequence["Finding"]) -> str:
-    """A text behind what has to be known first; a text that begins with one of these keeps its first line."""
-    head, _, rest = text.partition("\n")
-    others = [one.line for one in first if one.words != head]
-    return "\n".join([*others, text] if len(others) == len(first) else [head, *others, rest])
+        return
+    said = text()  # it keeps its first line where that is one of what has to be known first
+    head, _, rest = said.partition("\n")
+    others = [one.line for one in first if one.words not in head]
+    said = "\n".join([*others, said] if len(others) == len(first) else [head, *others, rest])
+    named = (f"written: {file}" for file in files)
+    click.echo("\n".join([*filter(None, [said]), *named, *lines]))
 
 
 def _doubts(value: object) -> tuple[tuple[Doubt, ...], tuple[Doubt, ...]]:
@@ -282,14 +289,13 @@ def table(
     rows = [row | {c: key_words(row[c], WORDS) for c in named} for row in rows]
     headed = [heading(c, [row.get(c) for row in rows], unit=(units or {}).get(c)) for c in columns]
     shown = [column_text(values, digits) for _, values in headed]
-    cells = [[_column(name) for name, _ in headed], *([column[i] for column in shown] for i in range(len(rows)))]
+    names = []
+    for name, _ in headed:
+        stem, bracket, unit = name.partition(" [")
+        names.append(f"{key_words(stem) if '_' in stem else stem}{bracket}{unit}")
+    cells = [names, *([column[i] for column in shown] for i in range(len(rows)))]
     widths = [max(len(line[i]) for line in cells) for i in range(len(columns))]
     return "\n".join("  ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)).rstrip() for line in cells)
-
-
-def _column(name: str) -> str:
-    stem, bracket, unit = name.partition(" [")
-    return f"{key_words(stem) if '_' in stem else stem}{bracket}{unit}"
 
 
 def heads(rows: type) -> dict[str, str]:

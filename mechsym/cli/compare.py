@@ -5,34 +5,23 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import (
-    case_of,
-    emit,
-    json_option,
-    judge_ends,
-    out_option,
-    pairs,
-    parse_speeds,
-    set_option,
-    table,
-)
+from mechsym.cli import common
+from mechsym.cli.common import case_of, emit, judge_ends, pairs, parse_speeds, table
 from mechsym.files import Json
 from mechsym.quantities.display import key_words
 
 if TYPE_CHECKING:
-    from mechsym.cycle.compare import ComparedValue, EngineComparison
+    from mechsym.cycle.columns import EngineComparison
 
 
 @click.command(short_help="Two engines side by side over the speeds.")
 @click.argument("case_a", metavar="CASE")
 @click.argument("case_b", metavar="CASE")
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the first case's [speeds].")
-@json_option
-@out_option
-@set_option
-def compare(
-    case_a: str, case_b: str, speeds: str | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]
-) -> None:
+@common.json_option
+@common.out_option
+@common.set_option
+def compare(case_a: str, case_b: str, speeds: str | None, out: Path | None, overrides: tuple[str, ...]) -> None:
     """Two engines over the speeds: crossover of the mean torque, table, curves. --set acts on both.
 
     \b
@@ -41,7 +30,7 @@ def compare(
     import numpy as np
 
     from mechsym.cases.needs import SPEEDS, require
-    from mechsym.cycle.compare import compare as side_by_side
+    from mechsym.cycle.columns import compare as side_by_side
     from mechsym.cycle.engine import columns, over_speeds
     from mechsym.jobs.cycle import engine, speed_range
 
@@ -55,34 +44,27 @@ def compare(
     a, b = found.values() if len(found) == 2 else [*found.values()] * 2
     result = side_by_side(a, b, tuple(case.name for case in cases))
     files = _write(out, found, result) if out else []
-    emit(result, as_json, lambda: _text(result), files=files)
+    emit(result, lambda: _text(result), files=files)
 
 
 def _text(result: "EngineComparison") -> str:
-    a, b = result.cases
-    found = [f"{speed:.1f} rpm" for speed in result.numbers.crossover_rpm]
-    rows = [
-        vars(row)
-        | {"quantity": _words(row.quantity)}
-        | {"at rpm": _speeds(row), "b/a - 1 %": "-" if row.difference is None else f"{100 * row.difference:+.2f}"}
-        for row in result.numbers.table
-    ]
-    lines = [f"a = {a}, b = {b}", f"mean torque crosses at {', '.join(found) or 'no speed'}"]
-    return "\n".join([*lines, table(rows, ["quantity", "at rpm", "a", "b", "unit", "b/a - 1 %"])])
-
-
-def _words(quantity: str) -> str:
     from mechsym.cycle.columns import WORDS
 
-    name = quantity.removeprefix("largest ")
-    words = key_words(name, WORDS)
-    return words if name == quantity else f"highest {words.removeprefix('largest ')}"
-
-
-def _speeds(row: "ComparedValue") -> str:
-    if row.speed_rpm is None:
-        return " | ".join(f"{getattr(row, name):.0f}" for name in ("speed_a_rpm", "speed_b_rpm"))
-    return f"{row.speed_rpm:.0f}"
+    a, b = result.cases
+    crossings = [f"{speed:.1f} rpm" for speed in result.numbers.crossover_rpm]
+    rows = []
+    for row in result.numbers.table:
+        name = row.quantity.removeprefix("largest ")
+        words = key_words(name, WORDS)
+        at = [getattr(row, f"speed_{one}rpm", None) for one in ("", "a_", "b_")]
+        rows.append({
+            **vars(row),
+            "quantity": words if name == row.quantity else f"highest {words.removeprefix('largest ')}",
+            "at rpm": " | ".join(f"{speed:.0f}" for speed in at if speed is not None),
+            "b/a - 1 %": "-" if row.difference is None else f"{100 * row.difference:+.2f}",
+        })  # fmt: skip
+    lines = [f"a = {a}, b = {b}", f"mean torque crosses at {', '.join(crossings) or 'no speed'}"]
+    return "\n".join([*lines, table(rows, ["quantity", "at rpm", "a", "b", "unit", "b/a - 1 %"])])
 
 
 def _write(out: Path, found: Json, result: "EngineComparison") -> list[Path]:

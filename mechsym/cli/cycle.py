@@ -2,40 +2,31 @@
 
 import dataclasses
 import sys
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cli import cycle_pages as pages
-from mechsym.cli.common import (
-    case_of,
-    emit,
-    heads,
-    json_option,
-    judge_ends,
-    only_of,
-    out_option,
-    pairs,
-    parse_over,
-    parse_speeds,
-    progress,
-    set_option,
-)
-from mechsym.cycle.columns import UNITS
+from mechsym.cli import common
+from mechsym.cli.common import emit, heads, judge_ends, only_of, parse_over, parse_speeds, progress, table
+from mechsym.cycle.columns import AFTER_FRICTION, UNITS, WORDS
+from mechsym.cycle.source import BRAKE, IN_CYLINDER, INDICATED
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.quantities.results import tell
+from mechsym.quantities.display import figure, quantity_text, shown_in
+from mechsym.quantities.results import Columns, tell
 
 if TYPE_CHECKING:
-    import numpy as np
+    from mechsym.cycle.source import FiguresPage, GasSource
+    from mechsym.jobs.indicated import TorquePressure
+    from mechsym.jobs.measured import LagTold, MeasuredDiagram
+    from mechsym.simulate.loop.run import LoopNumbers
 
-    from mechsym.cycle.source import GasSource
 
-
-@click.command(short_help="Engine cycle at one or many speeds.")
-@click.argument("case")
+@common.case_command("Engine cycle at one or many speeds.", common.out_option)
 @click.option("--speeds", metavar="A:B:STEP", help="Speeds in rpm; without it the case's operating speed.")
 @click.option("--over", metavar="NAME=A:B:STEP", help="Run over another value of the engine, at one speed.")
 @click.option(
@@ -48,12 +39,8 @@ if TYPE_CHECKING:
 @click.option("--torque", type=click.Path(dir_okay=False), help="CSV of a measured crank torque: pressure from it.")
 @click.option("--noise", metavar="TORQUE", help="Standard deviation of each torque of --torque, such as '2 N*m'.")
 @click.option("--loop", type=click.FloatRange(0.5, 1000), help="Engine cycles to run with the mechanism in the loop.")
-@json_option
-@out_option
-@set_option
-def cycle(case: str, speeds: str | None, over: str | None, diagram: tuple[str, ...], motored: str | None,
-          torque: str | None, noise: str | None, loop: float | None, as_json: bool, out: Path | None,
-          overrides: tuple[str, ...]) -> None:  # fmt: skip
+def cycle(case: Case, speeds: str | None, over: str | None, diagram: tuple[str, ...], motored: str | None,
+          torque: str | None, noise: str | None, loop: float | None, out: Path | None) -> None:  # fmt: skip
     """Engine cycle of CASE: torque, power, consumption, energy shares, peak pressure.
 
     Torque and power are the engine's, all cylinders together; of several cylinders those of one stand beside them.
@@ -78,23 +65,22 @@ def cycle(case: str, speeds: str | None, over: str | None, diagram: tuple[str, .
     from mechsym.cases.needs import NO_FILE, require
     from mechsym.cycle.kinds import kind_of
 
-    loaded = case_of(case, pairs(overrides))
-    require(loaded, "cycle", NO_FILE if diagram else "")
+    require(case, "cycle", NO_FILE if diagram else "")
     if torque or noise:
         if speeds or over or diagram or motored or loop:
             raise BadInput("--torque stands alone: leave out --speeds, --over, --diagram, --motored and --loop")
-        _show_torque(loaded, torque, noise, as_json, out)
-    elif diagram or motored or kind_of(loaded.need("cycle")).measured:
-        _show_diagram(loaded, diagram, motored, as_json, out)
+        _show_torque(case, torque, noise, out)
+    elif diagram or motored or kind_of(case.need("cycle")).measured:
+        _show_diagram(case, diagram, motored, out)
     elif loop:
-        _show_loop(loaded, loop, as_json, out)
+        _show_loop(case, loop, out)
     else:
-        omega = parse_speeds(speeds) if speeds is not None else [loaded.need("operation").speed]
-        judge_ends(loaded, "operation.speed", omega)
-        _show_figures(loaded, omega, over, as_json, out)
+        omega = parse_speeds(speeds) if speeds is not None else [case.need("operation").speed]
+        judge_ends(case, "operation.speed", omega)
+        _show_figures(case, omega, over, out)
 
 
-def _show_torque(case: Case, file: str | None, noise: str | None, as_json: bool, out: Path | None) -> None:
+def _show_torque(case: Case, file: str | None, noise: str | None, out: Path | None) -> None:
     from mechsym.files import write_quantities
     from mechsym.forces.plots import pressure_picture
     from mechsym.jobs.indicated import indicated
@@ -109,10 +95,10 @@ def _show_torque(case: Case, file: str | None, noise: str | None, as_json: bool,
         write_quantities(out / "pressure.csv", result.pressure, result.pressure.units),
         pressure_picture(out / "pressure.svg", result.found, result.period),
     ] if out else []  # fmt: skip
-    emit(result, as_json, lambda: pages.torque(result), files=files)
+    emit(result, lambda: _torque(result), files=files)
 
 
-def _show_diagram(case: Case, diagram: tuple[str, ...], motored: str | None, as_json: bool, out: Path | None) -> None:
+def _show_diagram(case: Case, diagram: tuple[str, ...], motored: str | None, out: Path | None) -> None:
     from mechsym.files import write_quantities, write_text
     from mechsym.jobs.measured import MeasuredCycle, measured_combustion
 
@@ -126,10 +112,10 @@ def _show_diagram(case: Case, diagram: tuple[str, ...], motored: str | None, as_
 
         files = [write_quantities(out / "combustion.csv", columns, heads(MeasuredCycle)),
                  write_text(out / "combustion.html", combustion_html(case, result))]  # fmt: skip
-    emit(result, as_json, lambda: pages.diagram(result), files=files)
+    emit(result, lambda: _diagram(result), files=files)
 
 
-def _show_loop(case: Case, cycles: float, as_json: bool, out: Path | None) -> None:
+def _show_loop(case: Case, cycles: float, out: Path | None) -> None:
     from mechsym.cases.outcomes import of_limits
     from mechsym.files import write_quantities
     from mechsym.jobs.run import loop
@@ -140,14 +126,14 @@ def _show_loop(case: Case, cycles: float, as_json: bool, out: Path | None) -> No
     result = summary(machine, run)
     files = [write_quantities(out / "loop.csv", series(machine, run))] if out else []
     told = tell(result)
-    emit(told | {"doubts": of_limits(case, told)}, as_json, lambda: pages.loop(result), files=files)
+    emit(told | {"doubts": of_limits(case, told)}, lambda: _loop(result), files=files)
     if result.status != "done":
         sys.exit(1)
 
 
-def _show_figures(case: Case, omega: list[float], over: str | None, as_json: bool, out: Path | None) -> None:
+def _show_figures(case: Case, omega: list[float], over: str | None, out: Path | None) -> None:
     from mechsym.cases.outcomes import of_cycle
-    from mechsym.cycle.cylinder import ENGINE_PAGE
+    from mechsym.cycle.source import ENGINE_PAGE
     from mechsym.jobs.cycle import cycle
     from mechsym.jobs.gas import one_cylinder
     from mechsym.jobs.gas import source as source_of
@@ -158,13 +144,13 @@ def _show_figures(case: Case, omega: list[float], over: str | None, as_json: boo
         found, units = _over(case, omega, over)
     else:
         with progress(len(omega), "cycles") as bar:
-            found = cycle(case, _array(omega), bar.update)
+            found = cycle(case, np.asarray(omega), bar.update)
     source = source_of(one_cylinder(case)) if over else found.source
     files = _write(case, source, found, omega, out) if out else []
     page, units = source.page if source is not None else ENGINE_PAGE, {**UNITS, **units}
-    doubts = () if over else of_cycle(case, found, source_of(case).bound)
-    emit(found | {"doubts": doubts}, as_json, lambda: pages.figures(found, page, units), files=files,
-         findings=() if over else found.view.findings())  # fmt: skip
+    beside = {"doubts": () if over else of_cycle(case, found, source_of(case).bound)}
+    first = () if over else found.view.findings()
+    emit(found, lambda: _figures(found, page, units), beside=beside, files=files, findings=first)
 
 
 def _over(case: Case, omega: list[float], over: str) -> tuple[Json, dict[str, str]]:
@@ -173,7 +159,7 @@ def _over(case: Case, omega: list[float], over: str) -> tuple[Json, dict[str, st
     from mechsym.cycle.kinds import kind_of
     from mechsym.jobs.cycle import cylinders, engine, of_engine
     from mechsym.jobs.gas import one_cylinder
-    from mechsym.optimise.problem import design_units
+    from mechsym.optimise.solver import design_units
 
     cylinders(case)  # what is wrong with them is said before the work begins
     if not kind_of(case.need("cycle")).closed:
@@ -184,16 +170,10 @@ def _over(case: Case, omega: list[float], over: str) -> tuple[Json, dict[str, st
     units = design_units(machine)
     name, values = parse_over(over, units)
     judge_ends(case, name, values)
-    design = {"omega": _array(omega), name: _array(values)}
+    design = {"omega": np.asarray(omega), name: np.asarray(values)}
     with progress(len(values), "cycles") as bar:
         found = columns(over_design(machine, design, bar.update))
     return of_engine(case, {name: design[name]} | found, None), units
-
-
-def _array(values: list[float]) -> "np.ndarray":
-    import numpy as np
-
-    return np.asarray(values)
 
 
 def _write(case: Case, source: "GasSource | None", found: Json, omega: list[float], out: Path) -> list[Path]:
@@ -211,8 +191,161 @@ def _write(case: Case, source: "GasSource | None", found: Json, omega: list[floa
     files = [write_quantities(out / "performance.csv", flat, units)]
     for name, one in found.get("pistons", {}).items():
         files.append(write_quantities(out / f"performance-{name}.csv", {"speed_rpm": found["speed_rpm"], **one}, UNITS))
-    if source is not None and (curves := source.curves(_array(omega), case.need("operation").speed)):
+    if source is not None and (curves := source.curves(np.asarray(omega), case.need("operation").speed)):
         files += [write_quantities(out / "cycle.csv", curves), source.picture(out / "cycle.svg", curves)]
     if "losses" not in found and len(set(flat["speed_rpm"])) > 1:
         files.append(performance_picture(out / "performance.svg", {"": found}))
     return files
+
+
+_ROWS = 16  # of a curve, shown on the terminal
+_CYCLES = 12  # of a run
+_POINTS = 20  # of speeds
+_ONE = ("speed_rpm", "brake_power_kw", "brake_torque", "power_kw", "torque_avg", "torque_max")
+_PEAKS = ("brake_torque", "brake_power_kw", "torque_avg", "power_kw", "torque_max", "p_max_mpa")
+_SCAVENGED = ("speed_rpm", "p_in_kpa", "t_in_k", "p_out_kpa", "t_turbine_k", "t_evc_k", "delivery_ratio",
+              "residual_gas", "air_kg_h")  # fmt: skip
+_PISTON = (*BRAKE, *INDICATED[1:], *IN_CYLINDER[1:])
+_NO_FRICTION = "indicated only: the case has no law of friction, so that nothing is known at the shaft"
+
+
+def _figures(found: Json, page: "FiguresPage", units: Mapping[str, str]) -> str:
+    """Figures over the speeds, or over another value whose name has a dot; nothing is said twice."""
+    count = len(found["speed_rpm"])
+    every, words = max(1, -(-count // _POINTS)), {**WORDS, **page.words}
+    rubs = bool(np.any(found.get("friction_mep_kpa", 0.0)))
+    unsaid = {name for name in found if not rubs and name in AFTER_FRICTION}
+    if not np.any(found.get("pumping_mep_kpa", 0.0)):
+        unsaid |= {"pumping_mep_kpa", "gross_mep_kpa"}
+
+    def block(title: str, names: Iterable[str], columns: Json = found) -> list[str]:
+        known = [name for name in names if name in columns and name not in unsaid]
+        if set(known) <= {"speed_rpm", *over}:
+            return []
+        heads = {words.get(name, name): units.get(name, "-") for name in known}  # losses have theirs in the title
+        rows = [{words.get(name, name): float(columns[name][i]) for name in known} for i in range(0, count, every)]
+        shown = {head: unit for head, unit in heads.items() if unit != "-"}
+        return [*([title] if title else []), table(rows, list(heads), shown), ""]
+
+    over = [name for name in found if "." in name]
+    lines = []
+    if found.get("per_cylinder") and found["cylinders"] > 1:
+        lines.append(f"engine of {found['cylinders']} {found['each']}s")
+    for title, names in page.tables:
+        lines += block(title, [*over, *names])
+    beside: dict[str, tuple[tuple[str, ...], Json]] = {
+        f"piston {name}": (_PISTON, one) for name, one in found.get("pistons", {}).items()
+    }
+    if found.get("per_cylinder") and found["cylinders"] > 1:
+        beside[f"one {found['each']}"] = _ONE, found["per_cylinder"]
+    for title, (names, one) in beside.items():
+        lines += block(title, names, {"speed_rpm": found["speed_rpm"], **one})
+    if found.get("losses"):
+        lines += block("lost [W]: work, and heat past the cycle", found["losses"], found["losses"])
+    lines.pop()
+    if every > 1:
+        lines.append(f"{-(-count // every)} of {count} points shown; all with --json or --out")
+    if page.peaks and count > 1 and not over:
+        for name in (name for name in _PEAKS if name in found and name not in unsaid):
+            at = int(found[name].argmax())
+            value = quantity_text(float(found[name][at]), units[name])
+            words_of = WORDS[name].removeprefix("largest ")
+            lines.append(f"largest {words_of} {value} at {found['speed_rpm'][at]:.0f} rpm")
+    if page.peaks and "delivery_ratio" in found:
+        lines += ["", *block("turbocharger and scavenging", _SCAVENGED)[:-1]]
+    return "\n".join([*lines, "", *([] if rubs or not page.peaks else [_NO_FRICTION]), page.closing(found)])
+
+
+def _diagram(result: "MeasuredDiagram") -> str:
+    """Combustion out of measured pressure, cycle by cycle."""
+    from mechsym.cycle.measured.shown import figure_cards
+    from mechsym.jobs.measured import MeasuredCycle, RecordAmongOthers
+
+    weak = ", ".join(map(str, result.weak_cycles)) or "none"
+    answer = [f"{card.name}: {card.value}" + (f" ({card.about})" if card.about else "")
+              for card in figure_cards(result.figures)]  # fmt: skip
+    beside = []
+    for row in tell(result.records):
+        low, high = row.pop("imep_interval_bar")
+        cells = list((row | {"file": Path(row["file"]).name}).items())
+        at = list(row).index("imep_bar") + 1
+        beside.append(dict([*cells[:at], ("95 %", f"{low:.3g} to {high:.3g}"), *cells[at:]]))
+    centre = result.dead_centre
+    known = f"{centre.deg:.2f} deg as given"
+    if centre.interval_deg[0] != centre.interval_deg[1]:
+        ends = " to ".join(f"{end:.2f}" for end in centre.interval_deg)
+        assumed = f"{100 * (centre.prior_share or 0.0):.0f} % of its variance assumed, not measured"
+        known = f"{centre.deg:.2f} deg by {centre.method}, 95 %: {ends} ({assumed})"
+    work, heat = (100 * (share or 0.0) for share in (result.per_degree.work, result.per_degree.heat))
+    rows = tell(result.cycles)
+    lines = [
+        *answer,
+        f"exponents {result.n_compression:.3f} (compression), {result.n_expansion:.3f} (expansion); "
+        f"{result.speed_rpm:.0f} rpm",
+        "",
+        *([table(beside, list(beside[0]), heads(RecordAmongOthers)), ""] if beside else []),
+        table(rows, list(rows[0]), heads(MeasuredCycle)),
+        result.read_and_used,
+        f"nearly misfired (less than 0.7 of the median work): cycle {weak}",
+        f"trapped mass {result.trapped_mass:.4g} kg",
+        f"dead centre {known}; one degree later changes work by {work:+.2f} % and heat by {heat:+.2f} %",
+    ]
+    fits = {name: getattr(result, name) for name in ("wiebe", "double_wiebe", "compression_line")}
+    fitted = (f"{name.replace('_', ' ')}: {_fitted(fit)}" for name, fit in fits.items() if fit)
+    return "\n".join([*lines, *_lag(result.lag), *fitted])
+
+
+def _lag(lag: "LagTold | None") -> list[str]:
+    if lag is None:
+        return []
+    (low, high), (slow, fast) = (1e3 * end for end in lag.interval_seconds), lag.speeds_rpm
+    says = f"sensor's lag by cycles of {slow:.0f} to {fast:.0f} rpm: 95 %: {low:.3f} to {high:.3f} ms"
+    if not lag.told:
+        usual = " to ".join(f"{1e3 * end:g}" for end in lag.usual_seconds)
+        return [f"{says}, wider than what is usual of any sensor ({usual} ms): the dead centre holds the lag"]
+    if lag.dead_centre_deg is None:
+        return [says]
+    ends = " to ".join(f"{end:.2f}" for end in lag.dead_centre_interval_deg or ())
+    return [f"{says}; dead centre without it {lag.dead_centre_deg:.2f} deg, 95 %: {ends}"]
+
+
+def _fitted(fit: Columns) -> str:
+    words = []
+    for name, known in fit.items():
+        if isinstance(known, Mapping):
+            (value, half), unit = shown_in([known["value"], known["confidence"]], fit.units[name])
+            low, high = figure(value - half, 3), figure(value + half, 3)
+            words.append(
+                f"{name.replace('_', ' ')} {figure(value, 3)} {unit}".removesuffix(" -") + f" ({low} to {high})"
+            )
+    return ", ".join(words)
+
+
+def _torque(result: "TorquePressure") -> str:
+    """Cylinder pressure out of a measured torque on the shaft."""
+    low, high = (quantity_text(end, "J", 4) for end in result.work_interval_j)
+    blind = ", ".join(f"{a:.4g}" if a == b else f"{a:.4g} to {b:.4g}" for a, b in result.gaps_deg)
+    pressure, every = result.pressure, max(1, -(-result.told // _ROWS))
+    rows = [{name: float(values[i]) for name, values in pressure.items()} for i in range(0, result.told, every)]
+    return "\n".join([
+        f"{result.case} at {result.speed_rpm:.6g} rpm: pressure at {result.told} of {result.samples} angles",
+        table(rows, list(pressure), pressure.units),
+        f"{len(rows)} of {result.told} angles shown; all with --json or --out",
+        f"work of the gas {quantity_text(result.work_j, 'J', 4)}, 95 %: {low} to {high}",
+        f"not told, as the piston hardly moves there: {blind or 'nowhere'} [deg]",
+        "low and high: 95 % of each value by itself, from the noise of the torque alone; friction counts as gas",
+    ])  # fmt: skip
+
+
+def _loop(result: "LoopNumbers") -> str:
+    """The cycle and the mechanism's motion integrated together."""
+    ripple = "-" if result.speed_ripple is None else f"{result.speed_ripple:.4g}"
+    lines = [
+        f"{result.status}: {result.reason}",
+        f"last two turns: {result.speed_mean_rpm:.2f} rpm, ripple {ripple}, "
+        f"from {result.speed_min_rpm:.2f} to {result.speed_max_rpm:.2f} rpm",
+    ]
+    if rows := tell(result.cycles):
+        units = heads(type(result.cycles[0])) | {"energy_residual": "-", "knock": "-"}
+        lines.append(table(rows[-_CYCLES:], list(rows[0]), units))
+    return "\n".join([*lines, f"energy of the motion closed to {abs(result.energy_residual):.1g} of the gas work"])

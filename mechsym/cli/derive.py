@@ -15,11 +15,12 @@ from mechsym.files import Json
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the code is not what the derivations give.")
 @click.option("--show", is_flag=True, help="Print the code of mechanisms of your own.")
 @click.option("--explain", is_flag=True, help="Print how the loops of your own mechanisms close, write nothing.")
+@click.option("--draw", is_flag=True, help="Draw your own mechanisms in their pose as NAME.svg, in --out or here.")
 @click.option("--latex", is_flag=True, help="Print the equations as LaTeX and write nothing.")
 @folder_option
 @json_option
 def derive(
-    names: tuple[str, ...], check: bool, show: bool, explain: bool, latex: bool, out: Path | None, as_json: bool
+    names: tuple[str, ...], check: bool, show: bool, explain: bool, draw: bool, latex: bool, out: Path | None
 ) -> None:
     """Regenerate generated/ from derivations/, or derive a mechanism of your own from its file.
 
@@ -31,46 +32,72 @@ def derive(
               mechsym derive ./scotch.py --explain
               mechsym derive crosshead --latex
     """
+    from mechsym.derive import build
     from mechsym.mechanisms import own
+    from mechsym.mechanisms.equations import equations
 
     files = [name for name in names if own.is_file(name)]
-    given = {"--latex": latex, "--explain": explain, "--show": show, "--check": check, "--out": out}
+    given = {"--latex": latex, "--explain": explain, "--draw": draw, "--show": show, "--check": check, "--out": out}
     first, *others = [option for option, value in given.items() if value] or [""]
-    if first in ("--latex", "--explain") and others:
+    others = [option for option in others if (first, option) != ("--draw", "--out")]
+    if first in ("--latex", "--explain", "--draw") and others:
         raise BadInput(f"{others[0]} does nothing beside {first}; leave one of them out")
-    if not files and (idle := [option for option in ("--explain", "--show", "--out") if given[option]]):
+    if not files and (idle := [option for option in ("--explain", "--draw", "--show", "--out") if given[option]]):
         raise BadInput(f"{idle[0]} is for a mechanism of your own: name its FILE.py, or leave {idle[0]} out")
     if latex:
-        _latex(names, as_json)
+        found_equations = [equations(name) for name in names or tuple(build.scripts())]
+        text = "\n\n".join(f"% {one.name}\n{one.latex}" for one in found_equations)
+        emit({"latex": {one.name: one.rows for one in found_equations}}, lambda: text)
         return
     if explain:
         steps = {name: own.explained(name) for name in files}
-        emit({"closing": steps}, as_json, lambda: "\n".join(line for lines in steps.values() for line in lines))
+        emit({"closing": steps}, lambda: "\n".join(line for lines in steps.values() for line in lines))
         return
-    found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": []}
+    if draw:
+        pictures = [str(_drawn(name, out or Path())) for name in files]
+        emit({"written": pictures}, lambda: "", files=pictures)
+        return
+    found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": [], "redundant": []}
     if not files or len(files) < len(names):
         built_in = _built_in(tuple(name for name in names if name not in files), check)
-        found = {k: v | built_in[k] if isinstance(v, dict) else v + built_in[k] for k, v in found.items()}
+        found |= {k: v | found[k] if isinstance(v, dict) else found[k] + v for k, v in built_in.items()}
     shown = {"code": found["code"]} if show else {}
+    shown |= {"redundant": found["redundant"]} if found["redundant"] else {}
     report = {"written": found["written"], "differs": sorted(found["differs"]), **shown}
-    emit(report, as_json, lambda: _text(found, check, show), files=[] if check or show else found["written"])
+    emit(report, lambda: _text(found, check, show), files=[] if check or show else found["written"])
     if found["differs"]:
         sys.exit(1)
 
 
-def _latex(names: tuple[str, ...], as_json: bool) -> None:
-    from mechsym.derive import build
-    from mechsym.mechanisms.equations import equations
+def _drawn(name: str, folder: Path) -> Path:
+    """A mechanism in its pose, with the paths of its watched points where it turns round."""
+    from mechsym.files import write_text
+    from mechsym.mechanisms import constraints, own
+    from mechsym.mechanisms.drawing import declared
+    from mechsym.mechanisms.drawn_parts import turns_round
+    from mechsym.mechanisms.plots import figure_of
+    from mechsym.mechanisms.record import bind
+    from mechsym.style import svg
 
-    found = [equations(name) for name in names or tuple(build.scripts())]
-    rows = {one.name: one.rows for one in found}
-    emit({"latex": rows}, as_json, lambda: "\n\n".join(f"% {one.name}\n{one.latex}" for one in found))
+    said = own.load(name).listing
+    sizes, pose = said.get("ranges", {}), said.get("pose", {})
+    if unsaid := [p for p in said["parameters"] if "default" not in sizes.get(p, {})]:
+        why = f"a drawing needs sizes, and {', '.join(unsaid)} have no value in the file"
+        raise BadInput(f"{name}: {why}; give them a default=, or write the report of a case")
+    mechanism = bind(name, {p: float(sizes[p]["default"]) for p in said["parameters"]})
+    places = constraints.close(mechanism, pose) if mechanism.dependents else pose
+    at = [float(places.get(q, 0.0)) for q in mechanism.coordinates]
+    turning = declared(mechanism, said)
+    drawn = turning if turning and turns_round(turning) else declared(mechanism, said, lambda _: at)
+    if drawn is None:
+        raise BadInput(f"{name} has nothing to draw; give it links and joints, or m.draw_line")
+    return write_text(folder / f"{said['name']}.svg", svg(figure_of(drawn, at[0]), said["name"]))
 
 
 def _files(names: list[str], check: bool, out: Path | None) -> Json:
     from mechsym.mechanisms import own
 
-    found: Json = {"written": [], "differs": {}, "code": []}
+    found: Json = {"written": [], "differs": {}, "code": [], "redundant": []}
     with progress(len(names), "deriving") as bar:
         for name in names:
             if check:
@@ -79,6 +106,7 @@ def _files(names: list[str], check: bool, out: Path | None) -> Json:
                 mechanism = own.load(name)
                 found["code"].append(mechanism.code)
                 found["written"] += [str(p) for p in own.write(mechanism, out)]
+                found["redundant"] += mechanism.listing.get("redundant", [])
             bar.update(1)
     return found
 
@@ -105,12 +133,10 @@ def _built_in(names: tuple[str, ...], check: bool) -> Json:
 
 def _text(found: Json, check: bool, show: bool) -> str:
     if found["differs"]:
-        way_out = (
-            "the code is not what the derivations give: run `make derive` (or `mechsym derive FILE.py`) and commit"
-        )
-        return "\n".join([*found["differs"].values(), way_out])
+        way = "the code is not what the derivations give: run `make derive` (or `mechsym derive FILE.py`) and commit"
+        return "\n".join([*found["differs"].values(), way])
     if check:
         return "the code is what the derivations give"
     if show:
         return "\n".join(found["code"])
-    return "" if found["written"] else "nothing to write: generated/ is up to date"
+    return "\n".join(found["redundant"]) if found["written"] else "nothing to write: generated/ is up to date"

@@ -25,7 +25,7 @@ _ROUND_OFF = 1e-14  # what trigonometry leaves of a zero, by the largest value w
 @click.option("--latex", is_flag=True, help="Print the equations as LaTeX instead of a state.")
 @set_option
 @json_option
-def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str, ...], as_json: bool) -> None:
+def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str, ...]) -> None:
     """Evaluate a mechanism at one state; names are parameters, coordinates, velocities and inputs.
 
     What is not set is 0. mass_matrix * qdd + bias = generalized_force. An acceleration that is set (phidd=3) asks for
@@ -41,22 +41,30 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
     if latex:
         from mechsym.mechanisms.equations import equations
 
-        emit({"latex": equations(name).rows}, as_json, lambda: equations(name).latex)
+        emit({"latex": equations(name).rows}, lambda: equations(name).latex)
         return
     mechanism, values, doubts = _read(name, case_name, pairs(overrides))
     known = mechanisms.listing(name, mechanism)
     found = state(mechanism, values, known["outputs"])
-    emit(found, as_json, lambda: "\n".join(_lines(found, known)), beside={"doubts": doubts})
+    redundant = known.get("redundant", [])
+    beside = {"doubts": doubts, **({"redundant": redundant} if redundant else {})}
+    emit(found, lambda: "\n".join([*_lines(found, known), *redundant]), beside=beside)
 
 
 def _read(
     name: str, case_name: str | None, given: dict[str, str]
 ) -> tuple["Mechanism", dict[str, float], tuple["Doubt", ...]]:
-    from mechsym import mechanisms
+    from mechsym import cases, mechanisms
     from mechsym.plausible import letters as doubted
     from mechsym.quantities import parse
 
-    cls, parameters = mechanisms.parameters_class(name), _case_parameters(name, case_name)
+    cls, parameters = mechanisms.parameters_class(name), {}
+    if case_name is not None:
+        case = cases.load(case_name)
+        own = case.need("parameters")
+        if not isinstance(own, cls):
+            raise BadInput(f"{case.file} is a case of {case.mechanism}, not of {name}; choose another with --case")
+        parameters = dataclasses.asdict(own)
     letters = mechanisms.listing(name)["parameters"]
     parameters |= {k: parse(t, letters[k], f"--set {k}") for k, t in given.items() if k in letters}
     fields = dataclasses.fields(cls)
@@ -76,20 +84,6 @@ def _read(
     told = {**{k: (v, letters[k]) for k, v in parameters.items() if isinstance(v, float)},
             **{k: (v, units[k]) for k, v in values.items()}}  # fmt: skip
     return mechanism, values, doubted(told)
-
-
-def _case_parameters(name: str, case_name: str | None) -> dict[str, float]:
-    from mechsym import cases
-
-    if case_name is None:
-        return {}
-    case = cases.load(case_name)
-    from mechsym.mechanisms import parameters_class
-
-    parameters = case.need("parameters")
-    if not isinstance(parameters, parameters_class(name)):
-        raise BadInput(f"{case.file} is a case of {case.mechanism}, not of {name}; choose another with --case")
-    return dataclasses.asdict(parameters)
 
 
 def _lines(state: "MechanismState", listing: "Listing") -> list[str]:

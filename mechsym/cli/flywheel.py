@@ -1,29 +1,22 @@
 """`mechsym flywheel`: the flywheel for a wanted ripple of the speed, and the run that proves it."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, set_option
+from mechsym.cases import Case
+from mechsym.cli.common import case_command, emit, out_option
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
 from mechsym.quantities.results import tell
 
-if TYPE_CHECKING:
-    from mechsym.jobs.flywheel import FlywheelDesign
 
-
-@click.command(short_help="Flywheel for a wanted ripple of the speed.")
-@click.argument("case")
+@case_command("Flywheel for a wanted ripple of the speed.", out_option)
 @click.option(
     "--ripple", default="2%", show_default=True, metavar="SHARE", help="Wanted (max - min)/mean of the speed."
 )
-@json_option
-@out_option
-@set_option
-def flywheel(case: str, ripple: str, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+def flywheel(case: Case, ripple: str, out: Path | None) -> None:
     """Size the flywheel of CASE for a wanted ripple, for its cycle, load and cylinders, and run it in time.
 
     The shaft is rigid. Inertia is what must be added to the case. Exit status 1 when no flywheel does it.
@@ -32,23 +25,24 @@ def flywheel(case: str, ripple: str, as_json: bool, out: Path | None, overrides:
     Examples: mechsym flywheel zotov-89 --ripple 2%
               mechsym flywheel opposed-pistons --ripple 0.005 --set load.law=constant
     """
+    import numpy as np
+
+    from mechsym.files import write_quantities
     from mechsym.jobs.flywheel import flywheel as size
-
-    found = size(case_of(case, pairs(overrides)), _share(ripple))
-    files = _write(out, found) if out else []
-    result = tell(found)
-    emit(found, as_json, lambda: _text(result), files=files, findings=found.findings)
-    if found.inertia is None:
-        raise click.exceptions.Exit(1)
-
-
-def _share(text: str) -> float:
     from mechsym.quantities import parse
 
-    value = parse(text, "-", "--ripple")
-    if not 1e-6 <= value < 1:
-        raise BadInput(f"--ripple = {text}: give a share from 1e-6 to below 1, such as 0.02 or 2%")
-    return value
+    share = parse(ripple, "-", "--ripple")
+    if not 1e-6 <= share < 1:
+        raise BadInput(f"--ripple = {ripple}: give a share from 1e-6 to below 1, such as 0.02 or 2%")
+    found = size(case, share)
+    files = []
+    if out:
+        columns = {"phi_deg": np.degrees(found.steady.phi), "omega_rad_s": found.steady.omega}
+        files = [write_quantities(out / "flywheel.csv", columns)]
+    result = tell(found)
+    emit(found, lambda: _text(result), files=files, findings=found.findings)
+    if found.inertia is None:
+        raise click.exceptions.Exit(1)
 
 
 def _text(result: Json) -> str:
@@ -71,12 +65,3 @@ def _text(result: Json) -> str:
         residual = ratio_text(check["energy_residual"], 1)
         lines.append(f"run in time: ripple {100 * check['speed_ripple']:.5g} %, energy residual {residual}")
     return "\n".join(lines)
-
-
-def _write(out: Path, found: "FlywheelDesign") -> list[Path]:
-    import numpy as np
-
-    from mechsym.files import write_quantities
-
-    columns = {"phi_deg": np.degrees(found.steady.phi), "omega_rad_s": found.steady.omega}
-    return [write_quantities(out / "flywheel.csv", columns)]

@@ -1,30 +1,21 @@
 """`mechsym forces`: the force chain over one cycle."""
 
 import re
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import (
-    case_of,
-    emit,
-    heads,
-    in_rows,
-    json_option,
-    out_option,
-    pairs,
-    parse_speeds,
-    set_option,
-    table,
-)
+from mechsym.cases import Case
+from mechsym.cli import common
+from mechsym.cli.common import emit, heads, in_rows, parse_speeds, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
-    from mechsym.cases import Case
     from mechsym.forces.driven import DrivenNumbers
     from mechsym.forces.result import Forces
 
@@ -33,25 +24,11 @@ _SPLITS = {"two_mass": "its centre of mass kept", "terskih": "after Terskih"}
 _LETTERS = {"N": "side force", "Z": "force towards the shaft", "T": "tangential force", "M": "torque"}
 
 
-@click.command(short_help="Force chain over one cycle at constant speed.")
-@click.argument("case")
-@click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle.")
+@common.case_command("Force chain over one cycle at constant speed.", common.out_option)
+@common.diagram_option
 @click.option("--comparison", is_flag=True, help="Put slider crank, hypocycloid and rodless side by side.")
 @click.option("--law", metavar="A:B:STEP", help="Fit the friction over these speeds (rpm) for [friction_pressure].")
-@set_option
-@out_option
-@json_option
-@click.pass_context
-def forces(
-    ctx: click.Context,
-    case: str,
-    diagram: str | None,
-    comparison: bool,
-    law: str | None,
-    overrides: tuple[str, ...],
-    out: Path | None,
-    as_json: bool,
-) -> None:
+def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, out: Path | None) -> None:
     """Forces of CASE over one cycle at constant speed: pins, bearings, guides, teeth, shaking, friction.
 
     With [motion] in the case: driving forces, reactions and power over time, of any coordinates that it drives.
@@ -68,31 +45,29 @@ def forces(
     from mechsym.jobs.forces import told, write
     from mechsym.jobs.gas import measured
     from mechsym.page import ranked
-    from mechsym.torsion import train
+    from mechsym.torsion import twist
     from mechsym.torsion.shown import criticals
 
-    loaded = case_of(case, pairs(overrides))
-    if "motion" in loaded.sections:
-        if unused := [
-            option for option, value in (("--diagram", diagram), ("--comparison", comparison), ("--law", law)) if value
-        ]:
+    if "motion" in case.sections:
+        others = {"--diagram": diagram, "--comparison": comparison, "--law": law}
+        if unused := [option for option, value in others.items() if value]:
             raise BadInput(f"{unused[0]}: is for a turn at constant speed; leave it, or [motion], out")
-        return _motion(loaded, out, as_json)
-    loaded = loaded if diagram is None else measured(loaded, diagram)
-    found = run(loaded, comparison)
-    numbers = told(loaded, found, parse_speeds(law, "--law") if law else None)
+        return _motion(case, out)
+    case = case if diagram is None else measured(case, diagram)
+    found = run(case, comparison)
+    numbers = told(case, found, parse_speeds(law, "--law") if law else None)
     report = tell(numbers)
-    doubts = of_forces(loaded, found) + (train.doubts(numbers.vibration) if numbers.vibration else ())
+    doubts = of_forces(case, found) + (twist.doubts(numbers.vibration) if numbers.vibration else ())
     report["doubts"] = doubts
     findings = ranked([*found.view.findings(), *criticals(numbers.vibration)])
-    report["files"] = [] if out is None else [str(file) for file in write(loaded, found, report, out, findings)]
-    beside = {"doubts": doubts, "files": report["files"]}
-    said = {one.words for one in findings}
-    emit(numbers, as_json, lambda: _text(report, found, said), beside=beside, files=report["files"], findings=findings)
-    ctx.exit(1 if found.unbalanced else 0)
+    report["files"] = files = [] if out is None else [str(file) for file in write(case, found, report, out, findings)]
+    said, beside = {one.words for one in findings}, {"doubts": doubts, "files": files}
+    emit(numbers, lambda: _text(report, found, said), beside=beside, files=files, findings=findings)
+    if found.unbalanced:
+        sys.exit(1)
 
 
-def _motion(case: "Case", out: Path | None, as_json: bool) -> None:
+def _motion(case: Case, out: Path | None) -> None:
     from mechsym.cases.outcomes import of_motion
     from mechsym.forces.driven import numbers
     from mechsym.jobs.forces import motion, write_motion
@@ -101,15 +76,16 @@ def _motion(case: "Case", out: Path | None, as_json: bool) -> None:
     told = numbers(found, case.name)
     files = [] if out is None else [str(file) for file in write_motion(found, tell(told), out)]
     beside = {"doubts": of_motion(case, found), "files": files}
-    emit(told, as_json, lambda: _over_time(told), beside=beside, files=files)
+    emit(told, lambda: _over_time(told), beside=beside, files=files)
 
 
 def _over_time(report: "DrivenNumbers") -> str:
     units, slopes = report.max.units, re.compile(r"d2?\w+_d\w+")
     rows = [
         {"quantity": name, "max": high, "min": report.min[name], "unit": units[name]}
-        for name, high in report.max.items() if not slopes.fullmatch(name)
-    ]  # fmt: skip
+        for name, high in report.max.items()
+        if not slopes.fullmatch(name)
+    ]
     free = f"; {', '.join(report.free)} free" if report.free else ""
     lines = [f"{report.case}: {', '.join(report.driven)} driven{free}, {report.t_end:.6g} s", ""]
     lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit"], named=["quantity"]))
@@ -120,14 +96,14 @@ def _over_time(report: "DrivenNumbers") -> str:
 
 def _text(report: Json, found: "Forces", said: set[str]) -> str:
     from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+    from mechsym.forces.shown import borne
+    from mechsym.papers.sources import sources
 
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm", ""]
-    lines += [
-        _loads(found),
-        "",
-        *_journals(report["journals"]),
-        f"power residual {ratio_text(report['power_residual'])}",
-    ]
+    rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(found)]
+    columns = ["quantity", *(["of"] if any(row["of"] for row in rows) else []), "max", "min", "unit", "on"]
+    lines += [table(in_rows(rows, ("max", "min")), columns, named=["quantity"]), "", *_journals(report["journals"])]
+    lines.append(f"power residual {ratio_text(report['power_residual'])}")
     if report["shaking"] is not None:
         lines.append(_shaking(report["shaking"]["counterweight"], max(abs(v) for v in report["max"].values())))
     for name, errors in (report["two_mass"] or {}).items():
@@ -140,7 +116,9 @@ def _text(report: Json, found: "Forces", said: set[str]) -> str:
         shown = ["mechanism", "side_force_max", "crank_pin_max", "friction_per_piston", "mechanical_efficiency"]
         lines += ["", table(report["comparison"], shown, heads(ComparedMechanism) | heads(ComparedFriction))]
     lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith(_SHOWN) and fact not in said]
-    lines += [f"{row['verdict']}: {row['claim']} ({_named(row['source'])}); {row['note']}" for row in report["claims"]]
+    for row in report["claims"]:
+        authors = sources(row["source"])[0].title.partition(",")[0]
+        lines.append(f"{row['verdict']}: {row['claim']} ({authors}); {row['note']}")
     return "\n".join(lines)
 
 
@@ -154,14 +132,6 @@ def _shaking(weight: Json, largest: float) -> str:
     return f"counterweight {at}: shaking force {before} -> {after} rms"
 
 
-def _loads(found: "Forces") -> str:
-    from mechsym.forces.shown import borne
-
-    rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(found)]
-    several = ["of"] if any(row["of"] for row in rows) else []
-    return table(in_rows(rows, ("max", "min")), ["quantity", *several, "max", "min", "unit", "on"], named=["quantity"])
-
-
 def _journals(rows: list[Json]) -> list[str]:
     if not rows:
         return []
@@ -171,12 +141,6 @@ def _journals(rows: list[Json]) -> list[str]:
     }  # fmt: skip
     told = {name: unit for key, (name, unit) in names.items() if rows[0][key] is not None}
     return [table([{name: row[key] for key, (name, _) in names.items()} for row in rows], [*told], told), ""]
-
-
-def _named(stem: str) -> str:
-    from mechsym.papers.sources import sources
-
-    return sources(stem)[0].title.partition(",")[0]
 
 
 def _friction(found: Json | None, law: Json | None) -> list[str]:

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cases import Case
+from mechsym.cli.common import case_command, diagram_option, emit, out_option, progress, table
+from mechsym.hinge.result import ripple_text
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 
 if TYPE_CHECKING:
@@ -17,16 +19,10 @@ if TYPE_CHECKING:
 _MOST = 10.0  # times the load of the case; beyond that it is a slip of the pen
 
 
-@click.command(short_help="Design hinge and guide, prove them by simulation.")
-@click.argument("case_name", metavar="CASE")
-@click.option("--diagram", type=click.Path(dir_okay=False), help="CSV of a measured diagram in place of the cycle.")
+@case_command("Design hinge and guide, prove them by simulation.", out_option)
+@diagram_option
 @click.option("--loads", metavar="A,B..", help="Try the guide at other loads too, as shares of the case's: 0.5,0.75,1.")
-@out_option
-@set_option
-@json_option
-def hinge(
-    case_name: str, diagram: str | None, loads: str | None, out: Path | None, overrides: tuple[str, ...], as_json: bool
-) -> None:
+def hinge(case: Case, diagram: str | None, loads: str | None, out: Path | None) -> None:
     """Design hinge and guide, simulate the engine with them, write the report.
 
     Exit status 1 when the guide cannot be built; everything is computed and written all the same. A guide that can be
@@ -45,14 +41,14 @@ def hinge(
     from mechsym.hinge.summary import HingeNumbers
     from mechsym.jobs.hinge import hinge as design
 
-    case, shares = case_of(case_name, pairs(overrides)), _shares(loads)
+    shares = _shares(loads)
     if out is not None:
         make_folder(out)
     with progress(len(LATER) + bool(out), f"hinge of {case.name}") as bar:
         found = complete(design(case, diagram, shares), lambda: bar.update(1))
         files: list[Path] = []
         if out is not None:
-            from mechsym.hinge.report import write
+            from mechsym.hinge.shown import write
             from mechsym.jobs.export import ready
             from mechsym.out.web import LiveRun, with_live
 
@@ -62,8 +58,8 @@ def hinge(
     numbers = HingeNumbers(judged=found)
     setting = partial(setting_text, case.need("spring"))
     doubts = of_gas(case, found.machine.gas)
-    emit(numbers, as_json, lambda: _text(numbers, setting), beside={"doubts": doubts}, files=files,
-         findings=found.view.findings())  # fmt: skip
+    text = partial(_text, numbers, setting)
+    emit(numbers, text, beside={"doubts": doubts}, files=files, findings=found.view.findings())
     if not numbers.guide.feasible:
         sys.exit(1)
 
@@ -90,13 +86,18 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
     torque = [quantity_text(M, "N*m") for M in (numbers.hinge_torque_min, numbers.hinge_torque_max)]
     mean = numbers.hinge_torque_mean / max(abs(numbers.hinge_torque_max), abs(numbers.hinge_torque_min))
     how = "with losses" if check.losses else "without losses"
+    peak = (
+        ""
+        if numbers.p_max_bar is None
+        else f", peak pressure {quantity_text(1e5 * numbers.p_max_bar, 'Pa', 4)} absolute"
+    )
     lines = [
         numbers.verdict,
-        f"speed            {numbers.speed_rpm:.6g} rpm{_peak(numbers.p_max_bar)}",
+        f"speed            {numbers.speed_rpm:.6g} rpm{peak}",
         f"load torque      {quantity_text(numbers.load_torque, 'N*m')}",
         f"hinge torque     {torque[0]} to {torque[1]}, mean {ratio_text(mean)} of its peak",
         f"limits           {guide.reason.removeprefix(ALL_KEPT)}",
-        f"speed ripple     {ratio_text(check.speed_ripple, 4)} simulated {how}, "
+        f"speed ripple     {ripple_text(check.speed_ripple, 4)} simulated {how}, "
         f"energy residual {ratio_text(check.energy_residual)}",
         f"flywheel saved   {figure(numbers.flywheel_inertia_saved, 4)} kg*m^2 by an ideal hinge: what "
         f"{figure(100 * numbers.ripple_wanted)} % needs without one",
@@ -105,13 +106,13 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
     for offer in numbers.offers[1:]:
         lines.append(
             f"instead          balance = {offer.balance!r} with shaft_ratio = {offer.shaft_ratio:g}: ripple "
-            f"{ratio_text(offer.ripple_constant_load)} under constant, "
-            f"{ratio_text(offer.ripple_propeller_load)} under propeller load"
+            f"{ripple_text(offer.ripple_constant_load)} under constant, "
+            f"{ripple_text(offer.ripple_propeller_load)} under propeller load"
         )
     if isinstance(again, RetunedNumbers):
         lines.append(
             f"{'at ' + figure(again.speed_rpm, 4) + ' rpm':17}best setting {setting(again.p0)} "
-            f"({again.p0_ratio:.3g} times), ripple {ratio_text(again.speed_ripple)}"
+            f"({again.p0_ratio:.3g} times), ripple {ripple_text(again.speed_ripple, 3)}"
         )
     if numbers.loads:
         rows = [tell(row) | {"setting": setting(row.p0)} for row in numbers.loads]
@@ -125,17 +126,13 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
     return "\n".join(lines)
 
 
-def _peak(p_max_bar: float | None) -> str:
-    return "" if p_max_bar is None else f", peak pressure {quantity_text(1e5 * p_max_bar, 'Pa', 4)} absolute"
-
-
 def _left_out(numbers: "HingeNumbers") -> list[str]:
     """What the ideal hinge does not say, beside the flywheel that it saves."""
     lost, share, run = numbers.losses, numbers.misfire_speed_share, numbers.check.losses
     if lost is None:
         return []
     after = "not known" if share is None else f"{share:.2g} of the speed" if share > 0 else "the shaft stops"
-    ripple = "no steady motion" if lost.speed_ripple is None else f"ripple {lost.speed_ripple:.2g}"
+    ripple = "no steady motion" if lost.speed_ripple is None else f"ripple {ripple_text(lost.speed_ripple)}"
     label, counted = "not counted ", []
     if run is not None:
         each = ", ".join(f"{kind} {quantity_text(torque, 'N*m', 3)}" for kind, torque in run.items())

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import budget_option, case_of, emit, json_option, out_option, pairs, set_option
+from mechsym.cases import Case
+from mechsym.cli.common import budget_option, case_command, emit, out_option
 from mechsym.errors import BadInput
 from mechsym.quantities.display import SMALLEST, figure
 
@@ -14,15 +15,11 @@ if TYPE_CHECKING:
     from mechsym.optimise.identify import Identified
 
 
-@click.command(short_help="Parameters of a machine out of measured speeds.")
-@click.argument("case")
+@case_command("Parameters of a machine out of measured speeds.", out_option)
 @click.option("--trace", required=True, type=click.Path(dir_okay=False), help="CSV: t [s], a speed, measured torques.")
 @click.option("--free", required=True, metavar="NAMES", help="Parameters to find, divided by commas.")
 @budget_option
-@json_option
-@out_option
-@set_option
-def identify(case: str, trace: str, free: str, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+def identify(case: Case, trace: str, free: str, out: Path | None) -> None:
     """Find inertia, stiffness, damping or friction of CASE in a measured run, each with its 95 % interval.
 
     The equations of motion hold exactly, the noise sits on the speeds. What is not named by --free is taken from the
@@ -39,9 +36,9 @@ def identify(case: str, trace: str, free: str, as_json: bool, out: Path | None, 
     names = [name.strip() for name in free.split(",") if name.strip()]
     if not names:
         raise BadInput("--free names nothing; give for example --free I2,k1,friction.constant")
-    found = find(case_of(case, pairs(overrides)), trace, names)
+    found = find(case, trace, names)
     files = _write(out, found) if out else []
-    emit(found, as_json, lambda: _text(found), files=files)
+    emit(found, lambda: _text(found), files=files)
     if found.status != "found":
         raise click.exceptions.Exit(1)
 
@@ -63,15 +60,12 @@ def _text(found: "Identified") -> str:
         alike = "no ends" if math.isinf(e.high - e.low) else "no wider than 1e-8 of it"
         within = f"{low} to {high}{unit}" if low != high else alike
         lines.append(f"{e.name} = {value}{unit}, 95 %: {within}")
-    return "\n".join([*lines, f"left over: {_left_over(found)}"])
-
-
-def _left_over(found: "Identified") -> str:
-    """Noise, and whether it comes in runs; the record of a simulation leaves round-off only."""
+    # the record of a simulation leaves round-off only; else the noise, and whether it comes in runs
     largest = max(float(abs(values).max()) for values in found.measured.values())
+    left = f"{figure(found.noise, 3)} {found.unit} rms, Durbin-Watson {found.durbin_watson:.2f}"
     if found.noise < SMALLEST * largest:
-        return f"0 (below {SMALLEST:.0e}".replace("e-09", "e-9") + " of the largest speed)"
-    return f"{figure(found.noise, 3)} {found.unit} rms, Durbin-Watson {found.durbin_watson:.2f}"
+        left = f"0 (below {SMALLEST:.0e}".replace("e-09", "e-9") + " of the largest speed)"
+    return "\n".join([*lines, f"left over: {left}"])
 
 
 def _write(out: Path, found: "Identified") -> list[Path]:

@@ -8,7 +8,7 @@ from mechsym.cases.new_engine import GASES, KINDS, RODS
 from mechsym.cli.common import emit, json_option
 from mechsym.errors import BadInput
 from mechsym.plausible import Doubt
-from mechsym.quantities import parse
+from mechsym.quantities import load, parse
 
 
 @click.command(short_help="Write a commented start for something of your own.")
@@ -32,7 +32,7 @@ from mechsym.quantities import parse
 @json_option
 def new(what: str, name: str | None, kind: str | None, bore: str | None, stroke: str | None, cylinders: int | None,
         gas: str | None, rods: str | None, trace: str | None, rod: str | None, compression: float | None,
-        speed: str | None, out: Path, as_json: bool) -> None:  # fmt: skip
+        speed: str | None, out: Path) -> None:  # fmt: skip
     """Write a new mechanism (declaration, case, test), the case of a new engine, or that of a measured pressure.
 
     An engine gets sizes by similarity, a firing order and the angles that belong to it, every value with a comment;
@@ -49,50 +49,31 @@ def new(what: str, name: str | None, kind: str | None, bore: str | None, stroke:
     traced = {"--trace": trace, "--rod": rod, "--compression": compression, "--speed": speed}
     if what != "diagram" and (named := [option for option, value in traced.items() if value is not None]):
         raise BadInput(f"only a diagram has {', '.join(named)}; leave it away, or write: mechsym new diagram")
-    sizes = {"--kind": kind, "--bore": bore, "--stroke": stroke, "--cylinders": cylinders, "--gas": gas,
-             "--rods": rods}  # fmt: skip
+    sizes = {"--kind": kind, "--bore": bore, "--stroke": stroke, "--cylinders": cylinders, "--gas": gas, "--rods": rods}
     if what == "mechanism" and (given := [option for option, value in sizes.items() if value is not None]):
         raise BadInput(f"only an engine has {', '.join(given)}; leave it away, or write: mechsym new engine")
     doubts: tuple[Doubt, ...] = ()
     if what == "mechanism":
-        files = _mechanism(name, out)
+        if out.suffix or out.is_file():
+            raise BadInput(f"--out {out}: a mechanism is written as three files; give a folder, and its NAME before it")
+        if name is None:
+            raise BadInput("a mechanism needs a NAME: mechsym new mechanism toggle_press")
+        files = load("mechsym.cases.new_diagram:write")(name, out)
     elif what == "diagram":
         if (kind, cylinders, gas, rods) != (None, None, None, None):
             raise BadInput("--kind, --cylinders, --gas and --rods belong to an engine; a diagram is of one cylinder")
         files, doubts = _diagram(name, trace, (bore, stroke, rod), compression, speed, out)
     else:
-        files, doubts = _engine(name, kind, (bore, stroke), cylinders, gas, rods, out)
+        from mechsym.cases.new_engine import judged, write_engine
+
+        wide, long = _length(bore, "--bore"), _length(stroke, "--stroke")
+        if kind is None:
+            raise BadInput(f"an engine needs --kind: {', '.join(KINDS)}")
+        out, name = _place(name, out)
+        files = write_engine(kind, wide, long, cylinders, out, name, gas or "exchange", rods)
+        doubts = judged(kind, wide, long)
     shown = [str(path) for path in files]
-    emit({"written": shown, "doubts": doubts}, as_json, lambda: "", files=shown)
-
-
-def _mechanism(name: str | None, out: Path) -> list[Path]:
-    from mechsym.cases import new_mechanism
-
-    if out.suffix or out.is_file():
-        raise BadInput(f"--out {out}: a mechanism is written as three files; give a folder, and its NAME before it")
-    if name is None:
-        raise BadInput("a mechanism needs a NAME: mechsym new mechanism toggle_press")
-    return new_mechanism.write(name, out)
-
-
-def _engine(
-    name: str | None,
-    kind: str | None,
-    sizes: tuple[str | None, str | None],
-    cylinders: int | None,
-    gas: str | None,
-    rods: str | None,
-    out: Path,
-) -> tuple[list[Path], tuple[Doubt, ...]]:
-    from mechsym.cases.new_engine import judged, write_engine
-
-    bore, stroke = (_length(text, key) for text, key in zip(sizes, ("--bore", "--stroke"), strict=True))
-    if kind is None:
-        raise BadInput(f"an engine needs --kind: {', '.join(KINDS)}")
-    out, name = _place(name, out)
-    files = write_engine(kind, bore, stroke, cylinders, out, name, gas or "exchange", rods)
-    return files, judged(kind, bore, stroke)
+    emit({"written": shown, "doubts": doubts}, lambda: "", files=shown)
 
 
 def _diagram(

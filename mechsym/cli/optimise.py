@@ -4,22 +4,17 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import click
-
-from mechsym.cli.common import budget_option, case_of, emit, json_option, out_option, pairs, set_option, table
+from mechsym.cases import Case
+from mechsym.cli.common import budget_option, case_command, emit, out_option, table
 from mechsym.quantities.display import quantity_text
 
 if TYPE_CHECKING:
     from mechsym.optimise.solver import Optimised
 
 
-@click.command(short_help="Best design of a case under its limits.")
-@click.argument("case")
+@case_command("Best design of a case under its limits.", out_option)
 @budget_option
-@json_option
-@out_option
-@set_option
-def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, ...]) -> None:
+def optimise(case: Case, out: Path | None) -> None:
     """Best design of CASE under its limits, as its section [optimise] declares it; what each active limit costs.
 
     \b
@@ -28,11 +23,11 @@ def optimise(case: str, as_json: bool, out: Path | None, overrides: tuple[str, .
               mechsym optimise mine.toml, with phase, dead volumes and gas of a Stirling engine in [optimise]
     Exit status 1: no feasible design, or the solver did not converge.
     """
-    from mechsym.jobs.optimise import optimise
+    from mechsym.jobs.optimise import optimise as solve
 
-    done = optimise(case_of(case, pairs(overrides)))
+    done = solve(case)
     files = _write(out, done) if out else []
-    emit(done, as_json, lambda: _text(done), files=files)
+    emit(done, lambda: _text(done), files=files)
     if any(point.status != "optimal" for point in (done.best, *done.front)):
         sys.exit(1)
 

@@ -1,24 +1,14 @@
 """`mechsym prove`: numbers that come with a theorem."""
 
 import math
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import (
-    budget_option,
-    case_of,
-    emit,
-    in_rows,
-    json_option,
-    only_of,
-    out_option,
-    pairs,
-    progress,
-    set_option,
-    table,
-)
+from mechsym.cli import common
+from mechsym.cli.common import case_of, emit, in_rows, only_of, pairs, progress, table
 from mechsym.errors import BadInput
 
 if TYPE_CHECKING:
@@ -36,14 +26,13 @@ if TYPE_CHECKING:
 )
 @click.option("--t-end", metavar="TIME", help="How far the motion of CASE is enclosed; to its own end without.")
 @click.option("--window", metavar="A..B", help="Times that the statement about CASE is for, e.g. 55..93 s.")
-@out_option
-@set_option
-@budget_option
-@json_option
-@click.pass_context
+@common.out_option
+@common.set_option
+@common.budget_option
+@common.json_option
 def prove(
-    ctx: click.Context, name: str, case_name: str | None, given: tuple[str, ...], samples: int, mode: str,
-    t_end: str | None, window: str | None, out: Path | None, overrides: tuple[str, ...], as_json: bool,
+    name: str, case_name: str | None, given: tuple[str, ...], samples: int, mode: str, t_end: str | None,
+    window: str | None, out: Path | None, overrides: tuple[str, ...],
 ) -> None:  # fmt: skip
     """Bound the rounding of every output of the generated C of the mechanism NAME, or of the limits of guides (hinge).
 
@@ -64,7 +53,7 @@ def prove(
     from mechsym.quantities.results import tell
 
     if name != GUIDES and name not in mechanisms.names() and name in cases.names() or name.endswith(".toml"):
-        _motion(name, t_end, window, out, pairs(overrides), as_json)
+        _motion(name, t_end, window, out, pairs(overrides))
         return
     if mode == "fast":
         raise BadInput("--mode fast contracts products and shares reciprocals: no bound is proven of it; use strict")
@@ -77,14 +66,13 @@ def prove(
             found = of_guides_at(case, samples, bar.update)
         else:
             found = of_mechanism_at(name, case, _ranges(given), samples, bar.update)
-    emit(tell(found), as_json, lambda: _text(found))
-    ctx.exit(0 if found.holds else 1)
+    emit(tell(found), lambda: _text(found))
+    if not found.holds:
+        sys.exit(1)
 
 
-def _motion(
-    name: str, t_end: str | None, window: str | None, out: Path | None, overrides: dict[str, str], as_json: bool
-) -> None:
-    from mechsym.cases.runs import simulation_of
+def _motion(name: str, t_end: str | None, window: str | None, out: Path | None, overrides: dict[str, str]) -> None:
+    from mechsym.cases.settings import simulation_of
     from mechsym.jobs.prove import motion_of
     from mechsym.quantities import parse
     from mechsym.quantities.ranges import read_range
@@ -99,7 +87,7 @@ def _motion(
         raise BadInput(f"--window {window}: two times with two dots between, such as 55..93 s")
     with progress(math.ceil(until or simulation_of(case).t_end or 0), f"seconds of {case.name}") as bar:
         found = motion_of(case, until, out, None if ends is None else (ends[0], ends[1]), bar.update)
-    emit(tell(found), as_json, lambda: _motion_text(found))
+    emit(tell(found), lambda: _motion_text(found))
 
 
 def _motion_text(found: "ProvenMotion") -> str:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @json_option
 @click.pass_context
 def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: str, pdf: bool, out: Path | None,
-           overrides: tuple[str, ...], as_json: bool) -> None:  # fmt: skip
+           overrides: tuple[str, ...]) -> None:  # fmt: skip
     """Report of CASE, or of several side by side: the answer on the first page, then figures, tables, data with origin.
 
     Parts that the case has no sections for are named and left out; one that fails is named on the first page, and the
@@ -40,16 +40,24 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     from mechsym.jobs.export import ready
     from mechsym.out.pdf import chromium, to_pdf
     from mechsym.out.web import LiveRun, with_live
+    from mechsym.papers.sources import sources
     from mechsym.report import case_report, html
     from mechsym.report.numbers import numbers
     from mechsym.report.parts import PARTS, doubts_of
 
-    wanted = _wanted(parts, tuple(PARTS))
+    wanted = [word.strip() for word in parts.split(",")] if parts is not None else list(PARTS)
+    for word in wanted:
+        if word not in PARTS:
+            raise BadInput(f"--parts {parts}: {word!r} is no part of a report; {suggest(word, tuple(PARTS))}")
+    wanted = [name for name in PARTS if name in wanted]
     if pdf:
         chromium()  # said before the work begins
+    titles = {one.stem: one.title for one in sources()} | {"own": "own engine"}
     loaded = [case_of(name, pairs(overrides)) for name in cases]
     with progress(len(loaded) * len(wanted) + 1, "report") as bar:
-        found = [case_report(case, wanted, _source(case.source), lambda: bar.update(1)) for case in loaded]
+        found = []
+        for case in loaded:
+            found.append(case_report(case, tuple(wanted), titles.get(case.source, case.source), lambda: bar.update(1)))
         path = file_in(out, "-".join([*(case.name for case in loaded), "report.html"]), ".html", ".htm")
         text = html(found, date)
         live = [LiveRun(name=case.name, about=case.about, ready=partial(ready, case)) for case in loaded]
@@ -58,24 +66,9 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
             files.append(to_pdf(text, path.with_suffix(".pdf")))
         bar.update(1)
     doubts = [doubt for one in found for p in one.parts for doubt in doubts_of(p)]
-    emit(numbers(found, files), as_json, lambda: _text(found), beside={"doubts": doubts}, files=files)
+    emit(numbers(found, files), lambda: _text(found), beside={"doubts": doubts}, files=files)
     refused, infeasible = (any(getattr(one, kind) for one in found) for kind in ("refused", "infeasible"))
     ctx.exit(2 if refused else 1 if infeasible else 0)
-
-
-def _wanted(text: str | None, known: tuple[str, ...]) -> tuple[str, ...]:
-    wanted = [word.strip() for word in text.split(",")] if text is not None else list(known)
-    for word in wanted:
-        if word not in known:
-            raise BadInput(f"--parts {text}: {word!r} is no part of a report; {suggest(word, known)}")
-    return tuple(name for name in known if name in wanted)
-
-
-def _source(stem: str) -> str:
-    """Authors, year and title of a source; an engine of one's own has none."""
-    from mechsym.papers.sources import sources
-
-    return next((one.title for one in sources() if one.stem == stem), "own engine" if stem == "own" else stem)
 
 
 def _text(found: "list[CaseReport]") -> str:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 @json_option
 @out_option
 @click.pass_context
-def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool, out: Path | None) -> None:
+def reproduce(ctx: click.Context, source: str | None, write: bool, out: Path | None) -> None:
     """Recompute every published number of SOURCE, or of all; --out draws the figures too.
 
     SOURCE is a short name or a file's stem: zotov2024, moroianu2017, chmielewski2015, prymak, nunes2017. Findings are
@@ -33,7 +33,8 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool
     \b
     Example: mechsym reproduce chmielewski2015 --out reproduction
     """
-    from mechsym.papers import record, sources
+    from mechsym.papers import rows as record
+    from mechsym.papers import sources
 
     if write and source:
         raise BadInput(f"--write records all sources, not {source} alone; leave the name out")
@@ -49,24 +50,26 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, as_json: bool
         from mechsym.papers import page
 
         files += page.write(out, chosen, found, changed)
-    emit(flat, as_json, lambda: _text(chosen, found, changed, files))
+    emit(flat, lambda: _text(chosen, found, changed, files))
     ctx.exit(1 if changed else 0)
 
 
 def _text(sources: "Sequence[Source]", found: Json, changed: list[str], files: list[Path]) -> str:
-    from mechsym.papers.page import counts
+    from mechsym.papers.page import counts, round_off
 
     lines = []
     for source in sources:
-        own = found[source.stem]
-        summed = ", ".join(f"{count} {verdict}" for verdict, count in counts(own).items() if count)
-        lines += [
-            f"{source.name}: {source.title}",
-            table(_shown(own), [*_COLUMNS], digits=6),
-            _notes(own),
-            f"  {summed}",
-            "",
-        ]
+        rows, notes = [], []
+        for row in found[source.stem]:
+            error = row["rel_error"]
+            away = None if error is None else "0" if error == 0 or round_off(error) else f"{error:+.1e}"
+            rows.append(row | {"rel_error": away, "computed": "0" if round_off(row["computed"]) else row["computed"]})
+            if row["verdict"] not in (REPRODUCED, ARITHMETIC) and row["note"]:
+                notes.append(f"  {row['item']}: {row['note']}")
+        summed = ", ".join(f"{count} {verdict}" for verdict, count in counts(rows).items() if count)
+        # notes of what is not plainly reproduced stand behind the table, since they are long
+        shown = table(rows, ["item", "printed", "computed", "rel_error", "verdict"], digits=6)
+        lines += [f"{source.name}: {source.title}", shown, "\n".join(notes), f"  {summed}", ""]
     lines += ["differs from the recorded outcome:", *changed] if changed else ["the outcome is the recorded one"]
     if files:
         lines.append(f"written: {len(files)} files, {files[0]} first")
@@ -74,29 +77,3 @@ def _text(sources: "Sequence[Source]", found: Json, changed: list[str], files: l
 
 
 _PACKAGE, _NAME = "mechsym.papers", ("source", "item")
-_COLUMNS = ("item", "printed", "computed", "rel_error", "verdict")
-
-
-def _shown(rows: list[Json]) -> list[Json]:
-    from mechsym.papers.page import round_off
-
-    return [
-        row | {"rel_error": _away(row["rel_error"]),
-               "computed": "0" if round_off(row["computed"]) else row["computed"]} for row in rows
-    ]  # fmt: skip
-
-
-def _away(error: float | None) -> str | None:
-    from mechsym.papers.page import round_off
-
-    return None if error is None else "0" if error == 0 or round_off(error) else f"{error:+.1e}"
-
-
-def _notes(rows: list[Json]) -> str:
-    """Notes of everything that is not plainly reproduced, after the table since they are long."""
-    told = [
-        f"  {row['item']}: {row['note']}"
-        for row in rows
-        if row["verdict"] not in (REPRODUCED, ARITHMETIC) and row["note"]
-    ]
-    return "\n".join(told)

@@ -8,10 +8,15 @@ from mechsym.files import Json
 
 @click.command(short_help="Every section and key of a case, or a schema for editors.")
 @click.argument("name", required=False)
-@click.option("--schema", "as_schema", is_flag=True, help="Print the JSON Schema of case files, for editors.")
+@click.option(
+    "--schema",
+    "as_schema",
+    is_flag=True,
+    help="Print the JSON Schema of case files; with --results that of what commands tell.",
+)
 @click.option("--results", "of_results", is_flag=True, help="What commands tell: with NAME the numbers of one command.")
 @json_option
-def sections(name: str | None, as_schema: bool, of_results: bool, as_json: bool) -> None:
+def sections(name: str | None, as_schema: bool, of_results: bool) -> None:
     """Sections of case files; with NAME the keys of one: unit, range, default, meaning, commands that read it.
 
     \b
@@ -19,23 +24,24 @@ def sections(name: str | None, as_schema: bool, of_results: bool, as_json: bool)
               mechsym sections spring
               mechsym sections --schema > mechsym.schema.json
               mechsym sections --results flywheel
+              mechsym sections --results --schema flywheel
     """
     from mechsym.cases.keys import json_schema, keys
-    from mechsym.cli import results
+    from mechsym.cli.results import RESULTS, WORDS, rows, schema
 
     if as_schema:
         from mechsym.files import to_json
 
-        click.echo(to_json(json_schema()))
+        commands = [name] if name else sorted([*RESULTS, *WORDS])
+        told = {one: schema(one) for one in commands} if of_results else {}
+        click.echo(to_json((told[name] if name else told) if of_results else json_schema()))
         return
     if of_results:
-        numbers = results.rows(name)
-        emit(
-            numbers, as_json, lambda: table(numbers, [*(["command"] if name is None else []), "path", "unit", "about"])
-        )
+        numbers, columns = rows(name), [*(["command"] if name is None else []), "path", "unit", "about"]
+        emit(numbers, lambda: table(numbers, columns))
         return
-    rows = keys(name)
-    emit(rows, as_json, lambda: _keys(rows) if name else _sections(rows))
+    listed = keys(name)
+    emit(listed, lambda: _keys(listed) if name else _sections(listed))
 
 
 def _sections(rows: list[Json]) -> str:

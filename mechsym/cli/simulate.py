@@ -1,6 +1,8 @@
 """`mechsym simulate`: time simulation of a case."""
 
+import functools
 import math
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,6 +17,7 @@ from mechsym.quantities.display import figure, ratio_text
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
+    from mechsym.cases import Case
     from mechsym.torsion.startup import FinishedRun
 
 _EVENTS = 12  # shown of a run
@@ -26,22 +29,18 @@ _ENDS = {"turns": "after its turns", "t_end": "as planned"}
 @click.option("--tolerance", help="Tolerance of a step; the case's, or 1e-10.")
 @click.option("--backend", help="Integrator by name, e.g. scipy-dop853, sundials, heyoka.")
 @click.option("--no-check", is_flag=True, help="Leave out the second run at a hundredth of the tolerance.")
+@click.option(
+    "--rest", is_flag=True, help="In place of a run: the poses in which it stays at rest, and their stability."
+)
 @click.option("--dampings", metavar="C1,C1..", help="Further values of c1 for a start-up, e.g. 0.2,1,5.")
 @set_option
 @out_option
 @json_option
-@click.pass_context
 def simulate(
-    ctx: click.Context,
-    case: str,
-    tolerance: str | None,
-    backend: str | None,
-    no_check: bool,
+    case: str, tolerance: str | None, backend: str | None, no_check: bool, rest: bool,
     dampings: str | None,
-    overrides: tuple[str, ...],
-    out: Path | None,
-    as_json: bool,
-) -> None:
+    overrides: tuple[str, ...], out: Path | None,
+) -> None:  # fmt: skip
     """Simulate CASE over time, with an energy audit and a check of the tolerance.
 
     Exit status 1 when the run did not converge; a stall is an event, not a failure. An engine needs no [simulation]:
@@ -60,12 +59,31 @@ def simulate(
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
     given = {k: v for k, v in options.items() if v is not None}
     found = case_of(case, pairs(overrides) | given)
+    if rest:
+        _rest(found)
+        return
     dampers = () if dampings is None else tuple(ranges.values(dampings, "N*m*s/rad", "--dampings", most=1000))
     done = run(found, dampers, "none" if no_check else "tolerance")
     files = [] if out is None else _write(done, out)
-    emit(done, as_json, lambda: _text(tell(done), done.result.units), beside={"files": files}, files=files,
-         findings=done.view.findings())  # fmt: skip
-    ctx.exit(1 if done.result.status in ("failed", "not converged", "chaotic") else 0)
+    text = functools.partial(_text, tell(done), done.result.units)
+    emit(done, text, beside={"files": files}, files=files, findings=done.view.findings())
+    if done.result.status in ("failed", "not converged", "chaotic"):
+        sys.exit(1)
+
+
+def _rest(case: "Case") -> None:
+    from mechsym.jobs.run import at_rest
+
+    done = at_rest(case)
+    rows = [
+        {**pose.at, "": pose.kind, "frequencies [Hz]": ", ".join(figure(f / math.tau, 5) for f in pose.frequencies)}
+        for pose in done.rests
+    ]
+    places = [*(done.rests[0].at if done.rests else ())]
+    units = done.rests[0].at.units if done.rests else {}
+    more = "" if done.complete else "\nlooked for about the start: there may be more"
+    text = table(rows, [*places, "", "frequencies [Hz]"], units) if rows else "it stays at rest nowhere"
+    emit(done, lambda: text + more)
 
 
 def _write(run: "FinishedRun", out: Path) -> list[str]:
@@ -108,26 +126,13 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
         lines += ["", table(alike, ["over the last", "of", *rates], rates)]
     if sections := report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
+        named = [s | {"section": section_words(k, len(sections))} for k, s in enumerate(sections)]
         natural = ", ".join(figure(f / math.tau, 4) for f in report["natural_frequencies"])
-        lines += [
-            "",
-            table(
-                [s | {"section": section_words(k, len(sections))} for k, s in enumerate(sections)],
-                columns,
-                heads(ShaftSection),
-            ),
-            f"natural frequencies {natural} Hz",
-        ]
+        lines += ["", table(named, columns, heads(ShaftSection)), f"natural frequencies {natural} Hz"]
     if len(report["start_up"]) > 1:
         held = [{**s, "held_s": sum(c["t_end"] - c["t_start"] for c in s["captures"])} for s in report["start_up"]]
-        lines += [
-            "",
-            table(
-                held,
-                ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"],
-                heads(StartUpNumbers) | {"held_s": "s"},
-            ),
-        ]
+        columns = ["c1", "held_s", "speed_mean_end", "twist_peak", "torque_peak", "model_holds"]
+        lines += ["", table(held, columns, heads(StartUpNumbers) | {"held_s": "s"})]
     if report["findings"]:
         lines += ["", *(f"- {line}" for line in report["findings"])]
     return "\n".join(lines)

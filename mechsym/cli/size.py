@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, in_rows, json_option, out_option, pairs, set_option, table, tried
+from mechsym.cases import Case
+from mechsym.cli.common import case_command, emit, in_rows, out_option, table, tried
 
 if TYPE_CHECKING:
     from mechsym.sizing.rows import Sizing
@@ -15,16 +16,10 @@ _SHOWN = ("component", "quantity", "value", "limit", "unit", "safety_factor", "w
 _FIRST = ["component", "quantity", "value", "unit", "note"]
 
 
-@click.command(short_help="Component sizing with safety factors.")
-@click.argument("case")
+@case_command("Component sizing with safety factors.", out_option)
 @click.option("--as-printed", is_flag=True, help="Check the parts of the case instead of sizing new ones.")
 @click.option("--step", type=_FILE, callback=tried, help="STEP file of the parts to write (extra step).")
-@json_option
-@out_option
-@set_option
-def size(
-    case: str, as_printed: bool, step: Path | None, as_json: bool, out: Path | None, overrides: tuple[str, ...]
-) -> None:
+def size(case: Case, as_printed: bool, step: Path | None, out: Path | None) -> None:
     """Size the engine of CASE for its loads over the speed range, with the factor of every rule.
 
     Exit status 1 when a factor is below the wanted one. Loads come from the case's cycle with the settings of its
@@ -38,19 +33,17 @@ def size(
     from mechsym.jobs.size import check_printed
     from mechsym.jobs.size import size as sized
 
-    loaded = case_of(case, pairs(overrides))
-    found = check_printed(loaded) if as_printed else sized(loaded)
-    files = [*_step(step, found), *(_write(out, found) if out else [])]
-    emit(found.told, as_json, lambda: _text(found), files=files, findings=found.view.findings())
+    found = check_printed(case) if as_printed else sized(case)
+    files = []
+    if step is not None:
+        from mechsym.out.cad.solids import bodies
+        from mechsym.out.cad.step import write
+
+        files.append(write(step, bodies(found)))
+    files += _write(out, found) if out else []
+    emit(found.told, lambda: _text(found), files=files, findings=found.view.findings())
     if found.failing or not found.converged:
         raise click.exceptions.Exit(1)
-
-
-def _step(path: Path | None, found: "Sizing") -> list[Path]:
-    from mechsym.out.cad.solids import bodies
-    from mechsym.out.cad.step import write
-
-    return [] if path is None else [write(path, bodies(found))]
 
 
 def _text(found: "Sizing") -> str:
@@ -62,14 +55,8 @@ def _text(found: "Sizing") -> str:
     plain = {"safety_factor": None, "wanted": None}
     marked = [row | {"": "" if row["holds"] else "BELOW"} | (plain if row["limit"] == 0 else {}) for row in checks]
     sizes, marked = in_rows(sizes, ("value",)), in_rows(marked, ("value", "limit"))
-    lines = [
-        "Sizes and figures",
-        table(sizes, _FIRST, named=["component"]),
-        "",
-        "Checks",
-        table(marked, ["", *_SHOWN], named=["component"]),
-        "",
-    ]  # fmt: skip
+    tables = table(sizes, _FIRST, named=["component"]), table(marked, ["", *_SHOWN], named=["component"])
+    lines = ["Sizes and figures", tables[0], "", "Checks", tables[1], ""]
     state = "masses and loads agree" if found.converged else "masses and loads do NOT agree"
     below = f"{len(found.failing)} of {len(checks)} factors are below the wanted ones"
     return "\n".join([*lines, f"{below if found.failing else 'every factor holds'}; {state} ({found.rounds} rounds)"])

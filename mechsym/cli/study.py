@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 import click
 
 from mechsym.cli.common import emit, json_option, out_option, progress, table
-from mechsym.cli.swept import INTERRUPTED, gaps, judge, kept_or_short, picture_of, rows_of, write
+from mechsym.cli.sweep import INTERRUPTED, gaps, judge, kept_or_short, picture_of, rows_of, write
 from mechsym.errors import BadInput, suggest
 from mechsym.interrupts import whole
 from mechsym.plausible import Doubt
 
 if TYPE_CHECKING:
-    from mechsym.sweep.numbers import StudiedSweep
+    from mechsym.sweep.data import StudiedSweep
     from mechsym.sweep.run import Sweep
-    from mechsym.sweep.study import Study, StudySweep
+    from mechsym.sweep.study import StudySweep
 
 
 @click.command(short_help="Several sweeps of a file, one report.")
@@ -26,8 +26,9 @@ if TYPE_CHECKING:
 @out_option
 @json_option
 @click.pass_context
-def study(ctx: click.Context, study: str, only: tuple[str, ...], jobs: int | None, fresh: bool, out: Path | None,
-          as_json: bool) -> None:  # fmt: skip
+def study(
+    ctx: click.Context, study: str, only: tuple[str, ...], jobs: int | None, fresh: bool, out: Path | None
+) -> None:
     """Run the sweeps of FILE, a TOML file or the name of a study that comes with the program.
 
     \b
@@ -47,12 +48,17 @@ def study(ctx: click.Context, study: str, only: tuple[str, ...], jobs: int | Non
               mechsym study mine.toml --only compression
     """
     from mechsym import sweep as sweeps
-    from mechsym.files import make_folder
-    from mechsym.sweep.numbers import StudiedSweep, StudyNumbers
+    from mechsym.files import make_folder, write_text
+    from mechsym.page import page
+    from mechsym.sweep.data import StudiedSweep, StudyNumbers
     from mechsym.sweep.study import read
 
     asked = read(study)
-    wanted = _wanted(asked, only)
+    names = [one.name for one in asked.sweeps]
+    for name in only:
+        if name not in names:
+            raise BadInput(f"--only {name} is no sweep of the study; {suggest(name, names)}")
+    wanted = [one for one in asked.sweeps if not only or one.name in only]
     layouts = [sweeps.layout(one.plan) for one in wanted]
     counts = [len(points.points) for points in layouts]
     for one, points in zip(wanted, layouts, strict=True):
@@ -73,25 +79,20 @@ def study(ctx: click.Context, study: str, only: tuple[str, ...], jobs: int | Non
             refused += gaps(found)
             if found.interrupted:
                 break
-        files = [] if out is None else [str(_page(asked, told, out))]
+        files = []
+        if out is not None:
+            text = page("study.html", title=asked.title, about=asked.about, sweeps=told)
+            files = [str(write_text(out / "report.html", text))]
         interrupted = told[-1].numbers.interrupted
         done = StudyNumbers(study=asked.title, sweeps=tuple(told), interrupted=interrupted, files=tuple(files))
-        emit(done, as_json, lambda: _text(told), beside={"doubts": refused}, leave_out=("sweeps",), files=files)
+        emit(done, lambda: _text(told), beside={"doubts": refused}, leave_out=("sweeps",), files=files)
     empty = any(len(one.numbers.failed) == one.points for one in told)
     ctx.exit(INTERRUPTED if interrupted else int(empty))
 
 
-def _wanted(asked: "Study", only: tuple[str, ...]) -> "list[StudySweep]":
-    names = [one.name for one in asked.sweeps]
-    for name in only:
-        if name not in names:
-            raise BadInput(f"--only {name} is no sweep of the study; {suggest(name, names)}")
-    return [one for one in asked.sweeps if not only or one.name in only]
-
-
 def _told(one: "StudySweep", found: "Sweep", folder: Path | None) -> "StudiedSweep":
     """What a sweep gave, as numbers and as text, its files written."""
-    from mechsym.sweep.numbers import StudiedSweep, numbers
+    from mechsym.sweep.data import StudiedSweep, numbers
 
     picture = "" if folder is None else picture_of(found, one.name)
     files = [] if folder is None else write(found, folder, picture)
@@ -101,20 +102,11 @@ def _told(one: "StudySweep", found: "Sweep", folder: Path | None) -> "StudiedSwe
     )  # fmt: skip
 
 
-def _page(asked: "Study", told: list["StudiedSweep"], out: Path) -> Path:
-    from mechsym.files import write_text
-    from mechsym.page import page
-
-    return write_text(out / "report.html", page("study.html", title=asked.title, about=asked.about, sweeps=told))
-
-
 def _text(told: list["StudiedSweep"]) -> str:
-    lines = []
+    lines, columns = [], ["name", "unit", "min", "at min", "max", "at max"]
     for one in told:
         failed = one.numbers.failed
         lines += [f"{one.name}: {one.points} points, {len(failed)} failed. {one.about}".rstrip()]
-        lines += (
-            [table(one.rows, ["name", "unit", "min", "at min", "max", "at max"], named=["name"])] if one.rows else []
-        )
+        lines += [table(one.rows, columns, named=["name"])] if one.rows else []
         lines += [f"failed: {gap.reason}" for gap in failed[:3]] + [""]
     return "\n".join(lines)

@@ -1,18 +1,23 @@
 """`mechsym sweep`: a case at many points, side by side."""
 
-from collections.abc import Sequence
+import contextlib
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import emit, json_option, out_option, pairs, progress, set_option, table
-from mechsym.cli.swept import INTERRUPTED, ended, gaps, judge, kept_or_short, picture_of, place, rows_of, write
+from mechsym.cli.common import doubted, emit, in_rows, json_option, out_option, pairs, progress, set_option, table
+from mechsym.errors import BadInput, MissingExtra
+from mechsym.files import Json
+from mechsym.interrupts import asked_to_stop, whole
+from mechsym.plausible import Doubt, proportion
+from mechsym.quantities.units import Second
 
 if TYPE_CHECKING:
-    from mechsym.sweep import Sweep
-    from mechsym.sweep.numbers import SweepNumbers
-    from mechsym.sweep.sensitivity import SobolIndex
+    from mechsym.sweep.data import SweepNumbers
+    from mechsym.sweep.run import Layout, Plan, Sweep
 
 _ANALYSES = ["simulate", "hinge", "guides", "cycle", "forces", "size", "codesign"]
 
@@ -34,9 +39,8 @@ _ANALYSES = ["simulate", "hinge", "guides", "cycle", "forces", "size", "codesign
 @json_option
 @click.pass_context
 def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | None, samples: int | None,
-          sobol: int | None, tied: tuple[str, ...], seed: int,
-          show: tuple[str, ...], jobs: int | None, scheduler: str, fresh: bool, overrides: tuple[str, ...],
-          out: Path | None, as_json: bool) -> None:  # fmt: skip
+          sobol: int | None, tied: tuple[str, ...], seed: int, show: tuple[str, ...], jobs: int | None, scheduler: str,
+          fresh: bool, overrides: tuple[str, ...], out: Path | None) -> None:  # fmt: skip
     """Run CASE over ranges of its values; results as one labelled data set.
 
     A driven shaft is simulated, an engine with a spring gets its hinge, another engine runs its cycle; --of chooses
@@ -67,41 +71,26 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
               mechsym sweep nunes-slider-crank --over speed_rpm=1000..8000:71 --over "ignition=-25..-5 deg:21"
     """
     from mechsym import sweep as sweeps
-    from mechsym.sweep.numbers import numbers
+    from mechsym.sweep.data import numbers
 
     plan = sweeps.Plan(
-        case=case,
-        over=over,
-        overrides=pairs(overrides),
-        analysis=analysis,
-        samples=samples,
-        seed=seed,
-        show=show,
-        sobol=sobol,
-        tied=tied,
-    )
+        case=case, over=over, overrides=pairs(overrides), analysis=analysis, samples=samples, seed=seed, show=show,
+        sobol=sobol, tied=tied,
+    )  # fmt: skip
     points = sweeps.layout(plan)
     count = len(points.points)
     judge(plan, points)
     seconds = sweeps.forecast(plan, count)
     kept_or_short(count, 0.0 if scheduler else seconds, out)
+    means = sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh, scheduler=scheduler)
     with progress(count, f"sweep of {case}, about {max(seconds, 1):.0f} s of a processor") as bar:
-        found = sweeps.sweep(
-            plan, bar.update, sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh, scheduler=scheduler)
-        )
+        found = sweeps.sweep(plan, bar.update, means)
 
     def finish(found: "Sweep") -> None:
         told = numbers(found, [] if out is None else write(found, out, picture_of(found)))
         # the table tells which points an interrupt has left
-        beside = ("data", "failed") if found.interrupted else ("data",)
-        emit(
-            told,
-            as_json,
-            lambda: _text(found, told),
-            beside={"doubts": gaps(found)},
-            leave_out=beside,
-            files=told.files,
-        )
+        left, beside = ("data", "failed") if found.interrupted else ("data",), {"doubts": gaps(found)}
+        emit(told, lambda: _text(found, told), beside=beside, leave_out=left, files=told.files)
 
     found = ended(found, finish)
     ctx.exit(INTERRUPTED if found.interrupted else 1 if len(sweeps.failures(found)) == count else 0)
@@ -115,39 +104,127 @@ def _text(found: "Sweep", told: "SweepNumbers") -> str:
     lines += [f"the folder's points of another sweep are set aside in {found.aside}"] if found.aside else []
     if rows:
         spread = ["mean", "std"] if sampled else []
-        lines += [
-            "",
-            table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread], named=["name"]),
-            "",
+        lines += ["", table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread], named=["name"]), ""]
+        if more := len(told.data) - len(rows):
+            runs = found.analysis == "hinge" and not found.show
+            further = "; check, runs, retune, sensitivity, losses, misfire_speed_share with --show" * runs
+            lines.append(f"{more} more results with --json or --out{further}")
+    if told.sobol:
+        indices = [
+            {
+                "result": one.result,
+                "value": one.key,
+                "first": f"{one.first:.3f} ({one.first_low:.3f} to {one.first_high:.3f})",
+                "total": f"{one.total:.3f} ({one.total_low:.3f} to {one.total_high:.3f})",
+            }
+            for one in told.sobol
         ]
-        more = len(told.data) - len(rows)
-        lines += [f"{more} more results with --json or --out" + _more(found)] if more else []
-    lines += _indices(told.sobol)
+        shown = table(indices, ["result", "value", "first", "total"], named=["result", "value"])
+        lines += ["Sobol indices, with 95 % intervals", shown, ""]
     lines += [f"failed at {place(found, gap.index)}: {gap.reason}" for gap in told.failed[:5]]
     if len(told.failed) > 5:
         lines.append(f"and {len(told.failed) - 5} more")
     return "\n".join(lines)
 
 
-def _indices(sobol: Sequence["SobolIndex"]) -> list[str]:
-    if not sobol:
-        return []
-    rows = [
-        {
-            "result": one.result,
-            "value": one.key,
-            "first": f"{one.first:.3f} ({one.first_low:.3f} to {one.first_high:.3f})",
-            "total": f"{one.total:.3f} ({one.total_low:.3f} to {one.total_high:.3f})",
-        }
-        for one in sobol
-    ]
-    return [
-        "Sobol indices, with 95 % intervals",
-        table(rows, ["result", "value", "first", "total"], named=["result", "value"]),
-        "",
-    ]
+_UNKEPT = 1800.0  # time of a processor from which a sweep without --out is refused: too much to lose [s]
+_NUMBERS = ("min", "max", "mean", "std")
+INTERRUPTED = 130  # as everywhere when a run is stopped from the keyboard
 
 
-def _more(found: "Sweep") -> str:
-    runs = found.analysis == "hinge" and not found.show
-    return "; check, runs, retune, sensitivity, losses, misfire_speed_share with --show" if runs else ""
+def judge(plan: "Plan", points: "Layout") -> None:
+    """Put the doubts of a case, and of it at the ends of the axes, into what the command prints."""
+    from mechsym.sweep import ends
+
+    doubted(plan.case, plan.overrides)
+    for end in ends(points):
+        with contextlib.suppress(BadInput):  # a point that is refused is a gap
+            doubted(plan.case, {**plan.overrides, **points.ties.at(end)})
+
+
+def kept_or_short(count: int, seconds: Second, out: Path | None) -> None:
+    """Refuse long work that leaves nothing; make the folder of what is kept. seconds: of all on one processor."""
+    from mechsym.files import make_folder
+
+    if out is not None:
+        make_folder(out)
+    elif seconds > _UNKEPT:
+        raise BadInput(
+            f"the sweep has {count} points, about {seconds / 60:.0f} minutes of a processor ({seconds / count:g} s "
+            "each), and without --out nothing of it is kept; give --out DIR, where the same command goes on if it is "
+            "stopped, or fewer points"
+        )
+
+
+def ended(found: "Sweep", finish: Callable[["Sweep"], None]) -> "Sweep":
+    """A sweep, written by `finish`: after an interrupt, in the writing too, what is finished, however long it takes."""
+    if not found.interrupted:
+        with asked_to_stop():
+            finish(found)
+            return found
+        found = replace(found, interrupted=True)
+    with whole():
+        finish(found)
+    return found
+
+
+def picture_of(found: "Sweep", name: str = "") -> str:
+    """The picture of a sweep as SVG; empty where there is nothing to draw, or no time after an interrupt.
+
+    name: keeps its ids its own on a page.
+    """
+    if found.interrupted:
+        return ""
+    from mechsym.style import svg
+    from mechsym.sweep.plots import picture
+
+    figure = picture(found)
+    return "" if figure is None else svg(figure, name)
+
+
+def write(found: "Sweep", out: Path, picture: str) -> list[Path]:
+    """Table, netCDF where it can be written, picture; after an interrupt the table alone."""
+    from mechsym.files import write_text
+    from mechsym.sweep import store, write_netcdf, write_table
+
+    files = [write_table(found, out)]
+    if found.interrupted:
+        return [*files, out / store.NAME]
+    try:
+        files.append(write_netcdf(found, out))
+    except MissingExtra as error:
+        click.echo(f"no netCDF file: {error}", err=True)
+    pictures = [write_text(out / "sweep.svg", picture)] if picture else []
+    return [*files, *pictures, out / store.NAME]
+
+
+def gaps(found: "Sweep") -> tuple[Doubt, ...]:
+    """A sweep whose points are all refused."""
+    refused = [o for o in found.outcomes if getattr(o, "of_input", False)]
+    return proportion("gaps", "points that are refused / all", len(refused) / len(found.outcomes))
+
+
+def rows_of(found: "Sweep") -> list[Json]:
+    """Smallest and largest of the main results and where they are, each in the unit that suits it."""
+    import numpy as np
+
+    from mechsym.sweep import main_results
+
+    rows = []
+    for name, column in main_results(found).items():
+        ends = np.nanmin(column), np.nanmax(column)
+        # of points that differ by round-off the first
+        low, high = (int(np.flatnonzero(np.abs(column - end) <= 1e-12 * np.abs(end))[0]) for end in ends)
+        numbers = dict(zip(_NUMBERS, map(float, (*ends, np.nanmean(column), np.nanstd(column))), strict=True))
+        largest = max(map(abs, numbers.values()))
+        row = {"name": name, "unit": found.units[name], "at min": place(found, low), "at max": place(found, high)}
+        rows.append(row | {key: 0.0 if abs(v) < 1e-12 * largest else v for key, v in numbers.items()})
+    return in_rows(rows, _NUMBERS)
+
+
+def place(found: "Sweep", index: int) -> str:
+    """Where a point is, in words."""
+    parts = [(a, v if isinstance(v, str) else f"{v:.6g}") for a, v in zip(found.axes, found.points[index], strict=True)]
+    plain = {"-", *(a.unit for a, _ in parts if a.key.endswith(f"_{a.unit}"))}  # the name carries it; else SI
+    units = {a.key: a.suffix or ("" if a.unit in plain else a.unit) for a, _ in parts}
+    return ", ".join(f"{a.key}={v} {units[a.key]}".rstrip() for a, v in parts)

@@ -2,7 +2,7 @@
 
     points      speeds and loads: the work that each wants from the hinge      machines: where they come from
     rank        a bound that knows no guide: how many springs pay, and cylinders; certificate: its proof
-    programme   the design: task -> unknowns, contact_block -> co-design
+    programme   the design: task -> unknowns -> co-design
     front       the same for many ripples and pressures; a guide cut for one point
     verify      every number by two other ways: running (over the angle, in time), and how sure it is
     scenarios, manoeuvres    what kills it, what controls it
@@ -19,10 +19,10 @@ _NAMES = {
     "bare_flywheel": "mechsym.codesign.points:bare_flywheel",
     "CoDesign": "mechsym.codesign.task:CoDesign",
     "CoDesignTask": "mechsym.codesign.task:CoDesignTask",
-    "fine_path": "mechsym.codesign.contact_block:fine_path",
+    "fine_path": "mechsym.codesign.task:fine_path",
     "from_curve": "mechsym.codesign.machines:from_curve",
     "front": "mechsym.codesign.front:front",
-    "Hardware": "mechsym.codesign.hardware:Hardware",
+    "Hardware": "mechsym.codesign.task:Hardware",
     "hardware": "mechsym.codesign.machines:hardware",
     "misfire": "mechsym.codesign.scenarios:misfire",
     "Point": "mechsym.codesign.points:Point",

@@ -17,14 +17,12 @@ import scipy
 
 from mechsym import periodic
 from mechsym.codesign import running
-from mechsym.codesign.contact_block import Path, fine_path, path_of
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running, TimeRun, ripple_of_last_turn
-from mechsym.codesign.task import CoDesign, Track
-from mechsym.hinge import losses as law
+from mechsym.codesign.task import CoDesign, Path, Track, fine_path, path_of
+from mechsym.hinge import rollers as law
 from mechsym.hinge.guide import with_setting
-from mechsym.hinge.losses import HingeLosses, LossTorques
-from mechsym.hinge.rollers import contact_force
+from mechsym.hinge.rollers import HingeLosses, LossTorques, contact_force
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.machine.loads import load_torque
@@ -184,8 +182,7 @@ def in_time(machine: Running, given: HingeLosses, speed: float, periods: int) ->
     phi, omega, gained, lost, *T = found.sol(t)
     ends = np.array([phi[0], phi[-1]])
     kinetic = np.diff(running.inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2)[0]
-    springs = [gas or t.hardware.charged(p)
-               for t, gas, p in zip(machine.tracks, gases, machine.pressures, strict=True)]  # fmt: skip
+    springs = [gas or t.hardware.charged(p) for t, gas, p in zip(machine.tracks, gases, machine.pressures, strict=True)]
     stored = sum(float(np.diff(spring.energy(t.z(ends), warm[[0, -1]]))[0])
                  for t, spring, warm in zip(machine.tracks, springs, T, strict=True))  # fmt: skip
     residual = float((gained[-1] - lost[-1] - kinetic - stored) / (abs(lost[-1]) or 1.0))

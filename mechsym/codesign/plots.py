@@ -5,10 +5,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from mechsym.codesign.contact_block import fine_path
 from mechsym.codesign.loss import KINDS
 from mechsym.codesign.rank import Count
 from mechsym.codesign.result import CoDesignResult
+from mechsym.codesign.task import fine_path
 from mechsym.quantities.display import key_words, quantity_text
 from mechsym.style import (
     BLUE,
@@ -142,8 +142,9 @@ def losses(result: CoDesignResult) -> Figure:
     names = [f"{p.omega * turning:.4g}\n{quantity_text(p.load, 'Pa', 3)}" for p in task.points]
     places, below = np.arange(len(names)), np.zeros(len(names))
     for kind, color in zip(KINDS, SERIES, strict=False):
-        values = np.array([100 * getattr(at, kind) / abs(p.load_torque)
-                           for at, p in zip(result.losses, task.points, strict=True)])  # fmt: skip
+        values = np.array(
+            [100 * getattr(at, kind) / abs(p.load_torque) for at, p in zip(result.losses, task.points, strict=True)]
+        )
         if values.any():
             axis.bar(places, values, bottom=below, color=color, label=kind, width=0.6)
         below = below + values

@@ -3,7 +3,7 @@ r"""The programme: shapes of guides, pressures of springs and one small flywheel
     minimise J   over the shapes z(phi), the pressures p_k, J, and the motion of each point; J + mean(I_h) where
                  hardware is free: a flywheel on the rollers is a flywheel
     subject to   the steady motion of each point keeps the ripple                          (motion_rows)
-                 spring, track and rollers keep their limits where they are asked most      (contact_block)
+                 spring, track and rollers keep their limits where they are asked most      (task.limit_rows)
                  friction and heat, if the task asks for them                               (unknowns)
 
 Angles are common to all points and contain the kinks. IPOPT with exact derivatives; the splines are sparse. The
@@ -28,13 +28,13 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from mechsym.codesign import contact_block, unknowns
+from mechsym.codesign import unknowns
 from mechsym.codesign.points import Point, Samples, sample
 from mechsym.codesign.settings import FREE
-from mechsym.codesign.task import Active, CoDesign, CoDesignTask, Track
+from mechsym.codesign.task import Active, CoDesign, CoDesignTask, Track, limit_rows
 from mechsym.codesign.unknowns import Basis, Gathered, GuideSymbols, basis, curve, guides
 from mechsym.codesign.verify import passed
-from mechsym.hinge.bounds.face import asked as asked_of
+from mechsym.hinge.choices import asked as asked_of
 from mechsym.hinge.springs.face import lettered
 from mechsym.optimise.solvers import Solved, ipopt
 from mechsym.quantities import quantity, record
@@ -213,7 +213,7 @@ def _contacts(task: CoDesignTask, found: list[GuideSymbols], parameters: ca.SX, 
         spring = hardware.charged((1 + task.robust) * guide.largest, **guide.values)
         at = hardware.station(guide.path, spring, fastest, **guide.values)
         # rollers of the case's own guide reach rho0 + r and no farther
-        rows = contact_block.rows(at, limits, hardware.z_margin, reach if task.free else None)
+        rows = limit_rows(at, limits, hardware.z_margin, reach if task.free else None)
         gathered.group([*rows, ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
 
 

@@ -12,14 +12,11 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 
-from mechsym.codesign import contact_block
-from mechsym.codesign.contact_block import path_of
-from mechsym.codesign.hardware import Hardware
-from mechsym.codesign.task import CoDesign, Track
+from mechsym.codesign.task import CoDesign, Hardware, Track, limit_rows, path_of
 from mechsym.errors import BadInput, suggest
-from mechsym.hinge.bounds.face import ROOM, Station
+from mechsym.hinge.choices import ROOM, Station
 from mechsym.hinge.guide import setting_of
-from mechsym.hinge.losses import HingeLosses, bearing_torque
+from mechsym.hinge.rollers import HingeLosses, bearing_torque
 from mechsym.hinge.springs.face import affine_energy
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
@@ -111,8 +108,9 @@ def realise(found: CoDesign, goal: str = "bearing_loss") -> Realised:
     return Realised(
         status=failed[0] if failed else "optimal",
         design=dataclasses.replace(found, tracks=tuple(m[1] for m in made)),
-        before=tuple(m[2] for m in made), after=tuple(m[3] for m in made),
-    )  # fmt: skip
+        before=tuple(m[2] for m in made),
+        after=tuple(m[3] for m in made),
+    )
 
 
 def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, Track, float, float]:
@@ -175,7 +173,7 @@ def _closing(
 def _margins(found: CoDesign, at: Station) -> np.ndarray:
     """What is left of each limit, by the limit [-]."""
     # the least closing is chosen too, and is none of them
-    rows = contact_block.rows(at, found.task.bounds, 0.0, found.task.widest)[1:]
+    rows = limit_rows(at, found.task.bounds, 0.0, found.task.widest)[1:]
     above = [high - np.max(values) for values, _, high in rows if np.isfinite(high)]
     below = [np.min(values) - low for values, low, _ in rows if np.isfinite(low)]
     room = at.rho0 - at.spring.H / 2 - at.rollers.radius

@@ -5,15 +5,14 @@ from collections.abc import Mapping
 import numpy as np
 
 from mechsym.codesign.certificate import Floor, proving, rollers_inertia
-from mechsym.codesign.front import CutForOne, RippleMap
+from mechsym.codesign.front import CutForOne, RippleMap, Rival
 from mechsym.codesign.loss import Lossy
-from mechsym.codesign.peers import Rival
 from mechsym.codesign.rank import Bound
 from mechsym.codesign.scenarios import Scenario
 from mechsym.codesign.task import Active, CoDesign
 from mechsym.codesign.verify import GuideLoads, Spread, Verified
-from mechsym.hinge.losses import HingeLosses, LossTorques
-from mechsym.hinge.target import Target, design_words
+from mechsym.hinge.result import Target, design_words
+from mechsym.hinge.rollers import HingeLosses, LossTorques
 from mechsym.page import Shown
 from mechsym.quantities import RPM, record
 from mechsym.quantities.display import quantity_text, unit_for

@@ -22,16 +22,13 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign.contact_block import path_of
-from mechsym.codesign.hardware import Hardware, roller_inertia
 from mechsym.codesign.points import Function, Point
-from mechsym.codesign.task import Track
+from mechsym.codesign.task import Hardware, Track, path_of, roller_inertia
 from mechsym.errors import BadInput
 from mechsym.hinge.springs.face import Spring, of_letters
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, propeller_torque
 from mechsym.native.compiler import NoCompiler
-from mechsym.native.integrate import integrate
-from mechsym.native.runs import STATUS, Breaks, Level, Runs, Table
+from mechsym.native.integrate import STATUS, Breaks, Level, Runs, Table, integrate
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pure, Scalar
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
@@ -152,8 +149,9 @@ def run(machine: Running, speed: float, turns: Pure, phi_start: float = 0.0, sta
     )  # fmt: skip
     t, (phi, omega, gained, taken), stalled = turn(turning, int(_PER_TURN * turns) + 1)
     ends = np.array([phi[0], phi[-1]])
-    stored = sum(np.diff(spring_energy(t_, p0, ends))[0]
-                 for t_, p0 in zip(machine.tracks, machine.pressures, strict=True))  # fmt: skip
+    stored = sum(
+        np.diff(spring_energy(t_, p0, ends))[0] for t_, p0 in zip(machine.tracks, machine.pressures, strict=True)
+    )
     kinetic = inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2
     turned_over = abs(taken[-1]) or abs(gained[-1]) or 1e-30
     residual = float((gained[-1] - taken[-1] - np.diff(kinetic)[0] - stored) / turned_over)

@@ -6,9 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.codesign import plots
-from mechsym.codesign.contact_block import fine_path
 from mechsym.codesign.result import CoDesignNumbers, CoDesignResult, bound_words, prices
-from mechsym.codesign.task import Track
+from mechsym.codesign.task import Track, fine_path
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.hinge.shown import lost_combustion
 from mechsym.page import Card, Grid, Picture, View, grid, page, ranked, shows, title_mark
@@ -124,9 +123,10 @@ def _first_page(result: CoDesignResult) -> dict[str, object]:
         "lossy_ripple": None if None in ripples else max(r for r in ripples if r is not None),
         "gas_share": max(at.gas / abs(p.load_torque) for at, p in zip(result.losses, points, strict=True)),
         "residual": ratio_text(float(np.nanmax(residuals)), 1) if np.isfinite(residuals).any() else "–",
-        "index": result.design.tracks[0].hardware.spring.index, "gamma": result.assumed.gamma,
+        "index": result.design.tracks[0].hardware.spring.index,
+        "gamma": result.assumed.gamma,
         "speeds": (min(speeds), max(speeds)),
-    }  # fmt: skip
+    }
 
 
 def _share(value: float | None) -> float | None:

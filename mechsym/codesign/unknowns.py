@@ -19,19 +19,15 @@ import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym.codesign.contact_block import Path, path_of
-from mechsym.codesign.hardware import Hardware, roller_inertia
 from mechsym.codesign.points import Point, Samples
 from mechsym.codesign.settings import FREE
-from mechsym.codesign.task import MOST_MASS, CoDesignTask
-from mechsym.hinge import losses as law
-from mechsym.hinge.bounds.face import ROOM
+from mechsym.codesign.task import MOST_MASS, CoDesignTask, Hardware, Path, path_of, roller_inertia
+from mechsym.hinge import rollers as law
+from mechsym.hinge.choices import ROOM
 from mechsym.hinge.guide import setting_of
-from mechsym.hinge.losses import HingeLosses
-from mechsym.hinge.rollers import contact_force
-from mechsym.hinge.springs.air_thermal import AirThermal
+from mechsym.hinge.rollers import HingeLosses, contact_force
+from mechsym.hinge.springs.air_thermal import AirThermal, gas_temperature, relaxation
 from mechsym.hinge.springs.face import lettered
-from mechsym.hinge.springs.gas_heat import gas_temperature, relaxation
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Scalar
 

@@ -12,14 +12,13 @@ import scipy
 
 from mechsym import periodic
 from mechsym.codesign import running
-from mechsym.codesign.contact_block import fine_path
 from mechsym.codesign.loss import in_time, machine_at
 from mechsym.codesign.points import Point, motion
 from mechsym.codesign.running import added_inertia, spring_energy
-from mechsym.codesign.task import CoDesign, Track
+from mechsym.codesign.task import CoDesign, Track, fine_path
 from mechsym.hinge.balance import ripple
-from mechsym.hinge.bounds.face import CENTRE, GuideLimit, Station, asked
-from mechsym.hinge.losses import side_force
+from mechsym.hinge.choices import CENTRE, GuideLimit, Station, asked
+from mechsym.hinge.rollers import side_force
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pure
 from mechsym.simulate.steady import Steady

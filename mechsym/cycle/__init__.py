@@ -1,9 +1,9 @@
 """What the gas does: pressure on the pistons over the crank angle, and what an engine makes of it.
 
-chamber     volume over the travel of a piston        motion     travel and moving mass out of a mechanism
-pressure    pressure over the angle, peak, work       gas        pressure in its chamber: the force on a piston
+chamber     volume over the travel of a piston        pressure    pressure over the angle, peak, work
+gas         travel and moving mass out of a mechanism; pressure in its chamber: the force on a piston
 kinds       one table: every kind of cycle, and what each needs
-source      what every kind of gas answers        cylinder    where a cylinder is enough to answer it
+source      what every kind of gas answers, and where a cylinder is enough to answer it
 mixture, heat, wiebe, friction    properties, heat to the walls, combustion, friction mean pressure
 breathing   gas exchange by filling and emptying, turbocharger
 closed      the closed period integrated, its figures, its derivatives
@@ -26,8 +26,8 @@ _NAMES = {
     "gas_in_cylinder": "mechsym.cycle.kinds:gas_in_cylinder",
     "gas_of_engine": "mechsym.cycle.engine:gas_of_engine",
     "over_speeds": "mechsym.cycle.engine:over_speeds",
-    "piston_motion": "mechsym.cycle.motion:piston_motion",
-    "piston_travel": "mechsym.cycle.motion:piston_travel",
+    "piston_motion": "mechsym.cycle.gas:piston_motion",
+    "piston_travel": "mechsym.cycle.gas:piston_travel",
 }
 __all__ = sorted(_NAMES)
 __getattr__ = lazily(__name__, _NAMES)

@@ -22,7 +22,6 @@ import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym.cycle.values import Scalar, Value
 from mechsym.errors import BadInput
 from mechsym.mechanisms.arrays import over_arrays
 from mechsym.quantities import quantity, record
@@ -37,6 +36,7 @@ from mechsym.quantities.units import (
     Pure,
     Radian,
     RadPerSecond,
+    Scalar,
     Volume,
 )
 
@@ -159,7 +159,7 @@ def dvolume_dphi(chamber: Chamber, phi: Radian[Scalar]) -> Annotated[Scalar, "m^
     return volume_and_slope(chamber, phi)[1]
 
 
-def volume_and_slope(chamber: Chamber, phi: Value) -> tuple[Value, Value]:
+def volume_and_slope(chamber: Chamber, phi: Scalar) -> tuple[Scalar, Scalar]:
     """Both at once: `volume` [m^3] and `dvolume_dphi` [m^3/rad]."""
     x, dx, _ = travel(chamber.motion, phi)
     return chamber.clearance + chamber.pistons * chamber.area * x, chamber.pistons * chamber.area * dx

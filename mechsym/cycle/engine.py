@@ -10,18 +10,16 @@ import numpy as np
 import scipy
 
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel, volume
-from mechsym.cycle.closed.blowdown import check_blowdown, open_period
-from mechsym.cycle.closed.model import ClosedEngine, closed_period
+from mechsym.cycle.closed.model import ClosedEngine, check_blowdown, closed_period, open_period
 from mechsym.cycle.closed.performance import Performance, performance
 from mechsym.cycle.closed.run import at_angles, run
-from mechsym.cycle.cylinder import ENGINE_PAGE, otto_bound
 from mechsym.cycle.friction import mechanical_efficiency
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds.printed import marched, performance_printed
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
 from mechsym.cycle.mixture import ConstantGamma
 from mechsym.cycle.pressure import periodic, pressure_over
-from mechsym.cycle.source import EngineParts, Progress, unseen
+from mechsym.cycle.source import ENGINE_PAGE, EngineParts, Progress, otto_bound, unseen
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities import RPM

@@ -9,7 +9,6 @@ from typing import Annotated, NamedTuple
 import casadi as ca
 
 from mechsym.cycle.mixture import conductivity, viscosity
-from mechsym.cycle.values import Value
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Kelvin, Pascal, Scalar
 
@@ -21,13 +20,13 @@ class GasAtWall(NamedTuple):
     velocity by combustion divided by its coefficient: V_d T_r (p - p_motored)/(p_r V_r) [K], 0 before ignition.
     """
 
-    p: Value
-    t: Value
-    v: Value
-    gas_constant: Value
-    bore: Value
-    piston_speed: Value
-    swirl: Value = 0.0
+    p: Scalar
+    t: Scalar
+    v: Scalar
+    gas_constant: Scalar
+    bore: Scalar
+    piston_speed: Scalar
+    swirl: Scalar = 0.0
 
 
 @record
@@ -109,7 +108,7 @@ def motored_swirl(
     return scale * ca.fmax(p - p_motored, 0.0) if isinstance(law, Woschni) else 0.0
 
 
-def _annand(law: Annand, state: GasAtWall) -> Value:
+def _annand(law: Annand, state: GasAtWall) -> Scalar:
     density = state.p / (state.gas_constant * state.t)
     reynolds = density * state.piston_speed * state.bore / viscosity(state.t)
     convection = conductivity(state.t) / state.bore * law.a * reynolds**law.exponent

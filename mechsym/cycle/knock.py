@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.closed.phases import GRADING, steps_of
+from mechsym.cycle.closed.run import GRADING, steps_of
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.quantities.units import Array, Kelvin, Pascal, Pure, Radian, RadPerSecond, Scalar, Second
 
@@ -125,8 +125,9 @@ def knock_of_runs(
     T = end_gas_temperature(p, p_0, T_0, kappa(gas, T_0))
     power = GRADING["during"]
     grading = power * np.linspace(0, 1, second) ** (power - 1)
-    ahead = share_of_delay(column["starts"] - column["closes"], found["p"][:, :first], found["t"][:, :first],
-                           column["omega"], number)  # fmt: skip
+    ahead = share_of_delay(
+        column["starts"] - column["closes"], found["p"][:, :first], found["t"][:, :first], column["omega"], number
+    )
     return np.asarray(
         ahead + share_of_delay((column["ends"] - column["starts"]) * grading, p, T, column["omega"], number)
     )

@@ -10,7 +10,6 @@ from typing import Annotated, NamedTuple
 
 import casadi as ca
 
-from mechsym.cycle.values import Value
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Kelvin, Pure, Scalar, Viscosity
 
@@ -36,10 +35,10 @@ _N2_PER_O2 = 3.773  # moles of "atmospheric nitrogen" (argon counted in) per mol
 class Properties(NamedTuple):
     """What the first law needs to know of the gas: u [J/kg], c_v [J/(kg K)], du/dX [J/kg], R [J/(kg K)]."""
 
-    energy: Value
-    heat_capacity: Value
-    energy_slope: Value
-    gas_constant: Value
+    energy: Scalar
+    heat_capacity: Scalar
+    energy_slope: Scalar
+    gas_constant: Scalar
 
 
 @record
@@ -115,11 +114,11 @@ def _mass_fractions(moles: dict[str, float]) -> dict[str, float]:
     return {s: n * _MOLAR_MASS[s] / total for s, n in moles.items()}
 
 
-def _sum(fractions: dict[str, float], value: Callable[[str], Value]) -> Value:
+def _sum(fractions: dict[str, float], value: Callable[[str], Scalar]) -> Scalar:
     return sum(y * value(species) for species, y in fractions.items())
 
 
-def _mix(air: dict[str, float], products: dict[str, float], burnt: Value, value: Callable[[str], Value]) -> Value:
+def _mix(air: dict[str, float], products: dict[str, float], burnt: Scalar, value: Callable[[str], Scalar]) -> Scalar:
     return (1 - burnt) * _sum(air, value) + burnt * _sum(products, value)
 
 
@@ -127,7 +126,7 @@ def _gas_constant(species: str) -> float:
     return UNIVERSAL / _MOLAR_MASS[species]
 
 
-def _heat_capacity(species: str, t: Value) -> Value:
+def _heat_capacity(species: str, t: Scalar) -> Scalar:
     w, dw = _blend(t)
     low, high = _NASA[species]
     u_low, u_high = _ranges(species, t)
@@ -135,20 +134,20 @@ def _heat_capacity(species: str, t: Value) -> Value:
     return _gas_constant(species) * (slopes + dw * (u_high - u_low))
 
 
-def _energy(species: str, t: Value) -> Value:
+def _energy(species: str, t: Scalar) -> Scalar:
     w, _ = _blend(t)
     u_low, u_high = _ranges(species, t)
     return _gas_constant(species) * ((1 - w) * u_low + w * u_high)
 
 
-def _blend(t: Value) -> tuple[Value, Value]:
+def _blend(t: Scalar) -> tuple[Scalar, Scalar]:
     # a switch at 1000 K would leave a kink in c_v, at which an integrator loses its order; the ranges agree to 1e-4
     # over the width of the blend, and c_v is the derivative of the blended u to the last bit
     s = ca.tanh((t - _T_SPLIT) / _T_BLEND)
     return (1 + s) / 2, (1 - s**2) / (2 * _T_BLEND)
 
 
-def _ranges(species: str, t: Value) -> tuple[Value, Value]:
+def _ranges(species: str, t: Scalar) -> tuple[Scalar, Scalar]:
     # u/R of both ranges, zero at the reference and continuous at 1000 K, which the fit's rounded constants are not
     low, high = _NASA[species]
     zero = _integral(low, T_REFERENCE) - T_REFERENCE
@@ -156,9 +155,9 @@ def _ranges(species: str, t: Value) -> tuple[Value, Value]:
     return _integral(low, t) - t - zero, _integral(high, t) - t + step
 
 
-def _polynomial(a: tuple[float, ...], t: Value) -> Value:
+def _polynomial(a: tuple[float, ...], t: Scalar) -> Scalar:
     return a[0] + t * (a[1] + t * (a[2] + t * (a[3] + t * a[4])))
 
 
-def _integral(a: tuple[float, ...], t: Value) -> Value:
+def _integral(a: tuple[float, ...], t: Scalar) -> Scalar:
     return t * (a[0] + t * (a[1] / 2 + t * (a[2] / 3 + t * (a[3] / 4 + t * a[4] / 5))))

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.cycle.chamber import volume
-from mechsym.cycle.columns import AFTER_FRICTION, UNITS, CycleColumns, CycleFigures
-from mechsym.cycle.compare import EngineComparison
+from mechsym.cycle.columns import AFTER_FRICTION, UNITS, CycleColumns, CycleFigures, EngineComparison
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.pressure import Pressure
 from mechsym.files import Json
@@ -36,7 +35,8 @@ def gas_view(gas: Gas) -> View:
     ]
     if pressure.t_max is not None:
         cards.append(card(Pressure, "t_max", pressure.t_max))
-    see = f"Absolute pressure over the {_angle(gas)}, and over the volume: the area is the work."
+    most = quantity_text(pressure.p_max, "Pa", 4)
+    see = f"Absolute pressure, at most {most}, over the {_angle(gas)}, and over the volume: the area is the work."
     drawn = (Picture(name="indicator", see=see, draw=lambda: indicator(gas)),)
     return View(title=f"Gas, {pressure.kind}", cards=tuple(cards), pictures=drawn, columns=lambda: _columns(gas))
 
@@ -111,10 +111,11 @@ def cycle_view(found: CycleFigures) -> View:
 
 
 _ABOUT = {
-    "efficiency": "of the fuel's heating value", "brake_efficiency": "of the fuel's heating value",
-    "mechanical_efficiency": "brake by net indicated power", "ca50_deg": "half of the heat is released, from firing "
-    "dead centre",
-}  # fmt: skip
+    "efficiency": "of the fuel's heating value",
+    "brake_efficiency": "of the fuel's heating value",
+    "mechanical_efficiency": "brake by net indicated power",
+    "ca50_deg": "half of the heat is released, from firing dead centre",
+}
 
 
 def _flat(found: Json, size: int) -> Columns:

@@ -15,7 +15,6 @@ import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym.cycle.values import Value
 from mechsym.quantities.units import Pure, Scalar
 
 # Smallest y of the symbolic form: log(y), which the derivative with respect to m needs, stays finite
@@ -105,18 +104,18 @@ def _symbolic(value: object) -> bool:
     return isinstance(value, (ca.SX, ca.MX))
 
 
-def _from_start(y: Value) -> Value:
+def _from_start(y: Scalar) -> Scalar:
     return ca.fmax(y, _TINY) if _symbolic(y) else np.maximum(y, 0.0)
 
 
-def _where_burning(y: Value, rate: Value) -> Value:
+def _where_burning(y: Scalar, rate: Scalar) -> Scalar:
     # only m = 0 needs this: y^0 is 1 before the start too
     return ca.if_else(y >= 0, rate, 0) if _symbolic(y) else np.where(np.asarray(y) >= 0, rate, 0.0)[()]
 
 
-def _exp(value: Value) -> Value:
+def _exp(value: Scalar) -> Scalar:
     return ca.exp(value) if _symbolic(value) else np.exp(value)
 
 
-def _expm1(value: Value) -> Value:
+def _expm1(value: Scalar) -> Scalar:
     return ca.expm1(value) if _symbolic(value) else np.expm1(value)

@@ -6,6 +6,8 @@ declare.py    what a mechanism is made of (bodies, springs, forces; coordinates,
 linkage.py    links and joints without algebra; closing.py places them, by dyads.py or by constraint
 roles.py      what parts are for: pistons, rotors, bearings, guides, teeth; drawing.py  how they look
 tape.py       named intermediates and their named derivatives
+space.py      the same in space: space_parts.py, joints in space_joints.py, rows that close loops in space_rows.py,
+              recursions in space_tree.py, equations in space_equations.py, ranks in space_rank.py, vectors.py
 rates.py      velocities and accelerations of named expressions, and what shall come out beside the equations
 lagrange.py   mass matrix, bias, generalised forces, energies, reactions
 textbook.py   the Lagrangian d/dt(dT/dqdot) - dT/dq as the check
@@ -45,10 +47,12 @@ from mechsym.derive.declare import Declaration as Mechanism
 from mechsym.derive.lagrange import Equations, derive, given_equations
 from mechsym.derive.printer import UnsupportedNode, casadi_text, to_casadi
 from mechsym.derive.rates import acceleration, output, output_dynamic, reaction, velocities, velocity
+from mechsym.derive.space import SpatialDeclaration
+from mechsym.derive.space_equations import equations as _in_space  # noqa: F401
 
 __all__ = [
     "Abs", "And", "Equations", "Max", "Mechanism", "Min", "Mod", "Not", "Or", "Piecewise", "Rational",
-    "UnsupportedNode", "acceleration", "acos", "asin", "atan", "atan2", "casadi_text", "cos", "derive", "exp",
-    "given_equations", "log", "output", "output_dynamic", "pi", "reaction", "sign", "sin", "sqrt", "tan", "to_casadi",
-    "velocities", "velocity",
+    "SpatialDeclaration", "UnsupportedNode", "acceleration", "acos", "asin", "atan", "atan2", "casadi_text", "cos",
+    "derive", "exp", "given_equations", "log", "output", "output_dynamic", "pi", "reaction", "sign", "sin", "sqrt",
+    "tan", "to_casadi", "velocities", "velocity",
 ]  # fmt: skip

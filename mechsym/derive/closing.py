@@ -10,7 +10,7 @@ from typing import Any
 
 from sympy import Symbol, cos, sin
 
-from mechsym.derive import dyads, poses
+from mechsym.derive import dyads, figures, poses
 from mechsym.derive.dyads import line_of_centres, on_line, pinned_at, place_by_pin, target
 from mechsym.derive.linkage import Joint, Link, LinkLine, LinkPoint, named_point
 from mechsym.derive.refuse import refuse
@@ -150,7 +150,7 @@ def finish(m: Declaration) -> None:
         return
     settle(m)
     _require_held(m)
-    _draw(m)
+    figures.draw(m)
     before = len(m.constraints)
     closed = [joint for joint in m.link_joints if not joint.used]
     for joint in closed:
@@ -176,24 +176,6 @@ def _require_held(m: Declaration) -> None:
             u, v = points.pop()
             why = f"all joints of the link {link.name!r} are pins at its point ({u}, {v}), which leaves its angle free"
             refuse(f"{why}; put one at another point, or give it turns=", link.where)
-
-
-def _draw(m: Declaration) -> None:
-    """Every link as a line through what its joints hold, where the declaration draws nothing."""
-    if m.shapes:
-        return
-    for link in m.links:
-        sides = [j.side(link) for j in m.link_joints if link in (j.first.link, j.second.link)]
-        points = [p.link.at(p.u, p.v) for p in (*sides, *(p for p in m.watched.values() if _of(p, link)))]
-        where = list({(str(p.u), str(p.v)): p for p in points}.values())
-        if len(where) > 1:
-            m.draw_line(*where, *(where[:1] if len(where) > 2 else ()), role="crank" if link.given else "rod")
-        elif link.mass != 0 and where:
-            m.draw_line(where[0], link.at(*link.centre), role="piston")
-
-
-def _of(point: object, link: Link) -> bool:
-    return isinstance(point, LinkPoint) and point.link is link
 
 
 def _between(joint: Joint) -> str:

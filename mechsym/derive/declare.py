@@ -7,6 +7,7 @@ joints without algebra in linkage.py, what parts are for in roles.py; what shall
 """
 
 from dataclasses import dataclass
+from typing import Any, ClassVar
 
 from sympy import Expr, Integer
 
@@ -62,10 +63,19 @@ class Element:
 class Declaration(Linkage, Elements, Drawing):
     """What a mechanism is made of.
 
-    name: name through all stages; source: file stem of the source; about: one line for lists.
+    name: name through all stages; source: file stem of the source; about: one line for lists; space: 3 for one that
+    moves in space, see space.py.
     """
 
-    def __init__(self, name: str, source: str = "own", about: str = "") -> None:
+    kinds: ClassVar[dict[int, type]] = {}
+
+    def __new__(cls, *said: Any, space: int = 2, **named: Any) -> "Declaration":
+        """A declaration in the plane, or in space."""
+        if space not in (2, 3):
+            refuse(f"space = {space!r} has no mechanisms; there are 2 (the plane) and 3")
+        return object.__new__(cls.kinds.get(space, cls))
+
+    def __init__(self, name: str, source: str = "own", about: str = "", *, space: int = 2) -> None:
         super().__init__(name, source, about)
         self.bodies: list[Body] = []
         self.springs: list[Element] = []
@@ -76,9 +86,23 @@ class Declaration(Linkage, Elements, Drawing):
         self.gravity: tuple[Expr, Expr] = (Integer(0), Integer(0))
         self.given: tuple[list[list[Expr]], list[Expr], list[Expr]] | None = None
         self.watched: dict[str, object] = {}
+        self.undetermined: list[str] = []  # reactions that joints hold against one another, in space
+        self.redundant: list[str] = []
         self._start_linkage()
         self._start_roles()
         self._start_drawing()
+
+    def own_equations(self) -> Any:
+        """The equations, where the declaration has a way of its own to them."""
+        return None
+
+    def explained(self) -> list[str]:
+        """How the loops are closed, a line each, in order."""
+        closing.finish(self)
+        held = [
+            f"{letter} is held by constraint, from {self.guesses[letter.name]:g} on" for letter in self.dependent_list
+        ]
+        return [*map(str, self.sides), *held]
 
     def advance(self) -> None:
         """Place every link that has a closed form."""

@@ -11,7 +11,7 @@ from mechsym.derive.linkage import point_of
 from mechsym.derive.refuse import refuse
 from mechsym.files import Json
 
-PAINTED = ("frame", "flywheel", "piston", "planet", "rod", "crank", "joint")
+PAINTED = ("frame", "flywheel", "piston", "planet", "rod", "crank", "joint", "trace")
 SKETCHED = ("line", "circle", "box", "piston", "cylinder", "slider_crank")
 
 
@@ -20,10 +20,12 @@ class Drawing(Letters):
 
     def _start_drawing(self) -> None:
         self.shapes: list[Json] = []
+        self.pins: dict[str, list[str]] = {}  # names of their places
         self.shape_points: dict[str, Expr] = {}
         self.sketches: list[Json] = []
 
-    def _point_names(self, points: tuple[object, ...]) -> list[list[str]]:
+    def point_names(self, points: tuple[object, ...]) -> list[list[str]]:
+        """Names under which the derived code places points: pairs (x, y) [m] or points of links."""
         all_names = []
         for point in points:
             pair = self._pair(point, "m", "point of the drawing") if isinstance(point, tuple) else point_of(point).xy
@@ -39,7 +41,7 @@ class Drawing(Letters):
         if role not in PAINTED:
             refuse(f"nothing is painted as {role!r}; there are {', '.join(PAINTED)}")
         named = {key: self._size(size) for key, size in sizes.items()}
-        self.shapes.append({"kind": kind, "role": role, "points": self._point_names(points), **named})
+        self.shapes.append({"kind": kind, "role": role, "points": self.point_names(points), **named})
 
     def draw_line(self, *points: object, role: str = "rod") -> None:
         """Draw a line through points: pairs (x, y) [m] or points of links."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy
-from sympy import Expr, Integer, Symbol, cse, numbered_symbols
+from sympy import Expr, Integer, Symbol
 
 from mechsym.derive.lagrange import Equations, multiplier
 from mechsym.derive.printer import casadi_text
@@ -117,7 +117,7 @@ def assignments(equations: Equations, outputs: Mapping[str, Expr]) -> tuple[list
             names_of |= {value: symbol, -value: -symbol}
     results = {name: e.xreplace(trivial) for name, e in outputs.items()}
     names = _reachable(lines, results.values())
-    common, reduced = cse([*(lines[n] for n in names), *results.values()], numbered_symbols("_t"), order="canonical")
+    common, reduced = tape.common([*(lines[n] for n in names), *results.values()])
     ordered = _interleave(names, reduced[: len(names)], dict(common))
     placed = {s for s, _ in ordered}
     tail = _interleave([], [], {s: e for s, e in common if s not in placed}, reduced[len(names) :])

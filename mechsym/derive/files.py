@@ -10,12 +10,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
-from mechsym.derive import closing
 from mechsym.derive.declare import Declaration
 from mechsym.derive.emit import module_text
 from mechsym.derive.lagrange import derive
 from mechsym.derive.linkage import BY_CONSTRAINT, Link
 from mechsym.derive.listing import Listing, listing
+from mechsym.derive.methods import declaration_of, is_method
 from mechsym.derive.printer import UnsupportedNode
 from mechsym.derive.textbook import disagreement
 from mechsym.errors import BadInput, suggest
@@ -106,7 +106,8 @@ def declared_in(path: Path) -> dict[str, Declaration]:
         It declares none, or two of one name
     """
     module = run(path)
-    declared: list[Declaration] = [v for v in vars(module).values() if isinstance(v, Declaration)]
+    units = getattr(module, "units", {})
+    declared = [d for name, value in vars(module).items() if (d := _declaration(path, name, value, units))]
     for name, value in vars(module).items():
         if name.startswith(("_", "test")) or not inspect.isfunction(value) or value.__module__ != module.__name__:
             continue
@@ -116,13 +117,23 @@ def declared_in(path: Path) -> dict[str, Declaration]:
                     returned = value()
             except (Exception, SystemExit) as error:
                 raise _refusal(path, error) from None
-            declared += [returned] if isinstance(returned, Declaration) else []
+            declared += [d] if (d := _declaration(path, name, returned, units)) else []
     by_name = {m.name: m for m in declared}
     if not declared:
         raise BadInput(f"{path} declares no mechanism; write a function that makes one and returns it")
     if len(by_name) < len(declared):
         raise BadInput(f"{path} declares two mechanisms of one name ({', '.join(m.name for m in declared)})")
     return by_name
+
+
+def _declaration(path: Path, name: str, value: object, units: object) -> Declaration | None:
+    """What a value of a file declares: a mechanism, or a model of sympy under the name that it has in the file."""
+    if not is_method(value):
+        return value if isinstance(value, Declaration) else None
+    try:
+        return declaration_of(name, value, units if isinstance(units, dict) else {})
+    except BadInput as error:
+        raise _refusal(path, error) from None
 
 
 def chosen(path: Path, name: str = "") -> Declaration:
@@ -145,10 +156,7 @@ def chosen(path: Path, name: str = "") -> Declaration:
 
 def explained(path: Path, name: str) -> list[str]:
     """How the loops of a mechanism in a file are closed, a line each, in order."""
-    m = chosen(path, name)
-    closing.finish(m)
-    held = [f"{letter} is held by constraint, from {m.guesses[letter.name]:g} on" for letter in m.dependent_list]
-    return [*map(str, m.sides), *held]
+    return chosen(path, name).explained()
 
 
 def build(path: Path, name: str, source_hash: str, by_constraint: bool = False) -> tuple[str, Listing]:

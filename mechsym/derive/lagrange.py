@@ -8,7 +8,9 @@ is Lagrange's equation (textbook.py proves it for every mechanism) at a fraction
 displacement is one more coordinate whose acceleration is zero: its equation gives the reaction.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from sympy import Expr, Integer, Rational, Symbol
 
@@ -56,6 +58,8 @@ class Equations:
     momentum: dict[str, Expr]
     constraint_jacobian: tuple[tuple[Expr, ...], ...] = ()
     constraint_bias: tuple[Expr, ...] = ()
+    checked: Callable[[], tuple[int, float]] | None = None  #: Another check than that of the plane
+    written: tuple[dict[str, str], ...] = ()  #: The equations for a reader, where the steps are too many to be read
 
 
 def given_equations(m: Declaration, mass_matrix: list[list[Expr]], bias: list[Expr], force: list[Expr]) -> None:
@@ -82,6 +86,8 @@ def derive(m: Declaration) -> Equations:
 
     Returns equations: mass matrix, bias, forces, energies, reactions.
     """
+    if (own := m.own_equations()) is not None:
+        return own
     finish(m)
     if not m.q:
         refuse(f"{m.name} has no coordinate; declare one: phi = m.coordinates('phi')", m.where[m.name])
@@ -104,6 +110,7 @@ def derive(m: Declaration) -> Equations:
             reactions=dict(m.dynamic_outputs),
             kinematics={s.name: s for s in m.kinematic_outputs},
             momentum={},
+            **_held(m),
         )
     mass = [[sum((_body_mass(m, body, a, b) for body in m.bodies), Integer(0)) for b in m.q] for a in m.q]
     _require_mass(m, mass)
@@ -129,9 +136,16 @@ def derive(m: Declaration) -> Equations:
         reactions=_reactions(m),
         kinematics=kinematics,
         momentum=_momentum(m),
-        constraint_jacobian=tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
-        constraint_bias=tuple(curvature(m, g) for g in m.constraints.values()),
+        **_held(m),
     )
+
+
+def _held(m: Declaration) -> dict[str, Any]:
+    """Jacobian of the constraints, and the velocity terms of their second derivatives."""
+    return {
+        "constraint_jacobian": tuple(tuple(m.tape.diff(g, v) for v in m.q) for g in m.constraints.values()),
+        "constraint_bias": tuple(curvature(m, g) for g in m.constraints.values()),
+    }
 
 
 def _require_mass(m: Declaration, mass: list[list[Expr]]) -> None:

@@ -37,17 +37,21 @@ class Listing(TypedDict):
     checked: NotRequired[int]  #: Random states at which T - V agreed
     equations: list[dict[str, str]]  #: Title, LaTeX and MathML of each
     dependents: NotRequired[list[str]]
+    pose: NotRequired[dict[str, float]]  #: Of independent coordinates, where it was assembled
     guesses: NotRequired[dict[str, float]]
     multipliers: NotRequired[dict[str, str]]
     ranges: NotRequired[dict[str, Json]]
     requires: NotRequired[list[dict[str, str]]]
     roles: NotRequired[dict[str, list[Json]]]  #: Of each kind of `mechsym.mechanisms.roles`
     shapes: NotRequired[list[Json]]
+    pins: NotRequired[dict[str, list[str]]]  #: Coordinates of each pin in the drawing
     sketch: NotRequired[list[Json]]
     links: NotRequired[list[Json]]
     springs: NotRequired[list[str]]
     dampers: NotRequired[list[str]]
     watched: NotRequired[list[str]]  #: Points that `m.watch` names
+    undetermined: NotRequired[list[str]]  #: Reactions that joints hold against one another, in space
+    redundant: NotRequired[list[str]]  #: Which joints these are, in words
     open_sides: NotRequired[list[str]]  #: Joints of loops of pins whose side nobody chose
 
 
@@ -69,7 +73,7 @@ def listing(equations: Equations) -> Listing:
         "reactions": {m.reaction_of.get(s, s).name: about for s, about in m.joint_about.items()},
         "constraints": list(m.constraints),
         **_own(m),
-        "equations": [_equation(m, *row) for row in _rows(equations)],
+        "equations": [*equations.written] or [_equation(m, *row) for row in _rows(equations)],
     }
     return cast(Listing, stored)
 
@@ -78,17 +82,21 @@ def _own(m: Declaration) -> Json:
     """What only some declarations say."""
     said = {
         "dependents": [s.name for s in m.dependent_list],
+        "pose": {q.name: m.poses[q.name] for q in m.q if q.name in m.poses and q not in m.dependent_list},
         "guesses": m.guesses,
         "multipliers": {c: s.name for c, s in m.multiplier_of.items()},
         "ranges": m.ranges,
         "requires": m.requires,
         "roles": m.roles,
         "shapes": m.shapes,
+        "pins": m.pins,
         "sketch": m.sketches,
         "links": [link for link in map(partial(_link, m), m.links) if link],
         "springs": _constants(m, m.springs),
         "dampers": _constants(m, m.dampers),
         "watched": [*m.watched],
+        "undetermined": m.undetermined,
+        "redundant": m.redundant,
         "open_sides": [side.joint for side in m.sides if side.pins and not side.by],
     }
     return {key: value for key, value in said.items() if value}

@@ -8,7 +8,7 @@ in them and no derivative is ever expanded into trigonometric functions.
 
 from collections.abc import Callable, Iterable
 
-from sympy import Expr, Float, Integer, Symbol, asin, atan2, cos, sin, sqrt
+from sympy import Expr, Float, Integer, Symbol, asin, atan2, cos, cse, numbered_symbols, sin, sqrt
 
 from mechsym.derive.printer import read
 
@@ -146,6 +146,10 @@ class Intermediates:
             self.entries[name] = value
             self._derived_from[name] = (root, by)
         return name
+
+    def common(self, expressions: list[Expr]) -> tuple[list[tuple[Symbol, Expr]], list[Expr]]:
+        """Repeated terms of expressions, named `_t0, _t1, ...`, and the expressions in them."""
+        return cse(expressions, numbered_symbols("_t"), order="canonical")
 
     def derived_from(self, symbol: Symbol) -> tuple[Symbol, tuple[Symbol, ...]]:
         """What a name is the derivative of, and by which variables.

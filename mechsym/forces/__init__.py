@@ -2,14 +2,15 @@
 
 turn.py         mechanism, gas, speed -> gas forces and exact reactions over the angle, the power they must balance
 loads.py        reactions under common names: side force, crank pin radial and tangential, main bearing
-textbook.py     the chains of Moroianu (2017) and Prymak: two-mass rod, Terskih's rule, their errors
-indicated.py    the chain backwards: cylinder pressure out of a measured torque on the shaft
+textbook.py     the chains of Moroianu (2017) and Prymak: two-mass rod, Terskih's rule, their errors; and the chain
+                backwards: cylinder pressure out of a measured torque on the shaft
+mains.py        main bearings at their places, and the film of oil in them
 shaking.py      orders; what shakes the frame, the counterweight that shakes it least, balance that was asked for
 friction.py     first-order losses from the frictionless reactions, of rings, and as a law of the engine cycle
 comparison.py   slider crank, hypocycloid and rodless at equal stroke, mass and gas force; the sources' claims judged
 result.py       all of it in one record, with the table forces.csv and its extremes
 summary.py      the record in numbers; shown.py its pictures, its moving scene, its files
-motion.py       how coordinates are driven: evenly, by a word, through points; driven.py their forces over time
+driven.py       how coordinates are driven: evenly, by a word, through points; the forces over time
 """
 
 from mechsym.quantities import lazily
@@ -24,7 +25,7 @@ _NAMES = {
     "forces": "mechsym.forces.result:forces",
     "Friction": "mechsym.forces.friction:Friction",
     "losses": "mechsym.forces.friction:losses",
-    "pressure_from_torque": "mechsym.forces.indicated:pressure_from_torque",
+    "pressure_from_torque": "mechsym.forces.textbook:pressure_from_torque",
     "Turn": "mechsym.forces.turn:Turn",
     "turn": "mechsym.forces.turn:turn",
 }

@@ -15,8 +15,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from mechsym.cycle.gas import at_same_travel
-from mechsym.cycle.motion import piston_travel
+from mechsym.cycle.gas import at_same_travel, piston_travel
 from mechsym.errors import BadInput
 from mechsym.forces.friction import Friction, Rings, losses
 from mechsym.forces.loads import loads, power_residual

@@ -1,17 +1,182 @@
-"""Forces of a mechanism some of whose coordinates are driven over time."""
+r"""How driven coordinates move: evenly, by a word from rest to rest, or through the points of a file; the forces then.
 
-from collections.abc import Mapping
+Words give the share s of a rise over the share x of its duration; a trapezium of acceleration has ramps and rests of
+constant acceleration in the proportion 1 : 2 : 1 in each half:
+
+.. math:: \text{cycloid: } x - \frac{\sin 2\pi x}{2\pi}, \qquad \text{3-4-5: } 10x^3 - 15x^4 + 6x^5
+
+A modified sine joins quarter waves of the periods 1/2 and 3/2 so that the acceleration is continuous. The rows of a
+file are joined by splines of degree 5, whose fourth derivative is continuous; a periodic one also at its ends.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy
 
-from mechsym.errors import BadInput
+from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
-from mechsym.forces.motion import DrivenMotion
 from mechsym.mechanisms import constraints, driven
+from mechsym.mechanisms.driven import MotionSettings
 from mechsym.mechanisms.record import Mechanism, velocities
-from mechsym.quantities import record
+from mechsym.page import Card, Picture, View
+from mechsym.quantities import parse, record
+from mechsym.quantities.display import quantity_text
 from mechsym.quantities.results import Columns, part, quantity, result
+from mechsym.quantities.units import Array, Second
+from mechsym.style import BLUE, axis_unit, panels
+from mechsym.tables import columns_of
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Curve = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]  # times [s] to place, speed, acceleration
+
+
+def _pieces(knots: list[float], accelerations: list[tuple[float, ...]]) -> "scipy.interpolate.PPoly":
+    """The share of a rise by its acceleration, piece by piece: powers from the highest down."""
+    degree = max(map(len, accelerations))
+    rows = np.array([(0.0,) * (degree - len(p)) + p for p in accelerations]).T
+    return scipy.interpolate.PPoly(rows, knots).antiderivative(2)
+
+
+def _trapezium() -> Curve:
+    a = 16 / 3  # so that the rise is 1
+    ramp = 8 * a
+    knots = [0.0, 1 / 8, 3 / 8, 5 / 8, 7 / 8, 1.0]
+    return _of_pieces(_pieces(knots, [(ramp, 0.0), (a,), (-ramp, a), (-a,), (ramp, -a)]))
+
+
+def _of_pieces(curve: "scipy.interpolate.PPoly") -> Curve:
+    return lambda x: (curve(x), curve(x, 1), curve(x, 2))
+
+
+def _cycloid(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    w = 2 * math.pi
+    return x - np.sin(w * x) / w, 1 - np.cos(w * x), w * np.sin(w * x)
+
+
+def _modified_sine(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    c, w, ends = 1 / (4 + math.pi), 4 * math.pi, (x < 1 / 8) | (x > 7 / 8)
+    slow = w * x / 3 + math.pi / 3
+    s = np.where(ends, np.where(x > 0.5, 4.0, 0.0) - np.sin(w * x) / 4, 2 - 9 / 4 * np.sin(slow))
+    ds = np.where(ends, -np.cos(w * x), -3 * np.cos(slow))
+    return c * (s + math.pi * x), c * math.pi * (1 + ds), c * math.pi * w * np.where(ends, np.sin(w * x), np.sin(slow))
+
+
+WORDS: Mapping[str, Curve] = {
+    "cycloid": _cycloid,
+    "3-4-5": _of_pieces(_pieces([0.0, 1.0], [(120.0, -180.0, 60.0, 0.0)])),
+    "modified sine": _modified_sine,
+    "trapezium": _trapezium(),
+}
+
+
+class DrivenMotion:
+    """The driven coordinates of a section `[motion]`.
+
+    Raises BadInput: nothing is driven, a coordinate twice, or what a word or a file needs is missing.
+    """
+
+    def __init__(self, section: MotionSettings, units: Mapping[str, str], start: Mapping[str, float]) -> None:
+        given = {q: getattr(section, q) for q in units if getattr(section, q) is not None}
+        if section.periodic and not section.file:
+            raise BadInput("motion.periodic is for a file that repeats; name it, motion.file, or leave periodic out")
+        if section.rise is not None and not set(given.values()) & {*WORDS}:
+            raise BadInput(f"motion.rise is for {', '.join(map(repr, WORDS))}; no coordinate moves so: leave it out")
+        table = _table(section.file, units) if section.file else {}
+        if twice := sorted(given.keys() & table.keys()):
+            raise BadInput(f"motion.{twice[0]} stands in the section and in {section.file}; keep one")
+        self.curves: dict[str, Curve] = {}
+        for q, value in given.items():
+            self.curves[q] = _curve(section, q, value, units[q], start.get(q, 0.0))
+        t = table.pop("t", np.zeros(1))
+        for q, values in table.items():
+            self.curves[q] = _spline(section, q, t, values, units[q])
+        if not self.curves:
+            raise BadInput(f"[motion] drives nothing; give one of {', '.join(units)}, or a file with such columns")
+        self.t_end = self._end(section, float(t[-1]) or None, units)
+
+    def _end(self, section: MotionSettings, last: float | None, units: Mapping[str, str]) -> float:
+        if section.t_end is not None:
+            if last is not None and not section.periodic and section.t_end > last:
+                raise BadInput(
+                    f"motion.t_end = {section.t_end:g} s is after the last row of {section.file}, {last:g} s; "
+                    "shorten it, or say periodic = true"
+                )
+            return float(section.t_end)
+        if ends := [end for end in (last, section.duration) if end is not None]:
+            return float(max(ends))
+        speeds = [abs(float(self.curves[q](np.zeros(1))[1][0])) for q in self.curves if units[q] == "rad"]
+        if not max(speeds, default=0.0) > 0:
+            raise BadInput("motion.t_end is missing; give it in s")
+        return 2 * math.pi / max(speeds)
+
+    def law(self, names: tuple[str, ...], t: Second[Array]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Places, speeds and accelerations of driven coordinates, each shape (names, k) [rad or m, by time]."""
+        rows = [self.curves[q](np.asarray(t, dtype=float)) for q in names]
+        places, speeds, accelerations = (np.array([row[k] for row in rows]) for k in range(3))
+        return places, speeds, accelerations
+
+
+def _curve(section: MotionSettings, q: str, value: object, unit: str, start: float) -> Curve:
+    if not isinstance(value, str) or value[:1].isdigit() and value not in WORDS or value[:1] in "+-.":
+        speed = parse(value, f"{unit}/s", f"motion.{q}")
+        return lambda t: (start + speed * t, speed + 0 * t, 0 * t)
+    if value not in WORDS:
+        raise BadInput(
+            f"motion.{q} = {value!r} is neither a speed, as '300 rpm', nor a word; {suggest(value, list(WORDS))}"
+        )
+    if section.rise is None or section.duration is None:
+        raise BadInput(f"motion.{q} = {value!r} needs motion.rise, in {unit}, and motion.duration, in s")
+    rise, duration, share = parse(section.rise, unit, "motion.rise"), section.duration, WORDS[value]
+
+    def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        x = np.clip(t / duration, 0.0, 1.0)
+        s, ds, dds = share(x)
+        moves = (t >= 0) & (t <= duration)
+        return start + rise * s, rise * ds * moves / duration, rise * dds * moves / duration**2
+
+    return curve
+
+
+def _table(file: str, units: Mapping[str, str]) -> dict[str, np.ndarray]:
+    """Columns of a file in SI: `t`, and those of its coordinates."""
+    columns, lines = columns_of(file, {"t": "s", **units}, "is no time t and no coordinate")
+    if "t" not in columns or len(columns) < 2:
+        raise BadInput(f"{file}: a motion has the columns t [s] and one for each coordinate that it drives")
+    bad = np.flatnonzero(np.diff(columns["t"]) <= 0)
+    if bad.size or len(lines) < 7:
+        at = lines[int(bad[0]) + 1] if bad.size else lines[-1]
+        why = "t must rise row by row" if bad.size else "a spline of degree 5 takes at least 7 rows"
+        raise BadInput(f"{file}, line {at}: {why}; mend the file")
+    columns["t"] = columns["t"] - columns["t"][0]
+    return columns
+
+
+def _spline(section: MotionSettings, q: str, t: np.ndarray, values: np.ndarray, unit: str) -> Curve:
+    """A spline of degree 5 through the points; where it repeats, an angle may go on by whole turns."""
+    period, turned = float(t[-1]), 0.0
+    if section.periodic:
+        size = float(np.abs(values - values.mean()).max())
+        turned = 2 * math.pi * round((values[-1] - values[0]) / (2 * math.pi)) if unit == "rad" else 0.0
+        if abs(values[-1] - values[0] - turned) > 1e-6 * max(size, 1e-9):
+            raise BadInput(
+                f"{section.file}: {q} does not repeat: {values[0]:g} {unit}, at the end {values[-1]:g} {unit}; "
+                "let the last row repeat the first, or leave periodic away"
+            )
+        values = np.append((values - turned * t / period)[:-1], values[0])
+    spline = scipy.interpolate.make_interp_spline(t, values, k=5, bc_type="periodic" if section.periodic else None)
+    slopes = [spline.derivative(k) for k in (1, 2)]
+    rate = turned / period
+
+    def curve(at: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        x = np.remainder(at, period) if section.periodic else at
+        return spline(x) + rate * at, slopes[0](x) + rate, slopes[1](x)
+
+    return curve
 
 
 @result
@@ -80,6 +245,28 @@ def forces(
     shown = {mechanism.shown.get(n, n): n for n in table}
     columns = Columns({n: table[of] for n, of in shown.items()}, {n: known.get(of, "N") for n, of in shown.items()})
     return DrivenForces(name=mechanism.name, one=one, columns=columns)
+
+
+def view(found: DrivenForces) -> View:
+    """What of a motion is worth seeing: places and forces of what is driven."""
+    table, units = found.columns, found.columns.units
+    largest = {n: float(np.abs(table[n]).max()) for n in table if n.startswith("driving_")}
+    cards = [Card(name=n.replace("_", " "), value=quantity_text(most, units[n], 4), about="largest")
+             for n, most in largest.items()]  # fmt: skip
+
+    def draw() -> "Figure":
+        names = [*found.one.driven, *largest]
+        figure, axes = panels(9.0, 1.4 * len(names) + 0.6, len(names), 1, "Driven places and forces", sharex=True)
+        for axis, name in zip(axes, names, strict=True):
+            factor, unit = axis_unit(units[name], table[name])
+            axis.plot(table["t"], table[name] * factor, color=BLUE)
+            axis.set_ylabel(f"{name.replace('_', ' ')} [{unit}]")
+        axes[-1].set_xlabel("time [s]")
+        return figure
+
+    see = "What each drive does, and the torque or force that it takes."
+    pictures = (Picture(name="driving", see=see, draw=draw),)
+    return View(title=f"Forces of {found.name}", cards=tuple(cards), pictures=pictures, columns=lambda: table)
 
 
 def numbers(found: DrivenForces, case: str) -> DrivenNumbers:

@@ -144,8 +144,7 @@ class Rubbing:
 
     place: str  #: Of `[friction]`: `guides`, `piston_pins`, `crank_pins`, `main_bearings`, `teeth`; else its own name
     force: np.ndarray  #: shape (n,): Between them [N]
-    #: shape (n,): Speed of one against the other: [m/s] in a guide, else [rad/s]
-    speed: np.ndarray
+    speed: np.ndarray  #: shape (n,): Speed of one against the other: [m/s] in a guide, else [rad/s]
     #: Values of `[friction]` that act here
     reads: tuple[str, ...]
     radius: float | None = None  #: Of a bearing whose declaration says it [m]

@@ -8,10 +8,10 @@ import numpy as np
 
 from mechsym.forces.balance import BalancedEngine, amplitudes
 from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
-from mechsym.forces.indicated import NORMAL_95, IndicatedPressure
 from mechsym.forces.loads import polar, radial, tangential
 from mechsym.forces.result import Forces
 from mechsym.forces.shaking import Harmonics
+from mechsym.forces.textbook import NORMAL_95, IndicatedPressure
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import Radian
 from mechsym.style import (
@@ -27,6 +27,7 @@ from mechsym.style import (
     over_angle,
     panels,
     same_path,
+    to_scale,
     unit_words,
     write_picture,
 )
@@ -37,22 +38,23 @@ if TYPE_CHECKING:
 
 
 _MOST_CURVES = 6
+_LOOKS = ("-", ":", "--", "-.", ":", "--")  # of curves that stand for one thing
 _BAND = 360  # points of the edge of a band: more cannot be told apart
 _SEEN = 1e-3  # of the largest bar: a lower one cannot be seen
 _NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of what is balanced
 
 
 def chain(forces: Forces) -> "Figure":
-    """Piston, crank pin, guides (or teeth) and torque over the cycle; the two-mass rod dotted beside the exact."""
+    """Piston, crank pin, guides (or teeth) and torque over the cycle; rods as two masses broken, beside the exact."""
     figure, axes = panels(9, 9, 4, 1, "Forces and torque over the crank angle", sharex=True)
     table = forces.columns
     phi = np.radians(table["phi_deg"])
     angle = over_angle(axes[3], float(phi[-1] + phi[1]))
     teeth: dict[str, np.ndarray] = {n: table[n] for n in ("tooth_force", "tooth_force_radial") if n in table}
     _curves(axes[0], phi * angle, forces.turn.inputs or {"no gas force": np.zeros_like(phi)}, "gas force")
-    rods = lumped(forces)
+    rods = {name: rod for name, (rod, _) in lumped(forces).items()}
     exact, name = _borne_most(forces)
-    _curves(axes[1], phi * angle, exact | rods, name, dotted=tuple(rods))
+    _curves(axes[1], phi * angle, exact | rods, name)
     guides = forces.loads.guides or {"no guide named": np.zeros_like(phi)}
     _curves(axes[2], phi * angle, teeth or guides, "teeth" if teeth else "side force")
     factor, unit = axis_unit("N*m", forces.turn.torque)
@@ -72,15 +74,15 @@ def _borne_most(result: Forces) -> tuple[dict[str, np.ndarray], str]:
     return dict(largest) or {"no joint force": np.zeros_like(result.turn.phi)}, "joint forces"
 
 
-def lumped(forces: Forces) -> dict[str, np.ndarray]:
-    """Crank pin forces of the rod as two masses, where the case has that chain and they are others than the exact."""
+def lumped(forces: Forces) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Crank pin forces of the rod as two masses, each beside the exact one, where they differ."""
     if not forces.chains:
         return {}
     table, pin, names = forces.columns, forces.loads.pins[0], ("two_mass", "terskih")
     rods = {f"radial, {_label(n)}": (-table[f"{n}_Z"], radial(pin)) for n in names if f"{n}_Z" in table}
     rods |= {f"tangential, {_label(n)}": (table[f"{n}_T"], tangential(pin)) for n in names if f"{n}_T" in table}
     size = max((float(np.abs(exact).max()) for _, exact in rods.values()), default=0.0)
-    return {name: rod for name, (rod, exact) in rods.items() if np.abs(rod - exact).max() > 1e-6 * size}
+    return {name: pair for name, pair in rods.items() if np.abs(pair[0] - pair[1]).max() > 1e-6 * size}
 
 
 def polar_diagrams(forces: Forces) -> "Figure":
@@ -104,9 +106,9 @@ def polar_diagrams(forces: Forces) -> "Figure":
         axis.plot(0, 0, "+", color=INK)
         axis.set(xlabel=f"{x} [{unit}]{marks}", ylabel=f"{y} [{unit}]")
         axis.locator_params(axis="x", nbins=4)  # numbers of newtons are long
-        axis.set_aspect("equal", adjustable="datalim")
         heading(axis, "crank pins, in the crank" if is_pin else "main bearings, in the frame")
         legend(axis)
+    to_scale(figure, axes)
     return figure
 
 
@@ -125,11 +127,11 @@ def journal_loads(forces: Forces) -> "Figure":
         axis.plot(0, 0, "+", color=INK)
         axis.set(xlabel=f"along x [{unit}]", ylabel=f"along y [{unit}]")
         axis.locator_params(axis="x", nbins=4)
-        axis.set_aspect("equal", adjustable="datalim")
         heading(axis, frame)
     if oiled:
         _orbits(axes[2], forces)
     legend(axes[0])
+    to_scale(figure, axes)
     return figure
 
 
@@ -141,7 +143,6 @@ def _orbits(axis: "Axes", forces: Forces) -> None:
         curve = _closed(orbit.eccentricity)
         axis.plot(curve.real, curve.imag, color=color, lw=1.2)
     axis.set(xlabel="along x, of the clearance [-]", ylabel="along y, of the clearance [-]")
-    axis.set_aspect("equal", adjustable="datalim")
     heading(axis, "journal in its clearance")
 
 
@@ -172,17 +173,17 @@ def orders(result: Forces) -> "Figure":
     forces = {n: o for n, o in shaken.items() if n.startswith("force")}
     moments = {n: o for n, o in shaken.items() if n.startswith("rocking")}
     acting, notes = [], []
-    for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "moment")):
+    for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "rocking moment")):
         if max((_whole(o).max(initial=0.0) for o in orders.values()), default=0.0) >= _NOUGHT:
             acting.append((orders, si, name))
         else:
-            notes.append(f"no {name} shakes the frame: below 1 {unit_words(si)}")
+            notes.append(f"no {name} on the frame: below 1 {unit_words(si)}")
     what = "".join(f", the shaking {name}" for *_, name in acting)
     figure, (left, *others) = panels(9, 3.8, 1, 1 + len(acting), f"Orders of the torque{what}")
     torque = result.torque_orders
     factor, unit = axis_unit("N*m", torque.amplitude[1:])
     left.bar(torque.order[1:], torque.amplitude[1:] * factor, width=0.35, color=SERIES[0])
-    left.set(xlabel="\n".join(["order [-]", *notes]), ylabel=f"torque amplitude [{unit}]")
+    left.set(xlabel="\n".join(["order, by turn [-]", *notes]), ylabel=f"torque amplitude [{unit}]")
     for axis, (orders, si, name) in zip(others, acting, strict=True):
         _order_bars(axis, orders, si, f"{name} on the frame")
     return figure
@@ -201,7 +202,7 @@ def _order_bars(axis: "Axes", orders: dict[str, Harmonics], si: str, name: str) 
     for i, (label, values) in enumerate(shown.items()):
         place = np.arange(1, len(values) + 1) + 0.8 * ((i + 0.5) / len(shown) - 0.5)
         axis.bar(place, values * factor, width=0.7 / len(shown), color=SERIES[i], label=label)
-    axis.set(xlabel="order [-]", ylabel=f"{name} [{unit}]")
+    axis.set(xlabel="order, by turn [-]", ylabel=f"{name} [{unit}]")
     legend(axis)
 
 
@@ -221,7 +222,7 @@ def balance_orders(one: BalancedEngine) -> "Figure":
         for values, label, color, beside in zip(pair, ("before", "after"), SERIES, (-0.2, 0.2), strict=False):
             place, height = np.array(list(values))[:8] + beside, np.array(list(values.values()))[:8]
             axis.bar(place, height * factor, width=0.38, color=color, label=label)
-        axis.set(xlabel=f"order [-]\n{still}".rstrip(), ylabel=f"{name} [{shown}]")
+        axis.set(xlabel=f"order, by turn [-]\n{still}".rstrip(), ylabel=f"{name} [{shown}]")
         axis.set_xticks(range(1, 9))
         legend(axis)
     if not acting:
@@ -303,15 +304,20 @@ def _friction_bars(axis: "Axes", place: np.ndarray, rows: Sequence[ComparedFrict
     legend(axis, width=2.6)
 
 
-def _curves(
-    axis: "Axes", angle: np.ndarray, curves: Mapping[str, np.ndarray], name: str, dotted: tuple[str, ...] = ()
-) -> None:
-    """Forces [N] over an angle in the unit of the axis; those that lie on each other are named once."""
+def _curves(axis: "Axes", angle: np.ndarray, curves: Mapping[str, np.ndarray], name: str) -> None:
+    """Forces [N] over an angle in the unit of the axis; those that lie on each other are named once.
+
+    `a, as two masses` has the colour of `a`, and is broken.
+    """
     factor, unit = axis_unit("N", *curves.values())
-    shown = distinct({_label(n): v for n, v in curves.items()})
-    for (label, values), color in zip(list(shown.items())[:_MOST_CURVES], SERIES, strict=False):
-        line = ":" if label.split(" = ")[0] in dotted else "-"
-        axis.plot(angle, values * factor, line, color=color, lw=1.4, label=_short(label))
+    shown = list(distinct({_label(n): v for n, v in curves.items()}).items())[:_MOST_CURVES]
+    kinds = list(dict.fromkeys(label.partition(",")[0] for label, _ in shown))
+    drawn: list[str] = []
+    for label, values in shown:
+        kind = label.partition(",")[0]
+        look = _LOOKS[drawn.count(kind)]
+        axis.plot(angle, values * factor, ls=look, color=SERIES[kinds.index(kind)], lw=1.4, label=_short(label))
+        drawn.append(kind)
     axis.set_ylabel(f"{name} [{unit}]")
     if len(curves) > 1:
         legend(axis)

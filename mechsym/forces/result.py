@@ -12,10 +12,9 @@ from mechsym import mechanisms
 from mechsym.cycle.friction import Friction as CycleFriction
 from mechsym.forces import textbook
 from mechsym.forces.comparison import ComparedMechanism
-from mechsym.forces.film import Orbit, orbit
 from mechsym.forces.friction import Friction, Losses, NoRings, Rings, losses
 from mechsym.forces.loads import Loads, loads, radial, tangential
-from mechsym.forces.mains import Journal, MainShaft, journals
+from mechsym.forces.mains import Journal, MainShaft, Orbit, journals, orbit
 from mechsym.forces.shaking import BalanceWanted, Harmonics, Shaking, orders, roll_moment, shaking, verdict
 from mechsym.forces.textbook import Chain
 from mechsym.forces.turn import Turn

@@ -8,16 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cycle.motion import travel_of
+from mechsym.cycle.gas import travel_of
 from mechsym.files import Json, to_json, write_quantities, write_text
-from mechsym.forces import cams, plots
+from mechsym.forces import plots, summary
 from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+from mechsym.forces.loads import polar
 from mechsym.forces.result import Forces, extremes
 from mechsym.forces.summary import CounterweightNumbers, half, quantities
 from mechsym.forces.turn import Acting, CrankDrive
 from mechsym.mechanisms import plots as plots_mechanism
 from mechsym.mechanisms.drawing import Shapes, drawn
-from mechsym.mechanisms.turning import FRAMES, Pushed, filled, rules, scene
+from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.record import listing
+from mechsym.mechanisms.turning import FRAMES, Load, Pushed, cranks, filled, pushed, rules, scene
 from mechsym.page import Card, Finding, Picture, View, card, page, shows, title_mark
 from mechsym.page.finding import NOT_MET
 from mechsym.quantities.display import figure, quantity_text
@@ -39,7 +42,7 @@ def forces_view(forces: Forces) -> View:
         columns=lambda: forces.columns,
         findings=lambda: [
             *(Finding(rank=NOT_MET, words=reason) for reason in forces.unbalanced),
-            *cams.findings(forces.turn),
+            *summary.findings(forces.turn),
         ],
     )
 
@@ -73,21 +76,33 @@ def _cards(forces: Forces) -> tuple[Card, ...]:
 
 
 def _pictures(result: Forces) -> tuple[Picture, ...]:
-    beside = "; dotted, the rod as two masses" if plots.lumped(result) else ""
+    torque, orders = result.turn.torque, result.torque_orders
+    span = " to ".join(quantity_text(float(v), "N*m", 4) for v in (torque.min(), torque.max()))
+    off = max((float(np.abs(rod - exact).max()) for rod, exact in plots.lumped(result).values()), default=0.0)
+    beside = f"; dotted and dashed, rods as two masses, {quantity_text(off, 'N', 3)} off at most" if off else ""
+    most = 1 + int(np.argmax(orders.amplitude[1:]))
     rows = [
-        Picture(name="forces", draw=lambda: plots.chain(result), see=f"Exact forces over the cycle{beside}."),
+        Picture(name="forces", draw=lambda: plots.chain(result),
+                see=f"Exact forces over the cycle; the torque is {span}{beside}."),
         Picture(name="orders", draw=lambda: plots.orders(result),
-                see="Amplitudes by order, oscillations per turn: what a counterweight can take and what it cannot."),
+                see="Amplitudes by order, oscillations per turn: the torque swings most in order "
+                f"{orders.order[most]:g}, by {quantity_text(float(orders.amplitude[most]), 'N*m', 4)}."),
     ]  # fmt: skip
     if result.loads.pins and result.loads.bearings:
+        sizes = {name: float(np.hypot(*both).max()) for name, both in polar(result.loads).items()}
+        of_pins = {pin.name for pin in result.loads.pins}
+        pin, bearing = (quantity_text(max(size for name, size in sizes.items() if (name in of_pins) == one), "N", 4)
+                        for one in (True, False))  # fmt: skip
         rows.insert(1, Picture(name="polar", draw=lambda: plots.polar_diagrams(result),
-                    see="The crank pin's load seen from the crank, the main bearing's from the frame: where a bearing "
-                    "is never loaded, oil may enter."))  # fmt: skip
+                    see=f"The load of a crank pin, {pin} at most, seen from its crank, and of a main bearing, "
+                    f"{bearing}, from the frame: where a bearing is never loaded, oil may enter."))  # fmt: skip
     if result.journals:
         rows.append(Picture(name="journals", draw=lambda: plots.journal_loads(result),
                     see="What the shaft presses on each main bearing; neighbours share a throw."))  # fmt: skip
     if result.losses is not None and any(np.abs(v).max() > 0 for v in result.losses.curves.values()):
-        see = "Where friction takes its power."
+        place, power = max(result.losses.places.items(), key=lambda one: one[1])
+        see = f"Where friction takes its power: most in the {place.replace('_', ' ')}, "
+        see += f"{quantity_text(power, 'W', 3)} over the turn."
         rows.append(Picture(name="friction", draw=lambda: plots.friction(result), see=see))
     if result.losses is not None and result.losses.mechanical_efficiency is not None and rows[-1].name == "friction":
         rows.append(Picture(name="brake", draw=lambda: plots.brake_bar(result),
@@ -110,7 +125,8 @@ def write(result: Forces, numbers: Json, folder: Path, about: str, findings: Seq
     scenes = []
     if shapes is not None:
         pictures["mechanism"] = plots_mechanism.figure_of(shapes, 0.8)
-        scenes = [charged(scene(shapes, "the machine to scale"), result.turn.drive, result.turn.acting)]
+        shown = charged(scene(shapes, "the machine to scale"), result.turn.drive, result.turn.acting)
+        scenes = [pressed(shown, result)]
     figures = {name: svg(figure) for name, figure in pictures.items()}
     files = [
         write_text(folder / "report.html", html(result, numbers, figures, about, findings, scenes)),
@@ -192,6 +208,45 @@ def borne(forces: Forces) -> list[Json]:
             "max": high, "min": low, "unit": forces.columns.units[name], "on": on,
         })  # fmt: skip
     return table
+
+
+_ALIKE = 0.02  # of its radius: a crank that is drawn so near stands for a crank pin
+
+
+def pressed(shown: Json, forces: Forces) -> Json:
+    """A scene with what presses in the pins and main bearings that it draws."""
+    turn, drive = forces.turn, forces.turn.drive
+    phi = np.linspace(0, 2 * math.pi * shown["turns"], shown["count"], endpoint=False)
+
+    def at_frames(values: np.ndarray) -> np.ndarray:
+        return np.interp(phi, turn.phi, values, period=turn.period)
+
+    said, R = listing(plan_of(drive.name).theory), turn.reactions
+    rows = []
+    if pins := {name: at for name, at in said.get("pins", {}).items() if f"R_y_{name}" in R}:
+        function = drive.mechanism.functions["drawing"]
+        found = [dict(zip(function.name_out(), map(float, function.call([at])), strict=True)) for at in phi]
+        for name, (across, up) in pins.items():
+            force = at_frames(R[f"R_x_{name}"]) + 1j * at_frames(R[f"R_y_{name}"])
+            rows.append(Load(name=said["reactions"][f"R_x_{name}"], force=force,
+                             at=np.array([row[across] + 1j * row[up] for row in found])))  # fmt: skip
+        return pushed(shown, rows)
+    shafts: dict[str, tuple[np.ndarray, complex]] = {}
+    for pin in forces.loads.pins:
+        arm = pin.radius * (at_frames(np.cos(pin.angle)) + 1j * at_frames(np.sin(pin.angle)))
+        for start, end in cranks(shown):
+            # upright engines are drawn a quarter turn on
+            turned = next((u for u in (1, 1j) if np.abs(end - start - u * arm).max() < _ALIKE * pin.radius), None)
+            if turned is not None:
+                force = turned * (at_frames(pin.x) + 1j * at_frames(pin.y))
+                rows.append(Load(name=pin.name.replace("_", " "), at=end, force=force))
+                shafts[pin.name.replace("crank_pin", "main_bearing")] = (start, turned)
+                break
+    if shafts.keys() == forces.loads.bearings.keys():
+        for name, (at, turned) in shafts.items():
+            x, y = map(at_frames, forces.loads.bearings[name])
+            rows.append(Load(name=name.replace("_", " "), at=at, force=turned * (x + 1j * y)))
+    return pushed(shown, rows)
 
 
 def charged(shown: Json, drive: CrankDrive, acting: Sequence[Acting]) -> Json:

@@ -1,10 +1,10 @@
 """From the torque wanted to the verdict, in the order of the work.
 
-torque      the torque M_h that keeps the crank at constant speed     balance, ways   what of it is taken, what is left
-springs     force, energy and closing of each law                     choices         arrangement, start, shaft
-guide       the track cut for a spring, its setting, its machine      rollers, contact  forces around a turn
+torque      the torque M_h that keeps the crank at constant speed     balance         what of it is taken, what is left
+springs     force, energy and closing of each law                     choices         arrangement, start, shaft, limits
+guide       the track cut for a spring, its setting, its machine      rollers         forces around a turn
 limits      can it be built?                                          steady, trials    how it turns, also elsewhere
-result      a finished design                                         summary, plots, report
+result      a finished design                                         summary, plots, shown
 """
 
 from mechsym.quantities import lazily
@@ -12,7 +12,7 @@ from mechsym.quantities import lazily
 _NAMES = {
     "AirAbsolute": "mechsym.hinge.springs.air:AirAbsolute",
     "AirGauge": "mechsym.hinge.springs.air:AirGauge",
-    "at_angles": "mechsym.hinge.contact:at_angles",
+    "at_angles": "mechsym.hinge.limits:at_angles",
     "Coil": "mechsym.hinge.springs.coil:Coil",
     "crank_torque": "mechsym.hinge.guide:crank_torque",
     "cut": "mechsym.hinge.guide:cut",

@@ -25,8 +25,7 @@ import numpy as np
 from mechsym import periodic
 from mechsym.errors import BadInput, suggest
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.bounds.face import CENTRE, ROOM, GuideLimit, Station, asked
-from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits
+from mechsym.hinge.choices import CENTRE, ROLLERS, ROOM, GuideLimit, GuideParameters, Limits, Station, asked
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Formulas, Spring, lettered
 from mechsym.hinge.springs.law_path import FULL

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mechsym.cycle.chamber import volume
-from mechsym.hinge.contact import Contact
 from mechsym.hinge.drawing import elastic_hinge, same_after_half_a_turn
+from mechsym.hinge.limits import Contact
 from mechsym.hinge.result import AtLoad, Design
 from mechsym.hinge.rollers import parallel
 from mechsym.hinge.trials import Trial

@@ -14,11 +14,10 @@ import numpy as np
 import scipy
 
 from mechsym.cycle.pressure import unfired, unfired_kinks
-from mechsym.hinge import losses as law
-from mechsym.hinge.contact import Contact, at_angles
+from mechsym.hinge import rollers as law
 from mechsym.hinge.guide import Guide, fitted
-from mechsym.hinge.losses import HingeLosses, LossTorques
-from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.limits import Contact, at_angles
+from mechsym.hinge.rollers import HingeLosses, LossTorques, RollerParameters
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.face import GasTurn
 from mechsym.hinge.torque import Hinge
@@ -74,9 +73,7 @@ def price(machine: Machine, wanted: Hinge, guide: Guide, rollers: RollerParamete
     )  # fmt: skip
 
 
-def friction(
-    contact: Contact, guide: Guide, rollers: RollerParameters, given: HingeLosses
-) -> dict[str, np.ndarray]:  # fmt: skip
+def friction(contact: Contact, guide: Guide, rollers: RollerParameters, given: HingeLosses) -> dict[str, np.ndarray]:
     """Torques on the crank that are lost to friction over a turn of the guide, each of shape (n,) [N*m]."""
     ratio, c = guide.parameters.shaft_ratio, guide.rollers
     side = law.side_force(
@@ -184,8 +181,9 @@ def _best_fill(
 
     if gas is None:
         return 1.0, motion(1.0).speed_ripple
-    best = scipy.optimize.minimize_scalar(lambda f: motion(f).speed_ripple or _STOPPED, bounds=_RESET, method="bounded",
-                           options={"xatol": 1e-4})  # fmt: skip
+    best = scipy.optimize.minimize_scalar(
+        lambda f: motion(f).speed_ripple or _STOPPED, bounds=_RESET, method="bounded", options={"xatol": 1e-4}
+    )
     return float(best.x), motion(float(best.x)).speed_ripple
 
 

@@ -1,32 +1,161 @@
 """A designed hinge: what it balances, the guide that gives it, how it runs, and where the data came from.
 
+A two-stroke engine has one way to balance its torque, a four-stroke engine two: `whole_cycle` puts the guide on a
+slower shaft, which turns once per cycle, and leaves no ripple. `every_turn` lets the guide turn with the crank and
+takes only what repeats every turn; the rest stays as speed ripple.
+
 Torque, guide and verdict are there at once. How the engine runs with them costs a hundred times as much and is
 computed when it is first asked for.
 """
 
+import dataclasses
 import functools
 from collections.abc import Callable, Mapping
 
-from mechsym.hinge import steady, trials
+from mechsym.hinge import balance, steady, trials
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.guide import Guide
-from mechsym.hinge.in_time import RealHinge
-from mechsym.hinge.limits import Verdict
-from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.choices import BALANCES, GuideParameters, Limits, closing_ratio
+from mechsym.hinge.guide import Guide, cut
+from mechsym.hinge.limits import Verdict, judge
 from mechsym.hinge.price import Price, price
-from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.rollers import HingeLosses, RollerParameters
+from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.steady import RIPPLE, Flywheels, Retuned, Sensitivity
-from mechsym.hinge.target import Target, guide_words
 from mechsym.hinge.torque import Hinge, torque
-from mechsym.hinge.trials import Trial
-from mechsym.hinge.ways import Offer
+from mechsym.hinge.trials import RealHinge, Trial
 from mechsym.machine.loads import PropellerLoad
 from mechsym.machine.record import Machine
 from mechsym.page import Shown
 from mechsym.quantities import record
+from mechsym.quantities.display import figure, per_cent, ratio_text
 from mechsym.quantities.records import Record
 from mechsym.quantities.results import computed, quantity, result
+from mechsym.quantities.units import Pure
 from mechsym.simulate.steady import Flywheel, Steady
+
+
+@result
+class Offer:
+    """One way to balance the torque, with its guide."""
+
+    taken: Balance  # the part that the hinge takes
+    track: Guide  # or why there is none
+    verdict: Verdict
+
+    @computed()
+    def balance(self) -> str:
+        """Part of the torque that is balanced."""
+        return self.taken.kind
+
+    @computed("-")
+    def shaft_ratio(self) -> float:
+        """Turns of the guide's shaft by those of the crank."""
+        return self.track.parameters.shaft_ratio
+
+    @computed("-")
+    def feasible(self) -> bool:
+        """Whether the guide can be built."""
+        return self.verdict.feasible
+
+    @computed()
+    def reason(self) -> str:
+        """The limits that are not kept, or the tightest one."""
+        return self.verdict.reason
+
+    @computed("J")
+    def work_left(self) -> float:
+        """Largest less smallest work that is left over."""
+        return self.taken.rest_swing
+
+    @computed("-")
+    def ripple_constant_load(self) -> float | None:
+        """Speed ripple that the rest leaves under a constant load; None for a stop."""
+        return self.taken.ripple_constant_load
+
+    @computed("-")
+    def ripple_propeller_load(self) -> float | None:
+        """Speed ripple that the rest leaves under a propeller's load; None for a stop."""
+        return self.taken.ripple_propeller_load
+
+
+def offers(
+    hinge: Hinge, spring: Spring, choices: GuideParameters, rollers: RollerParameters, limits: Limits
+) -> tuple[Offer, ...]:
+    """The offer that was chosen, and for a torque that repeats every two turns the other one with the same spring.
+
+    hinge: torque that would keep the speed constant; choices: arrangement, start, shaft ratio and balance. Returns
+    offers: one or two, the chosen one first.
+    """
+    kinds = [choices.balance] + [k for k in BALANCES if k != choices.balance]
+    parts = [balance.balance(hinge, kind) for kind in kinds]
+    if parts[0].period == parts[1].period:
+        parts = parts[:1]
+    found = []
+    for part in parts:
+        wanted = choices if part is parts[0] else _instead(choices, part)
+        track = cut(part, spring, wanted)
+        found.append(Offer(taken=part, track=track, verdict=judge(track, rollers, limits)))
+    return tuple(found)
+
+
+def _instead(choices: GuideParameters, part: Balance) -> GuideParameters:
+    ratio = closing_ratio(choices.arrangement, part.period)
+    return dataclasses.replace(choices, balance=part.kind, shaft_ratio=ratio)
+
+
+_SLACK = 0.02  # the ways to compute a ripple differ by about 1 % of it
+
+
+@result
+class Target:
+    """A ripple that is asked for, and what the machine has of it with friction and heat."""
+
+    ripple: float = quantity("-")  #: Asked for: largest (max - min) / mean of the speed
+    with_losses: tuple[float | None, ...]  #: at each point; None where there is no steady motion [-]
+    held: bool  #: guide and rollers keep their limits
+    losses: bool = True  #: False where friction and heat were left out on request
+
+    @property
+    def kept(self) -> bool:
+        """Whether every point keeps the ripple."""
+        return all(r is not None and r <= (1 + _SLACK) * self.ripple for r in self.with_losses)
+
+    @computed("-")
+    def met(self) -> bool:
+        """Whether the machine as built keeps the ripple within its limits."""
+        return self.held and self.kept
+
+    @computed("-")
+    def ripple_with_losses(self) -> tuple[float | None, ...]:
+        """Ripple at each point with friction and heat; None where there is no steady motion."""
+        return self.with_losses
+
+    @property
+    def words(self) -> str:
+        """`ripple of 2 % missed with losses: 9.9 %`."""
+        wanted, how = f"ripple of {figure(100 * self.ripple)} %", "with losses" if self.losses else "without losses"
+        if None in self.with_losses:
+            return f"{wanted} missed: {how} there is no steady motion{' at some points' * (len(self.with_losses) > 1)}"
+        worst = max(r for r in self.with_losses if r is not None)
+        real = figure(100 * worst, 3 if worst < 2 * self.ripple else 2)
+        return f"{wanted} {'met' if self.kept else 'missed'} {how}: {real} %"
+
+
+def guide_words(target: Target, reason: str) -> str:
+    """What is known of a guide; `reason` says which limit it breaks."""
+    return f"guide can be cut; {target.words}" if target.held else f"guide CANNOT be built: {reason}"
+
+
+def design_words(target: Target, status: str, reason: str) -> str:
+    """What is known of a co-design; `status` and `reason` are those of its solver, or the limits that are passed."""
+    if not target.held:
+        return f"{'not within the limits' if status == 'optimal' else status}: {reason}"
+    return f"{'optimal' if target.met else 'a guide is found'}; {target.words}"
+
+
+def ripple_text(share: Pure | None, digits: int = 2) -> str:
+    """A ripple in per cent, one of round-off as the ratio that it is."""
+    return ratio_text(share, digits) if share is None or abs(share) < 1e-6 else per_cent(share, digits)
 
 
 @result

@@ -1,32 +1,34 @@
-"""What of a hinge design is worth seeing, has to be known first, and how engine and hinge turn together."""
+"""What of a hinge design is worth seeing, how engine and hinge turn together, and its report: one HTML file."""
 
+import dataclasses
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.files import Json
+from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.hinge import plots
-from mechsym.hinge.contact import at_angles
 from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.guide import Guide, setting_of, setting_text
-from mechsym.hinge.limits import ALL_KEPT, Verdict
-from mechsym.hinge.result import Design
+from mechsym.hinge.limits import ALL_KEPT, Verdict, at_angles
+from mechsym.hinge.result import Design, ripple_text
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_turn, hinge_columns
+from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_columns, guide_turn, hinge_columns
 from mechsym.mechanisms.drawing import Shapes, shapes
 from mechsym.mechanisms.drawing import declared as drawn
 from mechsym.mechanisms.plots import figure_of
 from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.turning import scene
-from mechsym.page import Card, Picture, View, card, shows
+from mechsym.mechanisms.turning import Load, pushed, rules, scene
+from mechsym.page import Card, Picture, View, card, page, ranked, shows, title_mark
 from mechsym.page.finding import LEAST_SURE, LOOK_AT, NOT_MET, Finding
 from mechsym.quantities import RPM
-from mechsym.quantities.display import figure, per_cent, quantity_text, ratio_text
+from mechsym.quantities.display import figure, quantity_text
+from mechsym.quantities.results import tell
 from mechsym.quantities.units import Pure
-from mechsym.style import axis_unit
+from mechsym.style import axis_unit, svg
 
 
 @shows(Design)
@@ -49,7 +51,7 @@ def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
              about=f"{design.target.words}; {guide.reason.removeprefix(ALL_KEPT)}" if guide.feasible else guide.reason,
              mark="yes" if design.target.met else "no"),
         Card(name="speed ripple" if lost is None else "speed ripple without losses",
-             value=_ripple(check.speed_ripple), about="simulated with the hinge at "
+             value=ripple_text(check.speed_ripple), about="simulated with the hinge at "
              f"{quantity_text(design.machine.omega, 'rad/s')}, {'with' if check.losses else 'ideal: no'} losses"),
         card(HingeNumbers, "flywheel_inertia_saved", numbers.flywheel_inertia_saved,
              "by an ideal hinge: what a ripple of 1/50 needs without one"),
@@ -62,26 +64,18 @@ def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
             1,
             Card(
                 name="speed ripple with losses",
-                value="no steady motion" if ripple is None else _ripple(ripple),
+                value="no steady motion" if ripple is None else ripple_text(ripple),
                 about="simulated with assumed friction and heat",
                 mark="" if design.target.met else "no",
             ),
         )
-        found += [
-            Card(name="lost in the hinge", value=_lost(lost), about=f"{of_load}with assumed friction and heat"),
-        ]  # fmt: skip
+        found += [Card(name="lost in the hinge", value=_lost(lost), about=f"{of_load}with assumed friction and heat")]
         if share is not None:  # of a torque alone it is not known
             found += [
                 Card(name="one misfire", value=f"{figure(100 * share, 2)} % of the speed" if share else "stops",
                      about="with the flywheel that is kept", mark="" if share else "no"),
             ]  # fmt: skip
     return tuple(found)
-
-
-def _ripple(share: float | None) -> str:
-    if share is None or abs(share) < 1e-6:  # round-off is none
-        return ratio_text(share, 2)
-    return per_cent(share, 2)
 
 
 def _lost(lost: HingeLossNumbers) -> str:
@@ -120,38 +114,42 @@ def _speeds_words(design: Design) -> str:
     for how, hinged in (("with the hinge", True), ("without", False)):
         runs = [t for t in design.trials if (t.name not in ("without", "flywheel")) == hinged]
         known = [(t.speed_ripple, t.about) for t in runs if t.speed_ripple is not None]
-        told += [
-            f"{how} it ripples by {ratio_text(ripple, 2)} at most ({about})" for ripple, about in sorted(known)[-1:]
-        ]
+        told += [f"{how} it ripples by {ripple_text(ripple)} at most ({about})" for ripple, about in sorted(known)[-1:]]
     return ", ".join(["Crank speed over the design speed", *told]).replace(", ", ": ", 1) + "."
 
 
 def pictures(design: Design) -> tuple[Picture, ...]:
     """The figures that there is something to draw for."""
-    gas = design.machine.gas
+    gas, phi = design.machine.gas, np.linspace(0, design.hinge.period, 1441)
+    ends, swing = (f(design.hinge.torque(phi)) for f in (np.min, np.max)), float(np.ptp(design.hinge.work(phi)))
     found = [
         Picture(name="torque", draw=lambda: plots.torque(design),
-                see="Hinge torque on the crank with its parts, and below its work, which comes back after a period."),
+                see=f"Hinge torque on the crank, {' to '.join(quantity_text(v, 'N*m', 4) for v in ends)}, with its "
+                f"parts, and below its work, which swings by {quantity_text(swing, 'J', 4)} and comes back."),
         Picture(name="speeds", draw=lambda: plots.speeds(design),
                 see=_speeds_words(design)),
     ]  # fmt: skip
     if gas is not None:
-        see = f"Pressure of the cycle {gas.pressure.kind} with its events; the gas torque follows from it."
+        see = f"Cylinder pressure, at most {quantity_text(gas.pressure.p_max, 'Pa', 4)}, over the crank angle with the "
+        see += "events of the cycle, and over the volume."
         found.insert(0, Picture(name="pressure", draw=lambda: plots.pressure(design), see=see))
     if (shapes := shapes_of(design)) is not None:
         found.insert(0, Picture(name="mechanism", draw=lambda: figure_of(shapes, math.pi / 3),
                                 see="The mechanism as its declaration draws it."))  # fmt: skip
     if design.guide.rho is not None:
         radius, at = design.rollers.radius, len(found) - 1
+        radii = [quantity_text(rho, "m", 4) for rho in (design.verdict.rho_min, design.verdict.rho_max)]
         found[at:at] = [
             Picture(name="elastic_hinge", draw=lambda: plots.hinge(design),
                     see="The hinge to scale: the spring between its pistons turns with the guide's shaft, the rollers "
                     "run on tracks that stand still."),
             Picture(name="track", draw=lambda: plots.track(design, guide_turn(design), radius),
-                    see="Guide to scale; the profile is the exact parallel curve at the roller radius."),
+                    see=f"Guide to scale; roller centres {' to '.join(radii)} from the shaft, the profile is the exact "
+                    "parallel curve at the roller radius."),
             Picture(name="contact", draw=lambda: plots.contact(guide_turn(design)),
-                    see="Contact around the turn: reactions of the rollers, pressure angle, pressure in the spring, "
-                    "curvature."),
+                    see="Contact around the turn: a roller presses with at most "
+                    f"{quantity_text(design.verdict.roller_reaction_max, 'N', 4)}, the pressure angle is up to "
+                    f"{quantity_text(design.verdict.pressure_angle_max, 'rad', 3)}."),
         ]  # fmt: skip
     if design.retuned is not None:
         rpm = figure(design.retuned.other.omega / RPM, 4)
@@ -173,7 +171,8 @@ def of_design(design: Design) -> Iterator[Finding]:
     numbers = HingeNumbers(judged=design)
     if not design.target.met:
         worst = [ripple for ripple in design.target.with_losses if ripple is not None]
-        yield Finding(rank=NOT_MET, words=design.answer, value=max(worst, default=None))
+        words = design.target.words if design.target.held else design.answer
+        yield Finding(rank=NOT_MET, words=words, value=max(worst, default=None))
     yield from lost_combustion(numbers.misfire_speed_share)
     yield from _least_sure(design)
 
@@ -219,11 +218,21 @@ def hinge_scene(guide: Guide, rollers: RollerParameters, turns: Pure, frames: in
     tracks = ", first track (red) and second (violet), in planes beside each other" if two else ", track"
     shown = scene(drawn, f"the elastic hinge to scale: spring with its pistons, rollers{tracks}", turns, frames)
     theta = guide.parameters.shaft_ratio * np.linspace(0, 2 * np.pi * turns, frames, endpoint=False) % (2 * np.pi)
-    pressure = at_angles(guide, rollers, theta).pressure
-    if pressure is not None:
-        share = np.rint(100 * pressure / pressure.max()).astype(int).tolist()
+    turn = at_angles(guide, rollers, theta)
+    if turn.pressure is not None:
+        share = np.rint(100 * turn.pressure / turn.pressure.max()).astype(int).tolist()
         shown["shapes"] = [shape | {"share": share} if shape["role"] == "gas" else shape for shape in shown["shapes"]]
-    return shown
+    return pushed(shown, list(_of_rollers(shown, drawn, (turn.reaction_1, turn.reaction_2))))
+
+
+def _of_rollers(shown: Json, drawn: Callable[[float], Shapes], reactions: Sequence[np.ndarray]) -> Iterator[Load]:
+    """What the tracks press on the rollers with, across the paths of their centres."""
+    angles = np.linspace(0, 2 * np.pi * shown["turns"], shown["count"], endpoint=False)
+    frames = [[complex(*s.centre) for s in drawn(float(a)) if s.role == "roller"] for a in angles]  # type: ignore[union-attr]
+    for number, (at, force) in enumerate(zip(np.array(frames).T, reactions, strict=False), 1):
+        across = 1j * (np.roll(at, -1) - np.roll(at, 1))
+        inwards = -across / np.abs(across) * np.sign((across * at.conj()).real)
+        yield Load(name=f"track on roller {number}", at=at, force=force * inwards)
 
 
 def engine(design: Design) -> Callable[[float], Shapes] | None:
@@ -257,3 +266,49 @@ def readouts(design: Design) -> list[Json]:
 def _readout(name: str, si: str, values: np.ndarray) -> Json:
     factor, unit = axis_unit(si, values)
     return {"name": name, "unit": unit, "text": [figure(float(v), 4) for v in values * factor]}
+
+
+def write(design: Design, folder: Path, finish: Callable[[str], str] = str) -> list[Path]:
+    """Write report, tables, summary and pictures into a folder. finish: makes the text that is written of it."""
+    numbers, columns = HingeNumbers(judged=design), hinge_columns(design)
+    figures = {picture.name: svg(picture.draw()) for picture in pictures(design)}
+    files = [write_text(folder / "report.html", finish(html(design, numbers, figures)))]
+    files.append(write_text(folder / "summary.json", to_json(tell(numbers)) + "\n"))
+    files.append(write_quantities(folder / "hinge.csv", columns, columns.units))
+    if design.guide.rho is not None:
+        columns = guide_columns(design, guide_turn(design, 3601))
+        files.append(write_quantities(folder / "guide.csv", columns, columns.units))
+    return files + [write_text(folder / f"{name}.svg", text) for name, text in figures.items()]
+
+
+def html(design: Design, numbers: HingeNumbers, figures: dict[str, str]) -> str:
+    """The report as text."""
+    findings = ranked(of_design(design))
+    return page(
+        "hinge.html",
+        case=design.origin,
+        design=design,
+        numbers=numbers,
+        cards=cards(design, numbers),
+        findings=findings,
+        mark=title_mark(findings),
+        figures=figures,
+        see={picture.name: picture.see for picture in pictures(design)},
+        setting=partial(setting_text, design.guide.spring),
+        parameters=_parameters(design),
+        equations=listing(design.machine.mechanism.name)["equations"],
+        scenes=scenes(design),
+        readouts=readouts(design),
+        rules=rules(),
+        degrees=180 / np.pi,
+    )
+
+
+def _parameters(design: Design) -> list[tuple[str, str, str, float]]:
+    rows = []
+    for section, record in design.origin.sections.items():
+        for field in dataclasses.fields(record):
+            value = getattr(record, field.name)
+            if "unit" in field.metadata and isinstance(value, float):
+                rows.append((f"{section}.{field.name}", field.metadata["about"], field.metadata["unit"], value))
+    return rows

@@ -12,8 +12,7 @@ import numpy as np
 
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits, refuse_open_track
-from mechsym.hinge.contact import station_of
-from mechsym.hinge.limits import Verdict, verdict
+from mechsym.hinge.limits import Verdict, station_of, verdict
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Spring, lettered
 from mechsym.hinge.springs.law_path import FULL, can_be_given, work_range

@@ -26,10 +26,9 @@ import scipy
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.guide import Affine, Guide, affine, fitted, missing_work, refit, setting_of, with_setting, work_swing
-from mechsym.hinge.in_time import RealHinge
 from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import Hinge
-from mechsym.hinge.trials import Trial, ready, run
+from mechsym.hinge.trials import RealHinge, Trial, ready, run
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine
 from mechsym.quantities import record

@@ -5,15 +5,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechsym.hinge.contact import Contact, at_angles
-from mechsym.hinge.limits import Verdict
-from mechsym.hinge.losses import HingeLosses, LossTorques
-from mechsym.hinge.result import AtLoad, Design, JudgedHinge
-from mechsym.hinge.rollers import parallel
+from mechsym.hinge.limits import Contact, Verdict, at_angles
+from mechsym.hinge.result import AtLoad, Design, JudgedHinge, Offer, Target
+from mechsym.hinge.rollers import HingeLosses, LossTorques, parallel
 from mechsym.hinge.steady import RIPPLE
-from mechsym.hinge.target import Target
 from mechsym.hinge.trials import Trial
-from mechsym.hinge.ways import Offer
 from mechsym.quantities import RPM
 from mechsym.quantities.results import Columns, computed, part, quantity, result
 

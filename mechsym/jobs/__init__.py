@@ -2,13 +2,12 @@
 cli.
 
 machine     mechanism, gas, load and speed of a case, ready to turn
-balance     counterweights and balancer shafts
 codesign    guide, pressures and flywheel for a range of speeds and loads
 hinge       hinge, guide, verdict, trials by simulation
 run         simulation in time, with its start-ups and criticals, and the cycle in motion; problem says what runs
 cycle       figures of the engine cycle, of one cylinder and of the whole engine; gas is its pressure on the pistons,
             measured a diagram taken apart, indicated the pressure out of a measured torque
-forces      the force chain over one turn
+forces      the force chain over one turn, and the counterweights and shafts that balance it
 size        every part with load, limit and factor
 optimise    the design that `[optimise]` declares
 identify    parameters out of a measured run
@@ -19,10 +18,10 @@ export      what leaves the tool, and the machine in motion
 from mechsym.quantities import lazily
 
 _NAMES = {
-    "balance": "mechsym.jobs.balance:balance",
+    "balance": "mechsym.jobs.forces:balance",
     "codesign": "mechsym.jobs.codesign:codesign",
     "codesign_task": "mechsym.jobs.codesign:codesign_task",
-    "compare": "mechsym.cycle.compare:compare",
+    "compare": "mechsym.cycle.columns:compare",
     "cycle": "mechsym.jobs.cycle:cycle",
     "forces": "mechsym.jobs.forces:forces",
     "gas": "mechsym.jobs.gas:gas",

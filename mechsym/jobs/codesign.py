@@ -10,9 +10,8 @@ from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.codesign import loss, machines, scenarios
 from mechsym.codesign.certificate import floor, rollers_inertia
-from mechsym.codesign.front import RippleMap, cut_for_one, front, ripple_map, worth_it
+from mechsym.codesign.front import cut_for_one, front, peers, ripple_map, springs_of, worth_it
 from mechsym.codesign.machines import hardware, point
-from mechsym.codesign.peers import peers, springs_of
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import Count, counts, rank
@@ -23,7 +22,7 @@ from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.verify import Verified, spread, verify
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.hinge.losses import HingeLosses, LossTorques
+from mechsym.hinge.rollers import HingeLosses, LossTorques
 from mechsym.jobs.machine import machine
 from mechsym.machine.torque_curve import TorqueCurve
 from mechsym.quantities import RPM
@@ -62,25 +61,27 @@ def codesign(
     bound = rank(task.points)
     bare = bare_flywheel(task.points, task.ripple)
     progress()
-    cut = cut_for_one(task, _middle(task))
+    swings = [float(np.ptp(p.work(np.linspace(0, p.period, 181)))) for p in task.points]
+    cut = cut_for_one(task, int(np.argsort(swings)[(len(swings) - 1) // 2]))  # the point with the middle swing
     progress()
     ready = programme(task)
     found = worth_it(solve(task, ready), bare, settings.saving)
-    design = _heavy_enough(found, settings.misfire_speed)
+    design = found
+    if settings.misfire_speed > 0 and found.status == "optimal":
+        # the limits are prices of the smaller flywheel, not of that which a lost combustion asks for
+        needed = scenarios.misfire_flywheel(found, settings.misfire_speed)
+        design = found if needed is None else dataclasses.replace(found, flywheel=needed, active=())
     given = solve(dataclasses.replace(task, free=())) if task.free else None
     progress()
     designs = front(task, ripples, ready, progress, settings.saving)
     verified = verify(design)
     progress()
     assumed, taken, misfire = _losses(case), _taken(case, settings), scenarios.misfire_shares(design)
-    lost, lossy = (
-        _ideal(verified)
-        if taken == "none"
-        else (
-            loss.losses(design, assumed),
-            tuple(loss.with_losses(design, k, assumed) for k in range(len(task.points))),
-        )
-    )
+    if taken == "none":
+        lost, lossy = _ideal(verified)
+    else:
+        lost = loss.losses(design, assumed)
+        lossy = tuple(loss.with_losses(design, k, assumed) for k in range(len(task.points)))
     progress()
     return CoDesignResult(
         name=case.name, about=case.about, design=design, given=given, bound=bound, bare=bare, cut=cut,
@@ -117,27 +118,30 @@ def beside(result: CoDesignResult, cylinders: int, goal: str, progress: Callable
         progress()
     if goal:
         new = realise(result.design, goal)
+        tracks = new.design.tracks
         other = RealisedNumbers(
-            goal=goal,
-            status=new.status,
-            before=new.before,
-            after=new.after,
-            p0=tuple(tuple(track.p0.tolist()) for track in new.design.tracks),
-            guides=tuple(chosen(track.hardware) for track in new.design.tracks),
-        )
+            goal=goal, status=new.status, before=new.before, after=new.after,
+            p0=tuple(tuple(track.p0.tolist()) for track in tracks),
+            guides=tuple(chosen(track.hardware) for track in tracks),
+        )  # fmt: skip
         progress()
     return Beside(cylinders=rows, realised=other)
 
 
 def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -> CoDesignResult:
     """The result with what only the report shows: scenarios, spread under small errors, map over speed and load."""
-    design, high = result.design, settings.full_speed
-    one = len(design.tracks) == 1 and design.task.losses is None and settings.curve == "propeller"
+    design, drawn = result.design, None
+    if len(design.tracks) == 1 and design.task.losses is None and settings.curve == "propeller":
+        full = settings.full_speed
+        shares = tuple(np.linspace(_SHARES[0], _SHARES[1], _LOADS).tolist())
+        loads = points(case, dataclasses.replace(settings, curve="constant_speed", speeds=(full,), loads=shares))
+        omega = np.linspace(0.9 * min(settings.speeds), 1.05 * max(*settings.speeds, full), _MAP)
+        drawn = ripple_map(design, loads, omega, np.linspace(loads[0].load, loads[-1].load, _MAP))
     return dataclasses.replace(
         result,
         scenarios=(*scenarios.table(design), *_changes(case, settings, design)),
         spread=spread(design),
-        map=_map(case, settings, design, 1.05 * max(*settings.speeds, high)) if one else None,
+        map=drawn,
         misfire_floor=scenarios.misfire_flywheel(design, _HALF, 0.0) if design.status == "optimal" else None,
     )
 
@@ -180,22 +184,17 @@ def codesign_task(case: Case) -> CoDesignTask:
 
 def task_of(case: Case, settings: CoDesignSettings) -> CoDesignTask:
     """Points, hardware and limits of a case for other settings than its own."""
-    inside = _taken(case, settings) == "inside"
+    inside, knots, angles = _taken(case, settings) == "inside", int(settings.knots), int(settings.angles)
+    if inside:  # with friction a guide of many knots would find its way between the angles
+        knots, angles = min(knots, _LOSSY[0]), max(angles, _LOSSY[1])
     return CoDesignTask(
         points=points(case, settings),
         hardware=hardware(case.need("spring"), case.need("guide"), case.need("rollers"), settings.moving_mass),
-        bounds=case.need("limits"),
-        ripple=settings.ripple,
-        springs=int(settings.springs),
-        schedule=settings.schedule,
-        robust=settings.robust,
-        losses=_losses(case) if inside else None,
-        free=tuple(name.rpartition(".")[2] for name in settings.free),
-        track_radius=settings.track_radius,
-        # with friction a guide of many knots would find its way between the angles
-        knots=min(int(settings.knots), _LOSSY[0]) if inside else int(settings.knots),
-        angles=max(int(settings.angles), _LOSSY[1]) if inside else int(settings.angles),
-    )
+        bounds=case.need("limits"), ripple=settings.ripple, springs=int(settings.springs), schedule=settings.schedule,
+        robust=settings.robust, losses=_losses(case) if inside else None,
+        free=tuple(name.rpartition(".")[2] for name in settings.free), track_radius=settings.track_radius,
+        knots=knots, angles=angles,
+    )  # fmt: skip
 
 
 def _taken(case: Case, settings: CoDesignSettings) -> str:
@@ -227,17 +226,13 @@ def _point(case: Case, settings: CoDesignSettings, place: machines.SpeedAndLoad,
     operation = dataclasses.replace(case.need("operation"), speed=place.omega)
     at = dataclasses.replace(case, sections={**case.sections, **acting, "operation": operation})
     engine = machine(at)
-    _check_speed(case, engine.omega, place.omega)
-    law = "constant" if settings.curve == "constant_speed" else "propeller"
-    return point(engine, place.mep, law, place.weight)
-
-
-def _check_speed(case: Case, known: float, wanted: float) -> None:
-    if abs(known - wanted) > 1e-6 * wanted:
+    if abs(engine.omega - place.omega) > 1e-6 * place.omega:
         raise BadInput(
-            f"{case.file}: the diagram is of {known / RPM:.6g} rpm and not at {wanted / RPM:.6g} rpm; "
+            f"{case.file}: the diagram is of {engine.omega / RPM:.6g} rpm and not at {place.omega / RPM:.6g} rpm; "
             "leave --speeds away, or make a point of each diagram (examples/codesign_generator.py)"
         )
+    law = "constant" if settings.curve == "constant_speed" else "propeller"
+    return point(engine, place.mep, law, place.weight)
 
 
 def _acting(case: Case, settings: CoDesignSettings, mep: float) -> dict[str, Record]:
@@ -247,25 +242,3 @@ def _acting(case: Case, settings: CoDesignSettings, mep: float) -> dict[str, Rec
         return {"torque": dataclasses.replace(curve, load=curve.load * mep / settings.full_load)}
     high = cases.load(settings.high_case).need("cycle") if settings.high_case else None
     return {"cycle": machines.cycle_at(case.need("cycle"), high, settings, mep)}
-
-
-def _map(case: Case, settings: CoDesignSettings, design: CoDesign, fastest: float) -> RippleMap:
-    shares = tuple(np.linspace(_SHARES[0], _SHARES[1], _LOADS).tolist())
-    family_ = dataclasses.replace(settings, curve="constant_speed", speeds=(settings.full_speed,), loads=shares)
-    loads = points(case, family_)
-    omega = np.linspace(0.9 * min(settings.speeds), fastest, _MAP)
-    return ripple_map(design, loads, omega, np.linspace(loads[0].load, loads[-1].load, _MAP))
-
-
-def _middle(task: CoDesignTask) -> int:
-    swings = [float(np.ptp(p.work(np.linspace(0, p.period, 181)))) for p in task.points]
-    return int(np.argsort(swings)[(len(swings) - 1) // 2])
-
-
-def _heavy_enough(design: CoDesign, misfire_speed: float) -> CoDesign:
-    """The design with the flywheel that a lost combustion asks for, if that is more."""
-    if misfire_speed <= 0 or design.status != "optimal":
-        return design
-    needed = scenarios.misfire_flywheel(design, misfire_speed)
-    # the limits are prices of the smaller flywheel, not of this one
-    return design if needed is None else dataclasses.replace(design, flywheel=needed, active=())

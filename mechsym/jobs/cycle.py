@@ -1,6 +1,5 @@
 """Case -> cycle: figures over the speeds, of one cylinder and of the whole engine with pistons alike or not."""
 
-import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -14,8 +13,8 @@ from mechsym.cases.settings import Speeds
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.columns import CycleFigures
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
+from mechsym.cycle.gas import from_top, slopes
 from mechsym.cycle.kinds import KINDS, four_stroke, kind_of
-from mechsym.cycle.motion import from_top, slopes
 from mechsym.cycle.source import Progress, unseen
 from mechsym.errors import BadInput
 from mechsym.files import Json
@@ -123,13 +122,12 @@ def of_engine(case: Case, found: Json, omega: Sequence[RadPerSecond] | RadPerSec
 
 def largest_torque(case: Case, omega: Sequence[float] | np.ndarray) -> np.ndarray:
     """Largest torque of the whole mechanism on the shaft at each of some speeds [rad/s]: [N*m]."""
-    operation = case.need("operation")
-    found = []
-    for speed in omega:
-        there = dataclasses.replace(operation, speed=float(speed))
-        at = dataclasses.replace(case, sections={**case.sections, "operation": there})
-        found.append(float(torque(at).max()))
-    return np.array(found)
+    return np.array([float(torque(_at(case, float(speed))).max()) for speed in omega])
+
+
+def _at(case: Case, speed: float) -> Case:
+    operation = replace(case.need("operation"), speed=speed)
+    return replace(case, sections={**case.sections, "operation": operation})
 
 
 _SUMMED = ("torque_avg", "power_kw", "brake_torque", "brake_power_kw", "air_kg_h")
@@ -202,15 +200,9 @@ def cycle(case: Case, omega: RadPerSecond[Array] | None = None, progress: Progre
 
     case: with `[cycle]` of any kind that follows no measured diagram; progress: called with the number of points done
     after each block of them.
+    Returns columns: arrays under the names of `mechsym cycle`, `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and
+    so on, of the engine; `per_cylinder` of one cylinder, or `pistons` of each where they move differently.
 
-    Returns
-    -------
-    columns : CycleFigures
-        Arrays under the names of `mechsym cycle`: `speed_rpm`, `torque_avg`, `power_kw`, `efficiency` and so on, of the
-        engine; `per_cylinder` of one cylinder, or `pistons` of each where they move differently
-
-    Examples
-    --------
     >>> from mechsym import cases
     >>> found = cycle(cases.load("zotov-89"))
     >>> round(float(found["power_kw"][0]), 2), found.view.cards[1].value
@@ -261,15 +253,11 @@ def _friction(case: Case) -> Friction:
 
 def _with_extremes(case: Case, omega: np.ndarray, figures: Json) -> Json:
     """Figures of pistons that share a gas with the largest torque and force on a piston."""
-    rows = [_extremes(case, speed) for speed in map(float, omega)]
+    turns = [turn(_at(case, speed)) for speed in map(float, omega)]
+    forces = [max(float(np.abs(one.inputs[a.face.input]).max()) for a in one.acting) for one in turns]
     behind = {name: figures.pop(name) for name in _BEHIND}
-    return figures | {key: np.array([row[key] for row in rows]) for key in rows[0]} | behind
-
-
-def _extremes(case: Case, speed: float) -> dict[str, float]:
-    found = turn(replace(case, sections={**case.sections, "operation": replace(case.need("operation"), speed=speed)}))
-    force = max(float(np.abs(found.inputs[one.face.input]).max()) for one in found.acting)
-    return {"torque_max": float(found.torque.max()), "force_max": force}
+    largest = {"torque_max": np.array([float(one.torque.max()) for one in turns]), "force_max": np.array(forces)}
+    return figures | largest | behind
 
 
 def speed_range(speeds: Speeds) -> RadPerSecond[Array]:

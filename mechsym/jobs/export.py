@@ -1,8 +1,9 @@
 """Case -> what leaves the tool: its run, with what its parts are made of, and the machine in motion, to scale."""
 
+import contextlib
 import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import scipy
@@ -20,12 +21,15 @@ from mechsym.hinge.guide import Guide
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.shown import hinge_scene
 from mechsym.hinge.torque import Hinge
+from mechsym.jobs.forces import motion
 from mechsym.jobs.gas import engine_with, gas, measured, one_cylinder
-from mechsym.jobs.machine import acting_on, drive_of, one_coordinate
+from mechsym.jobs.machine import acting_on, drive_of, mechanism_of, one_coordinate
 from mechsym.jobs.problem import Ready, beyond, guide_of
 from mechsym.jobs.problem import ready as running
 from mechsym.machine.loads import Load, settle
-from mechsym.mechanisms.drawing import Shapes, drawn
+from mechsym.mechanisms import listing
+from mechsym.mechanisms.drawing import Shapes, declared, drawn
+from mechsym.mechanisms.drawn_parts import turns_round
 from mechsym.mechanisms.turning import FRAMES, scene
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.constrained import LOCKED
@@ -47,18 +51,13 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
             raise BadInput(f"{case.file}: --diagram needs an engine with crosshead and [cycle], as the case generator")
         case = measured(case, diagram)
     wanted = case.sections.get("simulation") or Simulation(turns=TURNS)
-    found = running(_beyond(dataclasses.replace(case, sections={**case.sections, "simulation": wanted})))
+    # its own run in time may go on through a dead point of the closed forms: then by constraint
+    case = beyond(dataclasses.replace(case, sections={**case.sections, "simulation": wanted}))
+    found = running(case)
+    if "sides" in found.problem.mechanism.functions and not found.problem.unilateral:
+        run = simulate(found.problem, dataclasses.replace(Settings(), check="none"))
+        found = running(beyond(case, ends=True)) if run.end == LOCKED else found
     return dataclasses.replace(found, problem=_splined(case, found.problem)) if _by_spark(case) else found
-
-
-def _beyond(case: Case) -> Case:
-    """The case on loops by constraint where its own run in time goes on through a dead point of the closed forms."""
-    case = beyond(case)
-    problem = running(case).problem
-    if "sides" not in problem.mechanism.functions or problem.unilateral:
-        return case
-    run = simulate(problem, dataclasses.replace(Settings(), check="none"))
-    return beyond(case, ends=True) if run.end == LOCKED else case
 
 
 def _by_spark(case: Case) -> bool:
@@ -90,8 +89,11 @@ def _splined(case: Case, problem: Problem) -> Problem:
         starts = [(number, one.face.fires) for number, one in enumerate(acts) if one.face.input == part.input]
         if starts and isinstance(part.value, Periodic):
             period, number = part.value.period, 0 if len({one.gas for one in acts}) == 1 else starts[0][0]
-            closed = _closed_angles(case, number)
-            angles = tuple(sorted({round((a + fires) % period, 14) for a in closed for _, fires in starts}))
+            # ends of the closed period of the piston and of its combustion, from its firing dead centre
+            engine = engine_with(one_cylinder(case), NoFriction(), number)
+            closed = closed_period(engine, {"omega": case.need("operation").speed})
+            ends = closed.closes, closed.starts, closed.starts + closed.duration, closed.opens
+            angles = tuple(sorted({round((a + fires) % period, 14) for a in ends for _, fires in starts}))
             table = _table(part.value.value, angles, period)
             kinks.setdefault(part.value.coordinate, set()).update(angles)
             part = dataclasses.replace(part, value=dataclasses.replace(part.value, value=table, kinks=angles))
@@ -99,13 +101,6 @@ def _splined(case: Case, problem: Problem) -> Problem:
     period = max(one.gas.pressure.period for one in acts)
     asked = tuple(Kinks(coordinate=q, angles=tuple(sorted(angles)), period=period) for q, angles in kinks.items())
     return dataclasses.replace(problem, parts=tuple(parts), kinks=asked)
-
-
-def _closed_angles(case: Case, number: int = 0) -> tuple[float, ...]:
-    """Ends of the closed period of a piston and of its combustion, from its firing dead centre [rad]."""
-    engine = engine_with(one_cylinder(case), NoFriction(), number)
-    closed = closed_period(engine, {"omega": case.need("operation").speed})
-    return closed.closes, closed.starts, closed.starts + closed.duration, closed.opens
 
 
 def _table(force: _Force, kinks: tuple[float, ...], period: float) -> "scipy.interpolate.PPoly":
@@ -129,13 +124,37 @@ def _spline(force: _Force, first: float, last: float) -> "scipy.interpolate.PPol
 
 
 def drawing(case: Case) -> Callable[[float], Shapes] | None:
-    """Crank angle [rad] to the machine of a case as its declaration draws it; None where nothing draws it."""
-    try:
+    """Crank angle [rad] to the machine of a case as its declaration draws it; None where nothing draws it.
+
+    What does not turn round is drawn over its motion, which takes one turn of that angle.
+    """
+    with contextlib.suppress(BadInput):
         acting = gas(case)
         bore = None if acting is None else float(acting.chamber.bore)
-        return drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
-    except BadInput:
-        return None
+        shapes = drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
+        if "motion" not in case.sections and shapes is not None and turns_round(shapes):
+            return shapes
+    with contextlib.suppress(BadInput):
+        return _in_motion(case)
+    return None
+
+
+def _in_motion(case: Case) -> Callable[[float], Shapes] | None:
+    """A drawing over a motion: there and back again as `[motion]` drives it, else as it runs in time."""
+    back = "motion" in case.sections
+    if back:
+        mechanism, table = mechanism_of(case), motion(case).columns
+    else:
+        problem = ready(case).problem
+        mechanism, table = problem.mechanism, simulate(problem, dataclasses.replace(Settings(), check="none")).columns
+    rows = np.array([table[q] for q in mechanism.coordinates])
+    curve = scipy.interpolate.CubicSpline(np.linspace(0.0, 1.0, rows.shape[1]), rows.T)
+
+    def pose(angle: float) -> Sequence[float]:
+        share = angle / (2 * math.pi)
+        return curve(1 - abs(1 - 2 * share) if back else share).tolist()
+
+    return declared(mechanism, listing(mechanism.name), pose)
 
 
 def with_gas(scenes: list[Json], case: Case) -> list[Json]:

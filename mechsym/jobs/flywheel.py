@@ -19,12 +19,11 @@ from mechsym.quantities.display import figure
 from mechsym.quantities.results import computed, part, quantity, result
 from mechsym.quantities.units import Inertia, Pure
 from mechsym.simulate import Settings
-from mechsym.simulate.angle import Panels, tabulate, turn
+from mechsym.simulate.angle import tabulate, turn
 from mechsym.simulate.engine import reduced
 from mechsym.simulate.steady import Steady, flywheel_for_ripple, mean_inertia, mean_torque, steady_state
 
-# the parameter that a flywheel adds to, and the input of the load
-TURNS = 12.0
+TURNS = 12.0  # of the run in time
 
 
 @result
@@ -61,11 +60,8 @@ class FlywheelDesign:
         if self.trial is None:
             return FlywheelCheck()
         energy = self.trial.result.energy
-        return FlywheelCheck(
-            speed_ripple=self.trial.speed_ripple,
-            energy_residual=energy.residual,
-            status=self.trial.result.status,
-        )
+        status = self.trial.result.status
+        return FlywheelCheck(speed_ripple=self.trial.speed_ripple, energy_residual=energy.residual, status=status)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -97,7 +93,10 @@ def flywheel(case: Case, ripple: Pure, turns: Pure = TURNS) -> FlywheelDesign:
     omega = bare.omega
     panels = tabulate(reduced(bare))
     found = flywheel_for_ripple(panels, omega, ripple)
-    swing, kept = _swing(panels, omega), mean_inertia(panels)
+    # at constant speed the moving masses take their own share of the work
+    free = turn(replace(panels, load=ConstantLoad(torque=0.0)), 0.0, 0.0)
+    even = free.energy - mean_torque(panels) * (panels.phi - panels.edges[0])
+    swing, kept = float(np.ptp(even - 0.5 * omega**2 * panels.inertia)), mean_inertia(panels)
     steady = steady_state(panels, omega, found.inertia or 0.0)
     trial = None
     if found.inertia is not None and len(steady.omega):
@@ -110,13 +109,6 @@ def flywheel(case: Case, ripple: Pure, turns: Pure = TURNS) -> FlywheelDesign:
         ripple_wanted=ripple, ripple_bare=steady_state(panels, omega).speed_ripple, steady=steady, trial=trial,
         twists=facts_of(case.mechanism, case.sections).vibrates,
     )  # fmt: skip
-
-
-def _swing(panels: Panels, omega: float) -> float:
-    # at constant speed the moving masses take their own share of the work
-    free = turn(replace(panels, load=ConstantLoad(torque=0.0)), 0.0, 0.0)
-    even = free.energy - mean_torque(panels) * (panels.phi - panels.edges[0])
-    return float(np.ptp(even - 0.5 * omega**2 * panels.inertia))
 
 
 def shaft(case: Case, inertia: Inertia) -> Machine:

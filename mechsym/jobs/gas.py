@@ -5,7 +5,7 @@ engine share one gas, the first declared being the hot piston or the displacer.
 """
 
 import functools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
@@ -14,14 +14,13 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cases.runs import guesses
+from mechsym.cases.settings import guesses
 from mechsym.cycle.chamber import Chamber, motion_over, piston_area
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.friction import Friction, NoFriction
-from mechsym.cycle.gas import Gas
+from mechsym.cycle.gas import Gas, pistons_of, top_of, travel_of
 from mechsym.cycle.kinds import kind_of, source_of, with_diagram
 from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.motion import pistons_of, top_of, travel_of
 from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.cycle.source import EngineParts, GasSource
 from mechsym.errors import BadInput
@@ -191,8 +190,13 @@ def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
         roles = pistons_of(case.mechanism)
     for role in roles:
         _require_force(case, mechanism, role)
-    if kind_of(case.sections["cycle"]).shared:
-        return _sharing(case, mechanism, roles)
+    if kind_of(case.sections["cycle"]).shared:  # each piston has the area by which the common gas pushes it
+        shared, found = gas_on(case), []
+        for role, area in zip(roles, shared.pistons, strict=True):
+            room = _room(case, travel_of(mechanism, role.travel), area)
+            own = Gas(pressure=shared.pressure, chamber=room)
+            found.append(Piston(name=role.name, input=role.force, start=0.0, gas=own))
+        return found
     return [_piston(case, mechanism, role, number) for number, role in enumerate(roles)]
 
 
@@ -234,16 +238,6 @@ def firing(case: Case, role: PistonRole, travel: ca.Function) -> float:
             "write fires=0 or fires=2*pi"
         )
     return top + later
-
-
-def _sharing(case: Case, mechanism: Mechanism, roles: Sequence[PistonRole]) -> list[Piston]:
-    """Pistons of a Stirling engine, each with the area by which the common gas pushes it."""
-    shared = gas_on(case)
-    return [
-        Piston(name=role.name, input=role.force, start=0.0, gas=Gas(
-            pressure=shared.pressure, chamber=_room(case, travel_of(mechanism, role.travel), area)))
-        for role, area in zip(roles, shared.pistons, strict=True)
-    ]  # fmt: skip
 
 
 def _room(case: Case, travel: ca.Function, area: float) -> Chamber:
@@ -303,12 +297,10 @@ def shaft_curve(
     asked: TorqueCurve = case.need("torque")
     (q,) = mechanism.coordinates
     inertia, phi = mechanism.functions["dynamics"], ca.SX.sym(q)
-    slope = ca.jacobian(inertia(phi, *[0.0] * (inertia.n_in() - 1))[0], phi)
-    over = ca.Function("slope", [phi], [slope])
+    over = ca.Function("slope", [phi], [ca.jacobian(inertia(phi, *[0.0] * (inertia.n_in() - 1))[0], phi)])
+
+    def slope(at: np.ndarray) -> np.ndarray:
+        return np.asarray(over(np.reshape(at, (1, -1)))).reshape(np.shape(at))
+
     table = read_torque(asked.file)
-    curve = torque_at(table, omega, asked.load, lambda at: _shaped(over, at))
-    return curve, table.period
-
-
-def _shaped(function: ca.Function, at: np.ndarray) -> np.ndarray:
-    return np.asarray(function(np.reshape(at, (1, -1)))).reshape(np.shape(at))
+    return torque_at(table, omega, asked.load, slope), table.period

@@ -13,23 +13,18 @@ from mechsym.cases.needs import NO_FILE, require
 from mechsym.cases.settings import TrialSettings
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.hinge import steady
-from mechsym.hinge.contact import Contact, at_pieces
 from mechsym.hinge.guide import Guide, path, refit, setting_of, with_setting
-from mechsym.hinge.limits import Verdict, judge
-from mechsym.hinge.losses import HingeLosses
-from mechsym.hinge.result import AtLoad, Design, Origin
-from mechsym.hinge.rollers import RollerParameters
+from mechsym.hinge.limits import Contact, Verdict, at_pieces, judge
+from mechsym.hinge.result import AtLoad, Design, Origin, offers
+from mechsym.hinge.rollers import HingeLosses, RollerParameters
 from mechsym.hinge.steady import retune, sensitivities, with_guide
 from mechsym.hinge.torque import torque
-from mechsym.hinge.ways import offers
 from mechsym.jobs.machine import kept_flywheel, machine
 from mechsym.jobs.problem import guide_of
 from mechsym.machine.record import Machine, kinks_of
 from mechsym.mechanisms import listing
 from mechsym.quantities import record
 from mechsym.quantities.units import Pascal, Pure
-from mechsym.simulate.steady import Steady
 
 ERROR = 1e-4  # of the track, that is tried [m]
 
@@ -67,41 +62,27 @@ def workshop(case: Case, diagram: str | None = None) -> Workshop:
     rollers, limits = case.need("rollers"), case.need("limits")
     engine, wanted, guide = guide_of(case, diagram)
     rows = [
-        TriedError(name=s.name, words="1 % low, high", size=0.01 * abs(s.value), unit=s.unit, low=_ripple(s.low),
-                   high=_ripple(s.high))
+        TriedError(name=s.name, words="1 % low, high", size=0.01 * abs(s.value), unit=s.unit,
+                   low=s.low.speed_ripple, high=s.high.speed_ripple)
         for s in sensitivities(engine, wanted, guide)
     ]  # fmt: skip
-    inwards, outwards = (_ripple(with_guide(engine, wanted, _shifted(guide, d))) for d in (-ERROR, ERROR))
+    rho = path(guide)
+    tracks = []
+    for distance in (-ERROR, ERROR):  # cut too near to the axis, and too far from it
+        rows_of_track = rho.c.copy()
+        rows_of_track[-1] += distance
+        moved = scipy.interpolate.PPoly(rows_of_track, rho.x, extrapolate="periodic")
+        tracks.append(with_guide(engine, wanted, replace(guide, rho=moved)).speed_ripple)
+    period = float(rho.x[-1])
+    turns = range(round(2 * np.pi / period))
     ratio = guide.parameters.shaft_ratio
     return Workshop(
         name=case.name, about=case.about, machine=engine, guide=guide, rollers=rollers,
         verdict=judge(guide, rollers, limits), contact=at_pieces(guide, rollers),
-        kinks=_around(guide, tuple(k * ratio for k in kinks_of(engine))),
-        tolerances=(
-            *rows,
-            TriedError(name="track", words=f"{1e3 * ERROR:g} mm in, out", size=ERROR, unit="m", low=inwards,
-                       high=outwards),
-        ),
+        kinks=tuple(sorted({float(k * ratio % period + n * period) for k in kinks_of(engine) for n in turns})),
+        tolerances=(*rows, TriedError(name="track", words=f"{1e3 * ERROR:g} mm in, out", size=ERROR, unit="m",
+                                      low=tracks[0], high=tracks[1])),
     )  # fmt: skip
-
-
-def _ripple(steady: Steady) -> float | None:
-    return steady.speed_ripple
-
-
-def _shifted(guide: Guide, distance: float) -> Guide:
-    """The track cut too near to the axis or too far from it by a distance [m]."""
-    rho = path(guide)
-    rows = rho.c.copy()
-    rows[-1] += distance
-    return replace(guide, rho=scipy.interpolate.PPoly(rows, rho.x, extrapolate="periodic"))
-
-
-def _around(guide: Guide, angles: tuple[float, ...]) -> tuple[float, ...]:
-    """Angles of one period of the track, repeated over its whole turn [rad]."""
-    period = float(path(guide).x[-1])
-    turns = round(2 * np.pi / period)
-    return tuple(sorted({float(a % period + k * period) for a in angles for k in range(turns)}))
 
 
 def hinge(case: Case, diagram: str | None = None, loads: Sequence[Pure] = ()) -> Design:
@@ -115,7 +96,9 @@ def hinge(case: Case, diagram: str | None = None, loads: Sequence[Pure] = ()) ->
     """
     require(case, "hinge", NO_FILE if diagram else "")
     spring, choices, rollers, limits = (case.need(name) for name in ("spring", "guide", "rollers", "limits"))
-    pressures, engine = _pressures(case, diagram, loads), machine(case, diagram)
+    if loads and diagram is not None:
+        raise BadInput(f"{diagram}: a measured diagram has one load; leave the diagram or the other loads out")
+    pressures, engine = [share * design_load(case) for share in loads], machine(case, diagram)
     wanted = torque(engine)
     chosen, *instead = offers(wanted, spring, choices, rollers, limits)
     return Design(
@@ -143,30 +126,19 @@ def at_loads(case: Case, guide: Guide, loads: Sequence[Pascal]) -> list[AtLoad]:
     set anew for that load takes part of the rest away. guide: guide of the case's hinge, status `cut`; loads: mean
     indicated pressures to try.
     """
-    return [_at_load(case, guide, load) for load in loads]
-
-
-def _at_load(case: Case, guide: Guide, load: float) -> AtLoad:
-    cycle = replace(case.need("cycle"), mean_indicated_pressure=load)
-    engine = machine(replace(case, sections={**case.sections, "cycle": cycle}))
-    wanted = torque(engine)
-    setting = retune(guide, wanted, "least_squares_work").setting
-    anew = refit(guide, with_setting(guide.spring, setting))
-    return AtLoad(
-        share=load / design_load(case),
-        mean_indicated_pressure=load,
-        as_cut=steady.with_guide(engine, wanted, guide),
-        reset=steady.with_guide(engine, wanted, anew),
-        setting=setting,
-        ratio=setting / setting_of(guide.spring),
-        unit=guide.spring.setting[1],
-    )
-
-
-def _pressures(case: Case, diagram: str | None, loads: Sequence[float]) -> list[float]:
-    if loads and diagram is not None:
-        raise BadInput(f"{diagram}: a measured diagram has one load; leave the diagram or the other loads out")
-    return [share * design_load(case) for share in loads]
+    rows = []
+    for load in loads:
+        cycle = replace(case.need("cycle"), mean_indicated_pressure=load)
+        engine = machine(replace(case, sections={**case.sections, "cycle": cycle}))
+        wanted = torque(engine)
+        setting = retune(guide, wanted, "least_squares_work").setting
+        anew = refit(guide, with_setting(guide.spring, setting))
+        rows.append(AtLoad(
+            share=load / design_load(case), mean_indicated_pressure=load, as_cut=with_guide(engine, wanted, guide),
+            reset=with_guide(engine, wanted, anew), setting=setting, ratio=setting / setting_of(guide.spring),
+            unit=guide.spring.setting[1],
+        ))  # fmt: skip
+    return rows
 
 
 def _other(case: Case) -> Machine | None:

@@ -9,7 +9,7 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.cases.needs import require
-from mechsym.cases.runs import guesses
+from mechsym.cases.settings import guesses
 from mechsym.errors import BadInput, suggest
 from mechsym.jobs.machine import constants, drive_on
 from mechsym.mechanisms import parameters_class
@@ -63,9 +63,9 @@ def _model(case: Case, trace: Trace, free: tuple[str, ...]) -> TracedMotion:
     start = np.array([known.get(name, 0.0) for name in free])
     angle = getattr(case.sections.get("simulation"), "phi_start", 0.0)
     pose = {q: angle for q in mechanism.coordinates} | guesses(case)
-    drive = case.sections.get("drive")
+    drive, (rate, energy) = case.sections.get("drive"), _functions(mechanism, symbols, free)
     return TracedMotion(
-        rate=_rate(mechanism, symbols, free), energy=_energy(mechanism, symbols, free),
+        rate=rate, energy=energy,
         lossy=any(units[name] in _LOSSES for name in free), velocities=velocities(mechanism), turning=turning,
         inputs=mechanism.inputs, names=free, units=tuple(units[name] for name in free), start=start,
         size=_sizes(mechanism, symbols, trace, free, start), low=_least(case, free),
@@ -111,7 +111,10 @@ def _least(case: Case, free: tuple[str, ...]) -> np.ndarray:
     return np.array([least(name) for name in free])
 
 
-def _rate(mechanism: Mechanism, symbols: dict[str, ca.SX], free: tuple[str, ...]) -> ca.Function:
+def _functions(
+    mechanism: Mechanism, symbols: dict[str, ca.SX], free: tuple[str, ...]
+) -> tuple[ca.Function, ca.Function]:
+    """Rate of the state, and energy with the power that acts, of state, inputs and what is looked for."""
     n, dynamics = len(mechanism.coordinates), mechanism.functions["dynamics"]
     x, w, theta = ca.SX.sym("x", 2 * n), ca.SX.sym("w", len(mechanism.inputs)), ca.SX.sym("theta", len(free))
     values = dict(zip(free, ca.vertsplit(theta), strict=True))
@@ -119,15 +122,8 @@ def _rate(mechanism: Mechanism, symbols: dict[str, ca.SX], free: tuple[str, ...]
     lost = values.get("friction.constant", 0.0) * ca.sign(x[n]) + values.get("friction.viscous", 0.0) * x[n]
     push = force - bias - ca.vertcat(lost, ca.SX.zeros(n - 1))
     rates = ca.vertcat(x[n:], ca.solve(mass, push) if n > 1 else push / mass)
-    return ca.Function("rate", [x, w, theta], [rates])
-
-
-def _energy(mechanism: Mechanism, symbols: dict[str, ca.SX], free: tuple[str, ...]) -> ca.Function:
-    n, dynamics = len(mechanism.coordinates), mechanism.functions["dynamics"]
-    x, w, theta = ca.SX.sym("x", 2 * n), ca.SX.sym("w", len(mechanism.inputs)), ca.SX.sym("theta", len(free))
-    values = dict(zip(free, ca.vertsplit(theta), strict=True))
-    mass, _, force = dynamics(*ca.vertsplit(x), *ca.vertsplit(w), *(values[name] for name in symbols))
-    return ca.Function("energy", [x, w, theta], [ca.bilin(mass, x[n:], x[n:]) / 2, ca.dot(x[n:], force)])
+    energy = [ca.bilin(mass, x[n:], x[n:]) / 2, ca.dot(x[n:], force)]
+    return ca.Function("rate", [x, w, theta], [rates]), ca.Function("energy", [x, w, theta], energy)
 
 
 def _inputs(case: Case, mechanism: Mechanism, trace: Trace, t: np.ndarray) -> np.ndarray:

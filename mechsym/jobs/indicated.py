@@ -1,24 +1,15 @@
 """Case and measured crank torque -> cylinder pressure, with its 95 % interval and its gaps at the dead centres."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.forces.indicated import (
-    NORMAL_95,
-    CrankTorque,
-    IndicatedPressure,
-    gaps,
-    pressure_from_torque,
-    scatter,
-    shaft_lines,
-    work,
-)
+from mechsym.forces import textbook as physics
+from mechsym.forces.textbook import NORMAL_95, CrankTorque, IndicatedPressure
 from mechsym.forces.turn import period_of as period_of_gas
-from mechsym.jobs.gas import of
 from mechsym.jobs.machine import acting_on, constants, drive_of
 from mechsym.machine.torque_curve import read_torque
 from mechsym.mechanisms.record import Mechanism
@@ -78,18 +69,18 @@ class TorquePressure:
     @computed("J")
     def work_j(self) -> float:
         """Work of the gas over the period."""
-        return work(self.measured, self.found, self.period)[0]
+        return physics.work(self.measured, self.found, self.period)[0]
 
     @computed("J")
     def work_interval_j(self) -> list[float]:
         """It holds the work 19 times in 20."""
-        error = work(self.measured, self.found, self.period)[1]
+        error = physics.work(self.measured, self.found, self.period)[1]
         return [self.work_j - NORMAL_95 * error, self.work_j + NORMAL_95 * error]
 
     @computed("deg")
     def gaps_deg(self) -> list[list[float]]:
         """Where nothing is told, as the piston hardly moves."""
-        return [[math.degrees(a), math.degrees(b)] for a, b in gaps(self.found)]
+        return [[math.degrees(a), math.degrees(b)] for a, b in physics.gaps(self.found)]
 
     @computed()
     def pressure(self) -> Columns:
@@ -102,7 +93,24 @@ class TorquePressure:
     @computed()
     def doubts(self) -> list[Doubt]:
         """What of the torque is possible and not usual."""
-        return _doubts(self.measured, self.found)
+        measured, found = self.measured, self.found
+        doubts, seen = [], physics.scatter(measured.torque)
+        allowed = 2 * measured.noise + _SMOOTH * float(np.abs(found.gas).max())
+        if seen > allowed:
+            why = "rows scatter more than --noise says; the intervals are too narrow"
+            usual = f"at most {allowed:.4g}"
+            doubts.append(Doubt(code="torque_noise", quantity="noise [N*m]", value=seen, usual=usual, why=why))
+        highest = (found.p + NORMAL_95 * found.error)[found.told]
+        if np.mean(highest < 0) > 0.05:
+            why = (
+                "no gas pulls: look at the sign and zero of the torque, the angle, friction, and whether inertia is "
+                "in it"
+            )
+            least = float(highest.min())
+            doubts.append(
+                Doubt(code="pressure_below_zero", quantity="p_high [Pa]", value=least, usual="above 0", why=why)
+            )
+        return doubts
 
 
 def indicated(case: Case, file: str, noise: NewtonMetre) -> TorquePressure:
@@ -126,9 +134,9 @@ def indicated(case: Case, file: str, noise: NewtonMetre) -> TorquePressure:
                        f"{math.degrees(acting.period):g} deg; give one whole cycle")  # fmt: skip
     omega = place[0] if table.speeds else case.need("operation").speed
     measured = CrankTorque(phi=phi, torque=curve(phi), omega=omega, noise=noise, with_inertia=table.with_inertia)
-    idle, lever = shaft_lines(acting.mechanism, acting.areas, phi, omega, acting.held)
+    idle, lever = physics.shaft_lines(acting.mechanism, acting.areas, phi, omega, acting.held)
     try:
-        found = pressure_from_torque(measured, idle, lever, acting.p_back)
+        found = physics.pressure_from_torque(measured, idle, lever, acting.p_back)
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
     return TorquePressure(case=case.name, measured=measured, found=found)
@@ -143,9 +151,12 @@ def common_gas(case: Case) -> CommonGas:
     case.need("cycle")
     drive = drive_of(case)
     acts = acting_on(case, drive)
-    if not acts[0].gas.pistons:
-        with of(case):
-            _require_at_once([one.face.fires for one in acts], period_of_gas(acts))
+    fires, period = [one.face.fires for one in acts], period_of_gas(acts)
+    if not acts[0].gas.pistons and any(abs(math.remainder(at - fires[0], period)) > _SAME for at in fires):
+        raise BadInput(
+            f"{case.file}: {len(fires)} cylinders fire one after the other; the sum of their torques does not tell the "
+            "pressure of one: measure one cylinder alone, with a case of one cylinder"
+        )
     areas: dict[str, float] = {}
     for one in acts:
         areas[one.face.input] = areas.get(one.face.input, 0.0) + one.area * one.face.sense
@@ -153,23 +164,3 @@ def common_gas(case: Case) -> CommonGas:
         mechanism=drive.mechanism, areas=areas, held=constants(case), p_back=acts[0].gas.p_back,
         period=acts[0].gas.pressure.period,
     )  # fmt: skip
-
-
-def _require_at_once(fires: Sequence[float], period: float) -> None:
-    if any(abs(math.remainder(angle - fires[0], period)) > _SAME for angle in fires):
-        raise BadInput(f"{len(fires)} cylinders fire one after the other; the sum of their torques does not tell the "
-                       "pressure of one: measure one cylinder alone, with a case of one cylinder")  # fmt: skip
-
-
-def _doubts(measured: CrankTorque, found: IndicatedPressure) -> list[Doubt]:
-    doubts, seen = [], scatter(measured.torque)
-    allowed = 2 * measured.noise + _SMOOTH * float(np.abs(found.gas).max())
-    if seen > allowed:
-        doubts.append(Doubt(code="torque_noise", quantity="noise [N*m]", value=seen, usual=f"at most {allowed:.4g}",
-                            why="rows scatter more than --noise says; the intervals are too narrow"))  # fmt: skip
-    highest = (found.p + NORMAL_95 * found.error)[found.told]
-    if np.mean(highest < 0) > 0.05:
-        doubts.append(Doubt(code="pressure_below_zero", quantity="p_high [Pa]", value=float(highest.min()),
-                            usual="above 0", why="no gas pulls: look at the sign and zero of the torque, the angle, "
-                            "friction, and whether inertia is in it"))  # fmt: skip
-    return doubts

@@ -14,7 +14,7 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cases import Case
-from mechsym.cases.runs import guesses
+from mechsym.cases.settings import guesses
 from mechsym.cycle.kinds import kind_of, with_diagram
 from mechsym.errors import BadInput
 from mechsym.forces.friction import FittedLaw, NoRings, fit
@@ -51,22 +51,11 @@ _ROUNDING = 1e-12  # of the largest torque: a mean, or a swing about it, that is
 def machine(case: Case, diagram: str | None = None, inertia: Inertia = 0.0) -> Machine:
     """The engine of a case, ready to turn.
 
-    diagram: CSV file of a measured diagram in place of the case's cycle; inertia: of a flywheel on top of what the case
-    has.
+    case: with sections parameters and operation; `[cycle]` on the pistons, or `[torque]` on the shaft, or neither,
+    where weights, springs, inertia and `[drive]` are all that acts; perhaps flywheel and load. diagram: CSV file of a
+    measured diagram in place of the case's cycle. inertia: of a flywheel on top of what the case has. Raises BadInput:
+    a mechanism with several free coordinates, or a cycle that cannot be made.
 
-    Parameters
-    ----------
-    case : Case
-        With sections parameters and operation; `[cycle]` on the pistons, or `[torque]` on the shaft, or neither, where
-        weights, springs, inertia and `[drive]` are all that acts; perhaps flywheel and load
-
-    Raises
-    ------
-    BadInput
-        A mechanism with several free coordinates, or a cycle that cannot be made
-
-    Examples
-    --------
     >>> from mechsym import cases
     >>> round(machine(cases.load("zotov-89")).omega, 4)
     9.3201
@@ -82,8 +71,15 @@ def machine(case: Case, diagram: str | None = None, inertia: Inertia = 0.0) -> M
 
 
 def turned_by(case: Case, mechanism: Mechanism) -> Machine:
-    """A mechanism with one coordinate under the gas of `[cycle]`, or the torque of `[torque]`, alone."""
-    return _with_gas(case, mechanism) if "cycle" in case.sections else _with_torque_curve(case, mechanism)
+    """A mechanism with one coordinate under the gas of `[cycle]`, or the torque of `[torque]`, or nothing."""
+    if "cycle" in case.sections:
+        return _with_gas(case, mechanism)
+    if "torque" not in case.sections:
+        return _bare(case, mechanism)
+    curve, period = shaft_curve(case, mechanism, case.need("operation").speed)
+    name, sign = shaft_input(case, mechanism)
+    force = AngleForce(name="torque", input=name, value=lambda phi: sign * curve(phi))
+    return _bare(case, mechanism, forces=(force,), period=period)
 
 
 def _bare(case: Case, mechanism: Mechanism, **acting: Any) -> Machine:
@@ -95,42 +91,39 @@ def _bare(case: Case, mechanism: Mechanism, **acting: Any) -> Machine:
 
 def _with_gas(case: Case, mechanism: Mechanism) -> Machine:
     """A machine whose pistons the gas of `[cycle]` pushes."""
+    burns = kind_of(case.need("cycle")).fired
     if not mechanisms.roles_of(case.mechanism).pistons:
-        return _with_shared_gas(case, mechanism)
+        return _with_shared_gas(case, mechanism, burns)
     first, *others = acting = pistons(case, mechanism)
     # from a dead centre at the angle 0 on, a turn without combustion is known too
     if not others and first.start == 0.0:
         return _bare(case, mechanism, gas=first.gas, gas_input=first.input)
     names = [f"gas_{p.name}" if others else "gas" for p in acting]
-    forces = tuple(AngleForce(name=n, input=p.input, value=p.force) for n, p in zip(names, acting, strict=True))
-    period, kinks = common_period(acting), kinks_of(acting)
-    several = tuple(firing_of(p.gas, p.input, p.start) for p in acting) if _burns(case) else ()
-    return _bare(
-        case, mechanism, gas=first.gas, gas_input="", forces=forces, period=period, kinks=kinks, several=several
+    forces = tuple(
+        AngleForce(name=n, input=p.input, value=p.force, formulas=p.gas.formulas(p.start))
+        for n, p in zip(names, acting, strict=True)
     )
+    several = tuple(firing_of(p.gas, p.input, p.start) for p in acting) if burns else ()
+    period, kinks = common_period(acting), kinks_of(acting)
+    by = {"period": period, "kinks": kinks, "several": several}
+    return _bare(case, mechanism, gas=first.gas, gas_input="", forces=forces, **by)
 
 
-def _burns(case: Case) -> bool:
-    return kind_of(case.need("cycle")).fired
-
-
-def _with_shared_gas(case: Case, mechanism: Mechanism) -> Machine:
+def _with_shared_gas(case: Case, mechanism: Mechanism, burns: bool) -> Machine:
     """The same where the faces of a case, or the throws of a train, say which way the gas of one cylinder pushes."""
     acts = acting_on(case, drive_of(case))
-    found = acts[0].gas
-    period = found.pressure.period
+    period = acts[0].gas.pressure.period
     starts = {one.face.fires for one in acts}
-    kinks = sorted({(k + start) % period for start in starts for k in found.pressure.kinks})
+    kinks = sorted({(k + start) % period for start in starts for k in acts[0].gas.pressure.kinks})
 
     def force(key: str) -> AngleForce:
         return AngleForce(name=f"gas_{key}", input=key, value=lambda phi: pushes(acts, phi)[key])
 
-    return _bare(
-        case, mechanism, gas=found, gas_input="", forces=tuple(map(force, pushes(acts, np.zeros(1)))),
-        period=period, kinks=tuple(kinks),
-        several=tuple(firing_of(a.gas, a.face.input, a.face.fires, a.face.area, a.face.sense) for a in acts)
-        if _burns(case) else (),
-    )  # fmt: skip
+    forces = tuple(map(force, pushes(acts, np.zeros(1))))
+    fired = acts if burns else ()
+    several = tuple(firing_of(a.gas, a.face.input, a.face.fires, a.face.area, a.face.sense) for a in fired)
+    by = {"period": period, "kinks": tuple(kinks), "several": several}
+    return _bare(case, mechanism, gas=acts[0].gas, gas_input="", forces=forces, **by)
 
 
 def drive_of(case: Case) -> CrankDrive:
@@ -156,16 +149,6 @@ def acting_on(case: Case, drive: CrankDrive) -> tuple[Acting, ...]:
         Acting(gas=one.gas, face=GasFace(input=one.input, travel=travels[one.input], fires=one.start))
         for one in pistons(case, drive.mechanism)
     )
-
-
-def _with_torque_curve(case: Case, mechanism: Mechanism) -> Machine:
-    """A machine that no gas turns: the torque of `[torque]` acts on the shaft, or none."""
-    if "torque" not in case.sections:
-        return _bare(case, mechanism)
-    curve, period = shaft_curve(case, mechanism, case.need("operation").speed)
-    name, sign = shaft_input(case, mechanism)
-    force = AngleForce(name="torque", input=name, value=lambda phi: sign * curve(phi))
-    return _bare(case, mechanism, forces=(force,), period=period)
 
 
 def _with_besides(plain: Machine, inputs: Mapping[str, float], driven: bool) -> Machine:
@@ -330,7 +313,14 @@ def _turn(case: Case) -> Turn:
     drive, omega = drive_of(case), case.need("operation").speed
     acts, period, held = _what_acts(case, drive, omega)
     found = at(drive, acts, omega, angles(period), held, period)
-    _require_closed(case, found)
+    curves: Mapping[str, np.ndarray] = {**found.kinematics, **found.reactions, "torque": found.torque}
+    opened = ~np.all([np.isfinite(v) for v in curves.values()], axis=0)
+    if opened.any():
+        (q,) = drive.mechanism.coordinates
+        at_angle = f"{q} = {np.degrees(found.phi[np.argmax(opened)]):.3f} deg"
+        raise BadInput(
+            f"{case.file}: the loop opens at {at_angle}: links too short, or a wrong branch; it cannot turn round"
+        )
     return found
 
 
@@ -344,31 +334,15 @@ def torque(case: Case) -> np.ndarray:
 def _what_acts(case: Case, drive: CrankDrive, omega: float) -> tuple[tuple[Acting, ...], float, dict[str, np.ndarray]]:
     """Cylinders, the period of all that acts [rad], and what acts besides by input."""
     acts, (curve, of_curve) = acting_on(case, drive), shaft_curve(case, drive.mechanism, omega)
-    period = max(period_of(acts), of_curve) * _turns(case)
+    # a mechanism with loops may repeat after several turns of its first coordinate only
+    looped = mechanisms.listing(case.mechanism).get("dependents")
+    period = max(period_of(acts), of_curve) * (along_turn(mechanism_of(case))[1] if looped else 1)
     phi = angles(period)
     held = {name: np.full_like(phi, value) for name, value in constants(case).items() if value}
     if "torque" in case.sections:
         name, sign = shaft_input(case, drive.mechanism)
         held[name] = held.get(name, np.zeros_like(phi)) + sign * curve(phi)
     return acts, period, held
-
-
-def _turns(case: Case) -> int:
-    """Turns of the first coordinate after which a mechanism with loops repeats."""
-    if not mechanisms.listing(case.mechanism).get("dependents"):
-        return 1
-    return along_turn(mechanism_of(case))[1]
-
-
-def _require_closed(case: Case, found: Turn) -> None:
-    curves: Mapping[str, np.ndarray] = {**found.kinematics, **found.reactions, "torque": found.torque}
-    opened = ~np.all([np.isfinite(v) for v in curves.values()], axis=0)
-    if opened.any():
-        (q,) = found.drive.mechanism.coordinates
-        at_angle = f"{q} = {np.degrees(found.phi[np.argmax(opened)]):.3f} deg"
-        raise BadInput(
-            f"{case.file}: the loop opens at {at_angle}: links too short, or a wrong branch; it cannot turn round"
-        )
 
 
 def fitted_law(case: Case, omega: Sequence[RadPerSecond]) -> FittedLaw:

@@ -12,22 +12,17 @@ from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.new_diagram import TraceSizes, diagram_case
 from mechsym.cycle.chamber import Chamber, chamber_over
+from mechsym.cycle.gas import piston_travel
 from mechsym.cycle.kinds import with_diagram
-from mechsym.cycle.measured.alignment import between
+from mechsym.cycle.measured.alignment import DeadCentre, between
 from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts, exponent_doubts, speed_doubt
 from mechsym.cycle.measured.combustion import Analysis, DeadCentreShift, DiagramCombustion, diagram_combustion
-from mechsym.cycle.measured.dead_centre import DeadCentre
 from mechsym.cycle.measured.diagram import Diagram, line_prior
-from mechsym.cycle.measured.facts import cycle_work, diagram_facts, read_and_used
-from mechsym.cycle.measured.figures import CombustionFigures
-from mechsym.cycle.measured.file import has_angles, read_diagram
-from mechsym.cycle.measured.heat_release import Combustion
+from mechsym.cycle.measured.file import has_angles, read_diagram, recorded_speed
+from mechsym.cycle.measured.heat_release import Combustion, CombustionFigures
 from mechsym.cycle.measured.joint_fit import Prior
-from mechsym.cycle.measured.lag import USUAL, SensorLag, lag_of, without_lag
-from mechsym.cycle.measured.measure import measured_cycles
-from mechsym.cycle.measured.shared_centre import encoder_records, shared_centre
-from mechsym.cycle.measured.timing import recorded_speed
-from mechsym.cycle.motion import piston_travel
+from mechsym.cycle.measured.measure import cycle_work, diagram_facts, measured_cycles, read_and_used
+from mechsym.cycle.measured.shared_centre import USUAL, SensorLag, encoder_records, lag_of, shared_centre, without_lag
 from mechsym.errors import BadInput
 from mechsym.files import write_text
 from mechsym.jobs.gas import of, one_cylinder
@@ -115,16 +110,18 @@ class MeasuredDiagram:
     @computed()
     def records(self) -> list[RecordAmongOthers]:
         """All records that share the dead centre, this one first; empty where it is alone."""
-        return [one._among_others() for one in (self, *self.others)] if self.others else []
-
-    def _among_others(self) -> RecordAmongOthers:
-        of = self.figures
-        return RecordAmongOthers(
-            file=self.combustion.measured.file, speed_rpm=self.speed_rpm,
-            dead_centre_deg=self.combustion.measured.tdc * _DEG % 360, imep_bar=of.imep_bar,
-            imep_interval_bar=of.imep_interval_bar, cov_imep=of.cov_imep, p_max_bar=of.p_max_bar,
-            ca50_deg=of.ca50_deg, n_compression=self.n_compression, n_expansion=self.n_expansion,
-        )  # fmt: skip
+        if not self.others:
+            return []
+        return [
+            RecordAmongOthers(
+                file=one.combustion.measured.file, speed_rpm=one.speed_rpm,
+                dead_centre_deg=one.combustion.measured.tdc * _DEG % 360, imep_bar=one.figures.imep_bar,
+                imep_interval_bar=one.figures.imep_interval_bar, cov_imep=one.figures.cov_imep,
+                p_max_bar=one.figures.p_max_bar, ca50_deg=one.figures.ca50_deg, n_compression=one.n_compression,
+                n_expansion=one.n_expansion,
+            )
+            for one in (self, *self.others)
+        ]  # fmt: skip
 
     @computed()
     def dead_centre(self) -> DeadCentreTold:
@@ -141,8 +138,18 @@ class MeasuredDiagram:
 
     @computed()
     def lag(self) -> LagTold | None:
-        """Lag of the sensor, where the cycles have several speeds."""
-        return None if self.sensor is None else _lag(self.combustion, self.sensor)
+        """Lag of the sensor, where the cycles have several speeds; its interval, and if told the centre without it."""
+        lag, alignment = self.sensor, self.combustion.measured.alignment
+        if lag is None:
+            return None
+        # of a dead centre from elsewhere this record does not know at which speed it was found
+        centre = without_lag(alignment.dead_centre, lag) if lag.told and alignment.own is None else None
+        deg, half = (None, None) if centre is None else (centre[0] * _DEG % 360, centre[1] * _DEG)
+        return LagTold(
+            seconds=lag.lag, interval_seconds=[lag.lag - lag.half, lag.lag + lag.half], usual_seconds=list(USUAL),
+            told=lag.told, speeds_rpm=[speed / RPM for speed in lag.speeds], dead_centre_deg=deg,
+            dead_centre_interval_deg=None if deg is None or half is None else [deg - half, deg + half],
+        )  # fmt: skip
 
     @computed("rpm")
     def speed_rpm(self) -> float:
@@ -259,7 +266,8 @@ def measured_combustion(case: Case, files: Sequence[str] = (), motored: str | No
     Raises BadInput: the file is refused, or the diagram cannot be aligned.
     """
     diagrams = [with_diagram(case.need("cycle"), file, motored) for file in files or (None,)]
-    _refuse_twice(files)
+    if (again := next((file for k, file in enumerate(files) if file in files[:k]), None)) is not None:
+        raise BadInput(f"--diagram {again} is named twice; a record tells nothing more the second time, leave it out")
     seen = one_cylinder(case)
     with of(case):
         travel = piston_travel(seen.mechanism, seen.need("parameters"))
@@ -307,12 +315,6 @@ def case_of_trace(trace: Path, sizes: TraceSizes, folder: Path) -> tuple[str, tu
     raise refused or BadInput(f"{trace}: no cylinder pressure")
 
 
-def _refuse_twice(files: Sequence[str]) -> None:
-    again = next((file for k, file in enumerate(files) if file in files[:k]), None)
-    if again is not None:
-        raise BadInput(f"--diagram {again} is named twice; a record tells nothing more the second time, leave it out")
-
-
 def _taken_apart(
     case: Case, cycle: Diagram, cylinder: Chamber, shared: tuple[DeadCentre, Prior] | None = None
 ) -> MeasuredDiagram:
@@ -328,30 +330,8 @@ def _taken_apart(
         torque, swept = case.sections["measured"].torque, float(cylinder.displacement)
         beside.append(brake_doubt(torque, mep, swept, measured.period))
     return MeasuredDiagram(
-        figures=found.figures,
-        combustion=found,
-        centre=measured.alignment.dead_centre,
-        omega=omega,
-        mep=mep,
-        sensor=lag_of(measured, cylinder, cycle),
-        line=read_and_used(cycle, measured),
+        figures=found.figures, combustion=found, centre=measured.alignment.dead_centre, omega=omega, mep=mep,
+        sensor=lag_of(measured, cylinder, cycle), line=read_and_used(cycle, measured),
         facts=diagram_facts(cycle, cylinder, measured),
         judged=doubts + tuple(doubt for doubt in beside if doubt is not None),
-    )
-
-
-def _lag(found: DiagramCombustion, lag: SensorLag) -> LagTold:
-    """Interval of the lag and whether it is narrower than what is usual; if so, the dead centre without it."""
-    alignment = found.measured.alignment
-    # of a dead centre from elsewhere this record does not know at which speed it was found
-    centre = without_lag(alignment.dead_centre, lag) if lag.told and alignment.own is None else None
-    deg, half = (None, None) if centre is None else (centre[0] * _DEG % 360, centre[1] * _DEG)
-    return LagTold(
-        seconds=lag.lag,
-        interval_seconds=[lag.lag - lag.half, lag.lag + lag.half],
-        usual_seconds=list(USUAL),
-        told=lag.told,
-        speeds_rpm=[speed / RPM for speed in lag.speeds],
-        dead_centre_deg=deg,
-        dead_centre_interval_deg=None if deg is None or half is None else [deg - half, deg + half],
-    )
+    )  # fmt: skip

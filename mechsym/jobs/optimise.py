@@ -16,9 +16,20 @@ from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
 from mechsym.jobs.cycle import cycle, engine
 from mechsym.mechanisms import roles_of
-from mechsym.optimise.problem import Limit, Optimise, limit_of, problem
 from mechsym.optimise.search import FigureProgramme, search
-from mechsym.optimise.solver import Optimised, Optimum, ParetoPoint, Task, TriedWords, pareto, solve
+from mechsym.optimise.solver import (
+    Limit,
+    Optimise,
+    Optimised,
+    Optimum,
+    ParetoPoint,
+    Task,
+    TriedWords,
+    limit_of,
+    pareto,
+    problem,
+    solve,
+)
 from mechsym.quantities.display import without_unit
 from mechsym.quantities.results import Columns
 
@@ -45,21 +56,21 @@ def programme(case: Case, section: Optimise, asked: Mapping[str, Json]) -> Figur
     variables = tuple(_variable(case, name, spec) for name, spec in section.variables.items())
     names = [v.name for v in variables]
     start = np.array([_value(case, name) for name in names])
-    units = _units(case)
+    units = {name: unit for name, (_, unit) in _figures(case).items()}
     for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
         if name not in units:
             raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(units)}")
     limits = {name: limit for name, limit in asked.items() if name in units} | section.constraints
+
+    def at(values: np.ndarray) -> dict[str, float]:
+        settings = _settings(case, dict(zip(names, values.tolist(), strict=True)))
+        return figures(load(case.path, {**case.overrides, **settings}))
+
     return FigureProgramme(
-        figures=lambda values: _at(case, dict(zip(names, values.tolist(), strict=True))),
-        start=start,
-        noise=kind_of(case.need("cycle")).noise,
-        units=units,
-        objective=section.objective,
-        sign=1.0 if section.goal == "maximise" else -1.0,
-        variables=variables,
+        figures=at, start=start, noise=kind_of(case.need("cycle")).noise, units=units, objective=section.objective,
+        sign=1.0 if section.goal == "maximise" else -1.0, variables=variables,
         constraints=tuple(limit_of("constraints", n, spec, units) for n, spec in limits.items()),
-    )
+    )  # fmt: skip
 
 
 def figures(case: Case) -> dict[str, float]:
@@ -78,14 +89,6 @@ def _figures(case: Case) -> dict[str, tuple[float, str]]:
         if math.isfinite(value):
             found.setdefault(without_unit(column, UNITS[column]), (value, unit))
     return found
-
-
-def _units(case: Case) -> dict[str, str]:
-    return {name: unit for name, (_, unit) in _figures(case).items()}
-
-
-def _at(case: Case, values: Mapping[str, float]) -> dict[str, float]:
-    return figures(load(case.path, {**case.overrides, **_settings(case, values)}))
 
 
 def _settings(case: Case, values: Mapping[str, float]) -> dict[str, float | list[float]]:
@@ -160,14 +163,13 @@ def optimise(case: Case) -> Optimised:
         tried.append((chosen, _one(load(case.path, {**case.overrides, **chosen}))))
     sign = 1.0 if section.goal == "maximise" else -1.0
     chosen, best = max(tried, key=lambda pair: (pair[1].best.status == "optimal", sign * pair[1].best.objective))
-    rows = tuple(
-        TriedWords(
-            words=words, status=one.best.status, objective=one.best.objective, variables=one.best.variables,
-            unit=one.best.unit,
+    rows = []
+    for taken, done in tried:
+        one = done.best
+        rows.append(
+            TriedWords(words=taken, status=one.status, objective=one.objective, variables=one.variables, unit=one.unit)
         )
-        for words, one in tried
-    )  # fmt: skip
-    return dataclasses.replace(best, chosen=chosen, choices=rows)
+    return dataclasses.replace(best, chosen=chosen, choices=tuple(rows))
 
 
 def _one(case: Case) -> Optimised:
@@ -184,12 +186,10 @@ def _solved(task: Task, section: Optimise, one: Callable[[Task], Optimum]) -> Op
         return Optimised(best=one(task), goal=section.goal, objective_name=section.objective)
     front = pareto(task, section.against, section.against_goal, int(section.points), one)
     aims = (section.objective, section.against)
-    points = tuple(
-        ParetoPoint(
-            status=p.status, figures=Columns({n: p.figures[n] for n in aims}, p.figures.units), variables=p.variables
-        )
-        for p in front
-    )
+    points = []
+    for p in front:
+        shown = Columns({n: p.figures[n] for n in aims}, p.figures.units)
+        points.append(ParetoPoint(status=p.status, figures=shown, variables=p.variables))
     return Optimised(
-        best=front[0], goal=section.goal, objective_name=section.objective, front=tuple(front), pareto=points
+        best=front[0], goal=section.goal, objective_name=section.objective, front=tuple(front), pareto=tuple(points)
     )

@@ -19,7 +19,7 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cases import Case
-from mechsym.cases.runs import TURN_POINTS, count_times, count_turns, guesses, simulation_of
+from mechsym.cases.settings import TURN_POINTS, count_times, count_turns, guesses, simulation_of
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
 from mechsym.hinge.guide import Guide, cut, fitted
@@ -116,11 +116,27 @@ def ready(case: Case) -> Ready:
     wanted, mechanism = simulation_of(case), mechanism_of(case)
     driving = driving_of(case)
     drive = drive_on(case, mechanism) if "drive" in case.sections else None
-    shaft = _shaft(case, mechanism, bool(driving.parts) or is_hinged(case), drive is not None)
-    speed = _speed(case, wanted, shaft)
+    declared = [r.angle for r in mechanisms.roles_of(case.mechanism).rotors if r.load]
+    shaft = _Shaft(
+        coordinate=next((q for q in declared if q in mechanism.coordinates), mechanism.coordinates[0]),
+        twists=sum(q not in mechanism.dependents for q in mechanism.coordinates) > 1,
+        engine=bool(driving.parts) or is_hinged(case),
+        driven=drive is not None,
+    )
+    speed = wanted.speed_start
+    if speed is None:
+        speed = case.need("operation").speed if shaft.running else 0.0
     law = _law(case, driving.torque + (drive.driving if drive else 0.0), speed, shaft)
-    parts = [_switched(case, drive.input, drive.value)] if drive else []
-    parts += [*driving.parts, *_constant(case, {part.input for part in (*parts, *driving.parts)})]
+    parts = []
+    if drive:
+        time = case.need("drive").time
+        steps = Steps(times=(time,), values=(0.0, drive.value)) if time > 0 else Steps(values=(drive.value,))
+        parts.append(Part(name="drive", input=drive.input, value=steps))
+    parts += driving.parts
+    taken = {part.input for part in parts}
+    for name, value in constants(case).items():  # on what nothing else acts on
+        if value and name not in taken:
+            parts.append(Part(name=f"input_{name}", input=name, value=Steps(values=(value,))))
     guide = None
     if is_hinged(case) and not shaft.twists:
         engine, hinge, guide = guide_of(case)
@@ -146,19 +162,6 @@ def ready(case: Case) -> Ready:
     return Ready(problem=problem, guide=guide, load=law)
 
 
-def _shaft(case: Case, mechanism: Mechanism, engine: bool, driven: bool) -> _Shaft:
-    declared = [r.angle for r in mechanisms.roles_of(case.mechanism).rotors if r.load]
-    free = [q for q in mechanism.coordinates if q not in mechanism.dependents]
-    angle = next((q for q in declared if q in mechanism.coordinates), mechanism.coordinates[0])
-    return _Shaft(coordinate=angle, twists=len(free) > 1, engine=engine, driven=driven)
-
-
-def _speed(case: Case, wanted: Simulation, shaft: _Shaft) -> float:
-    if wanted.speed_start is not None:
-        return wanted.speed_start
-    return case.need("operation").speed if shaft.running else 0.0
-
-
 def _unsettled(case: Case, shaft: _Shaft) -> Load | None:
     """The law of the load as the case gives it: without one an engine drives a propeller."""
     return case.sections.get("load", PropellerLoad() if shaft.running else None)
@@ -177,18 +180,6 @@ def _law(case: Case, mean: float, speed: float, shaft: _Shaft) -> Load | None:
         )
     known = blank or "operation" in case.sections
     return settle(law, mean, case.need("operation").speed if known else math.nan)
-
-
-def _switched(case: Case, name: str, value: float) -> Part:
-    time = case.need("drive").time
-    steps = Steps(times=(time,), values=(0.0, value)) if time > 0 else Steps(values=(value,))
-    return Part(name="drive", input=name, value=steps)
-
-
-def _constant(case: Case, taken: set[str]) -> list[Part]:
-    """Constants of `[inputs]`, on what nothing else acts on."""
-    given = {name: value for name, value in constants(case).items() if value and name not in taken}
-    return [Part(name=f"input_{name}", input=name, value=Steps(values=(value,))) for name, value in given.items()]
 
 
 def _at(machine: Machine, name: str) -> Part:

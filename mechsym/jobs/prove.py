@@ -3,12 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import TypeAlias
 
 import casadi as ca
 import numpy as np
 
 from mechsym import cases
 from mechsym.cases import Case
+from mechsym.cases.needs import require
 from mechsym.cases.numbers import usual
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
@@ -22,13 +24,11 @@ from mechsym.mechanisms.record import Mechanism, bind, evaluate, generated, list
 from mechsym.proof.enclosure import EnclosureMethod
 from mechsym.proof.motion import MOST, Passed, balls_of, digits, enclose, half_widths, method_for, task_of
 from mechsym.proof.outputs import ProvenRounding, of_guides, of_mechanism, rounding, units_of, widened
-from mechsym.quantities import record
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.problem import Problem, Steps
 
 _SHARE = 0.01  # of a parameter's value, to both sides
-_SHARE_OF_GUIDES = 0.001  # beyond it balls do not see that the kernel's Newton steps come to an end
 GUIDES = "hinge"  #: What stands for the limits of guides among the names of mechanisms
 _FASTER = 1.1  # highest speed by that of operation
 _TURN = np.arange(1440) * 4 * np.pi / 1440
@@ -36,14 +36,8 @@ _TURN = np.arange(1440) * 4 * np.pi / 1440
 Ranges = dict[str, tuple[float, float]]
 
 
-@record
-class Extremes:
-    """What a machine reaches in operation."""
-
-    speed: tuple[float, float]  #: [rad/s]
-    acceleration: float  #: Of the shaft [rad/s^2]
-    force: tuple[float, float]  #: On a piston [N]
-    torque: float  #: On the shaft [N*m]
+#: Speeds of a shaft [rad/s], its acceleration at most [rad/s^2], forces on a piston [N], torque at most [N*m]
+Extremes: TypeAlias = tuple[tuple[float, float], float, tuple[float, float], float]
 
 
 def usual_case(mechanism: str) -> str:
@@ -87,34 +81,32 @@ def of_guides_at(case: Case, samples: int, progress: Callable[[int], object] = l
     wanted = balance(torque(machine(case)), choices.balance)
     sections = case.need("spring"), choices, case.need("rollers"), case.need("limits")
     kernel = design_kernel(wanted, *sections, ("guide.rho0",))
-    words = f"numbers of {case.name} +-{100 * _SHARE_OF_GUIDES:g} %, its torque around the turn"
-    return rounding(GUIDES, of_guides(kernel, _SHARE_OF_GUIDES), {}, samples, words, progress)
+    words = f"numbers of {case.name} +-{100 * _SHARE:g} %, its torque around the turn"
+    return rounding(GUIDES, of_guides(kernel, _SHARE), {}, samples, words, progress)
 
 
 def ranges_of(mechanism: str, case: Case) -> Ranges:
     """Ranges of all letters of a mechanism [SI]: parameters at the case's values and 1 % to both sides."""
     known, module = listing(mechanism), generated(mechanism)
-    values = {letter: _number(case, letter) for letter in module.PARAMETERS}
-    extremes = extremes_of(case)
+    values = {}
+    for letter in module.PARAMETERS:
+        value = getattr(case.need("parameters"), letter, None)
+        if isinstance(value, tuple):  # of several throws the first
+            value = value[0] if value else None
+        if value is None:
+            raise BadInput(f"{case.file}: no value for {letter}; name a case of this mechanism with --case")
+        values[letter] = float(value)
+    speed, acceleration, force, torque = extremes_of(case)
     length = 2 * max((abs(v) for letter, v in values.items() if known["parameters"][letter] == "m"), default=1.0)
     ranges: Ranges = {letter: widened(v, _SHARE) for letter, v in values.items()}
     for q, unit in known["coordinates"].items():
         by = 1.0 if unit == "rad" else length
         ranges[q] = (-np.pi, np.pi) if unit == "rad" else (-length, length)
-        ranges[f"{q}d"] = (by * extremes.speed[0], by * extremes.speed[1])
-        ranges[f"{q}dd"] = (-by * extremes.acceleration, by * extremes.acceleration)
+        ranges[f"{q}d"] = (by * speed[0], by * speed[1])
+        ranges[f"{q}dd"] = (-by * acceleration, by * acceleration)
     for name, unit in known["inputs"].items():
-        ranges[name] = extremes.force if unit == "N" else (-extremes.torque, extremes.torque)
+        ranges[name] = force if unit == "N" else (-torque, torque)
     return ranges
-
-
-def _number(case: Case, letter: str) -> float:
-    value = getattr(case.need("parameters"), letter, None)
-    if isinstance(value, tuple):  # of several throws the first
-        value = value[0] if value else None
-    if value is None:
-        raise BadInput(f"{case.file}: no value for {letter}; name a case of this mechanism with --case")
-    return float(value)
 
 
 def extremes_of(case: Case) -> Extremes:
@@ -126,12 +118,7 @@ def extremes_of(case: Case) -> Extremes:
     forces = np.concatenate([np.zeros(1), *(f.value(_TURN) for f in acting(engine))])
     (q,) = engine.mechanism.coordinates
     inertia = float(evaluate(engine.mechanism, "dynamics", **{q: _TURN})["mass_matrix"].min())
-    return Extremes(
-        speed=(0.0, _FASTER * engine.omega),
-        acceleration=torque / inertia,
-        force=(float(forces.min()), float(forces.max())),
-        torque=torque,
-    )
+    return (0.0, _FASTER * engine.omega), torque / inertia, (float(forces.min()), float(forces.max())), torque
 
 
 def _of_run(case: Case) -> Extremes:
@@ -140,12 +127,9 @@ def _of_run(case: Case) -> Extremes:
     result = simulate(problem, Settings(check="none"))
     speeds = np.array([result.columns[name] for name in velocities(problem.mechanism)])
     values = [v for part in problem.parts if isinstance(part.value, Steps) for v in part.value.values]
-    return Extremes(
-        speed=(float(speeds.min()), float(speeds.max())),
-        acceleration=float(np.abs(np.diff(speeds) / np.diff(result.t)).max()),
-        force=(min(0.0, *values), max(0.0, *values)),
-        torque=max(0.0, *np.abs(values).tolist()),
-    )
+    acceleration = float(np.abs(np.diff(speeds) / np.diff(result.t)).max())
+    force = min(0.0, *values), max(0.0, *values)
+    return (float(speeds.min()), float(speeds.max())), acceleration, force, max(0.0, *np.abs(values).tolist())
 
 
 @result
@@ -186,6 +170,7 @@ def motion_of(
     statement is about [s]. Raises BadInput: it cannot be enclosed; the message names the force, or the digits that it
     would need.
     """
+    require(case, "prove")
     problem = problem_of(case)
     symbols = {name: ca.SX.sym(name) for name in problem.mechanism.parameters}
     open_ = bind(case.mechanism, symbols)

@@ -11,11 +11,11 @@ from mechsym.cases import Case
 from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import require
 from mechsym.cases.outcomes import of_run
-from mechsym.cases.runs import count_loop, guesses, settings_of, simulation_of
+from mechsym.cases.settings import count_loop, guesses, settings_of, simulation_of
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.gas import piston_motion, travel_of
 from mechsym.cycle.kinds import kind_of
-from mechsym.cycle.motion import piston_motion, travel_of
 from mechsym.errors import BadInput
 from mechsym.forces.turn import gas_faces
 from mechsym.jobs.cycle import engine
@@ -24,7 +24,7 @@ from mechsym.jobs.forces import vibration
 from mechsym.jobs.gas import at_recorded_speed, firing, gas, one_cylinder
 from mechsym.jobs.machine import load_input, mechanism_of, turning
 from mechsym.jobs.problem import beyond, problem_of, window_of
-from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, settle
+from mechsym.machine.loads import ConstantLoad, PropellerLoad, TableLoad, settle
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.roles import ShaftRole
@@ -37,12 +37,21 @@ from mechsym.simulate.loop.events import CYCLE
 from mechsym.simulate.loop.run import simulate_loop
 from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
+from mechsym.simulate.rest import RestPoses, rests
 from mechsym.simulate.result import RunNumbers, final_state, summary
 from mechsym.simulate.steady import steady_state
 from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
 from mechsym.torsion.startup import numbers as start_numbers
-from mechsym.torsion.train import doubts, twist_words, words
-from mechsym.torsion.twist import Settling, natural_frequencies, sections, sentences, settling
+from mechsym.torsion.twist import (
+    Settling,
+    doubts,
+    natural_frequencies,
+    sections,
+    sentences,
+    settling,
+    twist_words,
+    words,
+)
 
 
 def in_loop(case: Case) -> bool:
@@ -69,16 +78,9 @@ def run_in_loop(case: Case, settings: Settings) -> Result:
 def loop(case: Case) -> Loop:
     """The loop that a case describes.
 
-    Parameters
-    ----------
-    case : Case
-        With a spark-ignition cycle and a mechanism with pistons; of opposed pistons that share a chamber one mechanism
-        is followed, which carries its share of the load; without `[load]` a propeller takes the mean torque
-
-    Raises
-    ------
-    BadInput
-        No spark-ignition cycle, a table as load, or cylinders that fire far from their dead centre
+    case: with a spark-ignition cycle and a mechanism with pistons; of opposed pistons that share a chamber one
+    mechanism is followed, which carries its share of the load; without `[load]` a propeller takes the mean torque.
+    Raises BadInput: no spark-ignition cycle, a table as load, or cylinders that fire far from their dead centre.
     """
     machine, omega = engine(one_cylinder(case)), case.need("operation").speed
     if machine.blowdown is not None:
@@ -91,25 +93,17 @@ def loop(case: Case) -> Loop:
     cylinders, taken = _cylinders(case, mechanism), load_input(case)
     if not taken:
         raise BadInput(f"{case.file}: nothing takes the load; declare m.rotor('crank', angle=phi, load=M_r)")
-    load = case.sections.get("load", PropellerLoad())
     # the figures of a chamber count all its pistons, each of which drives a mechanism of its own
     own_area = piston_area(machine.chamber.bore)
     faces = sum(1.0 if c.area is None else c.area / own_area for c in cylinders)
     torque = float(performance(machine, {"omega": omega}).torque_avg[0]) * faces / machine.chamber.pistons
-    return Loop(
-        engine=machine,
-        mechanism=mechanism,
-        cylinders=cylinders,
-        load=_smooth(case, settle(load, torque, omega)),
-        load_input=taken,
-        load_coordinate=mechanism.coordinates[-1],
-    )
-
-
-def _smooth(case: Case, load: Load) -> ConstantLoad | PropellerLoad:
+    load = settle(case.sections.get("load", PropellerLoad()), torque, omega)
     if isinstance(load, TableLoad):
         raise BadInput(f"{case.file}: the cycle in the loop takes a constant or a propeller load, no table")
-    return load
+    return Loop(
+        engine=machine, mechanism=mechanism, cylinders=cylinders, load=load, load_input=taken,
+        load_coordinate=mechanism.coordinates[-1],
+    )  # fmt: skip
 
 
 def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:
@@ -147,28 +141,27 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
     starts, settles = _start_ups(case, result, dampings), settled(case, result)
     elastic = shaft_of(case.mechanism, case.need("parameters"))
     twist = () if elastic is None else sections(elastic, result, result.t[-1] - numbers.window)
-    train = vibration(case)
+    train, facts, rate = vibration(case), facts_of(case.mechanism, case.sections), result.happened.contraction
+    lines: list[str] = []
+    if facts.twists and load_input(case) and not (facts.has("load") or facts.has("cycle")):
+        lines.append("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running")
+    if rate is not None:
+        lines.append(f"friction and reactions: their fixed point contracts by {rate:.3g} or less a turn")
+    lines += [*words(train), *twist_words(train, twist)] if train else []
+    lines += [*(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ())]
+    if engine and result.end == "stall":
+        where = math.degrees(result.columns[engine.coordinate][-1])
+        lines.append(
+            f"the shaft stops at t = {result.t[-1]:.4g} s, {engine.coordinate} = {where:.1f} deg: what it stores does "
+            "not carry it over compression and load; raise flywheel.inertia or simulation.speed_start, or lower [load]"
+        )
+    doubted = of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
     return FinishedRun(
-        case=case.name,
-        backend=settings.backend,
-        tolerance=settings.tolerance,
-        result=result,
-        summary=numbers,
+        case=case.name, backend=settings.backend, tolerance=settings.tolerance, result=result, summary=numbers,
         final_state=final_state(result, numbers.speeds),
-        natural_frequencies=natural_frequencies(case.mechanism, case.need("parameters")),
-        twist=twist,
-        start_up=tuple(start_numbers(s) for s in starts),
-        start_ups=starts,
-        vibration=train,
-        settling=settles,
-        engine=engine,
-        doubts=of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
-        + (doubts(train, twist) if train else ()),
-        findings=(
-            *_unbraked(case), *_rubbing(result), *((*words(train), *twist_words(train, twist)) if train else ()),
-            *(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ()),
-            *(_stopped(result, engine) if engine else ()),
-        ),
+        natural_frequencies=natural_frequencies(case.mechanism, case.need("parameters")), twist=twist,
+        start_up=tuple(start_numbers(s) for s in starts), start_ups=starts, vibration=train, settling=settles,
+        engine=engine, doubts=doubted + (doubts(train, twist) if train else ()), findings=tuple(lines),
     )  # fmt: skip
 
 
@@ -180,17 +173,6 @@ def _engine(case: Case, numbers: RunNumbers, period: float) -> EngineSpeed | Non
     shaft = taken.angle if taken else next(iter(numbers.speeds))
     words = taken.name if taken and facts_of(case.mechanism, case.sections).twists else ""
     return EngineSpeed(coordinate=shaft, words=words, period=period, wanted=case.need("operation").speed)
-
-
-def _stopped(result: Result, engine: EngineSpeed) -> tuple[str, ...]:
-    """What to do about an engine that stops."""
-    if result.end != "stall":
-        return ()
-    where = math.degrees(result.columns[engine.coordinate][-1])
-    return (
-        f"the shaft stops at t = {result.t[-1]:.4g} s, {engine.coordinate} = {where:.1f} deg: what it stores does not "
-        "carry it over compression and load; raise flywheel.inertia or simulation.speed_start, or lower [load]",
-    )
 
 
 def run_of(case: Case, settings: Settings) -> tuple[Result, RunNumbers, float]:
@@ -209,20 +191,14 @@ def run_of(case: Case, settings: Settings) -> tuple[Result, RunNumbers, float]:
     return result, summary(result, problem.mechanism.coordinates, window_of(case, problem), period), period
 
 
-def _rubbing(result: Result) -> tuple[str, ...]:
-    """How fast friction and the reactions that it makes converge to each other."""
-    rate = result.happened.contraction
-    return (
-        () if rate is None else (f"friction and reactions: their fixed point contracts by {rate:.3g} or less a turn",)
-    )
-
-
-def _unbraked(case: Case) -> tuple[str, ...]:
-    """What a reader should know of a shaft that twists and that nothing brakes, though it takes a load."""
-    facts = facts_of(case.mechanism, case.sections)
-    if not facts.twists or not load_input(case) or facts.has("load") or facts.has("cycle"):
-        return ()
-    return ("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running",)
+def at_rest(case: Case) -> RestPoses:
+    """Where a case stays at rest, under its constant forces, and whether it comes back there."""
+    if in_loop(case):
+        raise BadInput(f"{case.file}: the gas of an engine that runs has no pose at rest; leave [cycle] out")
+    try:
+        return rests(problem_of(beyond(case)), case.name)
+    except BadInput as error:
+        raise BadInput(f"{case.file}: {error}") from None
 
 
 def _start_ups(case: Case, result: Result, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:

@@ -9,7 +9,7 @@ from mechsym import cases, mechanisms
 from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.cycle.closed.model import ClosedEngine
-from mechsym.cycle.compare import crossovers
+from mechsym.cycle.columns import crossovers
 from mechsym.cycle.engine import over_speeds
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
@@ -24,15 +24,8 @@ from mechsym.quantities.units import Array, RadPerSecond
 from mechsym.sizing.checks import unsafe
 from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
 from mechsym.sizing.crosshead import checks as crosshead_checks
+from mechsym.sizing.hypocycloid import checks as rules
 from mechsym.sizing.hypocycloid import masses
-from mechsym.sizing.hypocycloid.checks import (
-    check_all,
-    engine_rows,
-    mass_rows,
-    nearest_rows,
-    part_rows,
-    size_hypocycloid,
-)
 from mechsym.sizing.hypocycloid.engine import Parts, Stock
 from mechsym.sizing.hypocycloid.masses import PlanetDrive, hypocycloid_forces
 from mechsym.sizing.pressures import Pressures, pressures_over
@@ -58,8 +51,8 @@ def size(case: Case) -> Sizing:
     by_spark = "cycle" in case.sections and kind_of(case.need("cycle")).closed
     if _given_drive(case) and not by_spark:
         return _crosshead(case)  # no rule sizes such an engine: the sizes that it has are checked
-    rules = {"planet": _hypocycloid, "slider crank": _slider_crank}
-    sized = rules.get(mechanisms.roles_of(case.mechanism).rules) if by_spark else None
+    sizings = {"planet": _hypocycloid, "slider crank": _slider_crank}
+    sized = sizings.get(mechanisms.roles_of(case.mechanism).rules) if by_spark else None
     return _joints(case) if sized is None else sized(task(case))
 
 
@@ -103,11 +96,11 @@ def check_printed(case: Case) -> Sizing:
     moving = masses.moving_printed(reference, one.stock)
     drive = planet_of(one.case)
     forces = hypocycloid_forces(gas_of(one), drive)(moving)
-    checks = check_all(reference.parts, forces, wants, one.stock)
+    checks = rules.check_all(reference.parts, forces, wants, one.stock)
     mass = masses.total_mass_printed(reference, one.stock)
-    rows = part_rows(reference.parts, "as printed") + check_rows(checks)
-    rows += engine_rows(reference.parts, forces, moving, mass, _power(one, forces.omega.max()), one.wants, one.stock,
-                        drive.moving)  # fmt: skip
+    rows = rules.part_rows(reference.parts, "as printed") + check_rows(checks)
+    power = _power(one, forces.omega.max())
+    rows += rules.engine_rows(reference.parts, forces, moving, mass, power, one.wants, one.stock, drive.moving)
     return Sizing(told=rows + _crossing_rows(one), failing=unsafe(checks), converged=True, rounds=1,
                   parts=reference.parts, forces=forces, stock=one.stock)  # fmt: skip
 
@@ -116,15 +109,15 @@ def _hypocycloid(one: Task) -> Sizing:
     reference, wants, stock = printed_parts(one.case), one.wants, one.stock
     drive = planet_of(one.case)
     forces_of = hypocycloid_forces(gas_of(one), drive)
-    found = size_hypocycloid(forces_of, reference, masses.moving_printed(reference, stock), wants, stock)
+    found = rules.size_hypocycloid(forces_of, reference, masses.moving_printed(reference, stock), wants, stock)
     mass, power = masses.total_mass(found.parts, reference, wants, stock), _power(one, found.forces.omega.max())
-    rows = part_rows(found.parts, "sized") + check_rows(found.checks)
-    rows += mass_rows(found.parts, reference, wants, stock)
-    rows += engine_rows(found.parts, found.forces, found.moving, mass, power, wants, stock, drive.moving)
+    rows = rules.part_rows(found.parts, "sized") + check_rows(found.checks)
+    rows += rules.mass_rows(found.parts, reference, wants, stock)
+    rows += rules.engine_rows(found.parts, found.forces, found.moving, mass, power, wants, stock, drive.moving)
     rows += _crossing_rows(one)
     failing = unsafe(found.checks)
     if failing:
-        rows += nearest_rows(found.parts, found.forces, wants, stock, lambda omega: _power(one, omega))
+        rows += rules.nearest_rows(found.parts, found.forces, wants, stock, lambda omega: _power(one, omega))
     return Sizing(told=rows, failing=failing, converged=found.converged, rounds=found.rounds, parts=found.parts,
                   forces=found.forces, stock=stock)  # fmt: skip
 
@@ -134,9 +127,9 @@ def _slider_crank(one: Task) -> Sizing:
     start = float(amount(roles.rods[0].moving, dataclasses.asdict(parameters)))
     forces_of = slider_crank_forces(gas_of(one), mechanisms.build(one.case.mechanism, parameters), roles)
     found = size_slider_crank(forces_of, start, one.wants, one.stock)
-    rows = [
-        row for key in ("piston", "cylinder", "crank") for row in size_rows(key, getattr(found.parts, key), "sized")
-    ]
+    rows = []
+    for key in ("piston", "cylinder", "crank"):
+        rows += size_rows(key, getattr(found.parts, key), "sized")
     rows += check_rows(found.checks)
     rows.append(fact("engine", "moving mass of one piston", found.reciprocating, "kg", "mass model",
                      note=f"the case has {start:.3f} kg"))  # fmt: skip
@@ -150,18 +143,17 @@ def task(case: Case) -> Task:
     Raises BadInput: a section is missing or a setting is no KEY=VALUE.
     """
     wants = case.sections.get("sizing", Wants())
-    settings = dict(_setting(text, case.file) for text in wants.settings)
-    stock = Stock(materials=materials.load(wants.materials_file or None),
-                  bearings=bearings.catalogue(wants.bearings_file or None))  # fmt: skip
+    settings = {}
+    for text in wants.settings:
+        key, _, value = text.partition("=")
+        if not key.strip() or not value.strip():
+            raise BadInput(f"{case.file}: sizing.settings {text!r} is not KEY=VALUE")
+        settings[key.strip()] = value.strip()
+    stock = Stock(
+        materials=materials.load(wants.materials_file or None), bearings=bearings.catalogue(wants.bearings_file or None)
+    )
     set_up = cases.underlaid(case, settings) if settings else case
     return Task(case=set_up, machine=engine(set_up), wants=wants, stock=stock)
-
-
-def _setting(text: str, file: str) -> tuple[str, str]:
-    key, sign, value = text.partition("=")
-    if not sign or not key.strip() or not value.strip():
-        raise BadInput(f"{file}: sizing.settings {text!r} is not KEY=VALUE")
-    return key.strip(), value.strip()
 
 
 def speeds(one: Task) -> RadPerSecond[Array]:
@@ -180,8 +172,9 @@ def printed_parts(case: Case) -> masses.PrintedMasses:
     """Parts that a case prints, with their masses, for the mass model. Raises BadInput: a section is missing."""
     parts = Parts(piston=case.need("part_piston"), cylinder=case.need("part_cylinder"), gears=case.need("part_gears"),
                   crank=case.need("part_crank"), bearings=case.need("part_bearings"))  # fmt: skip
-    return masses.PrintedMasses(parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore,
-                                e=planet_of(case).e)  # fmt: skip
+    return masses.PrintedMasses(
+        parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore, e=planet_of(case).e
+    )
 
 
 def planet_of(case: Case) -> PlanetDrive:

@@ -55,3 +55,20 @@ def _angle_last(values: np.ndarray, size: tuple[int, int], count: int) -> np.nda
     points = values.reshape(rows, -1, columns).transpose(0, 2, 1)
     shape = tuple(n for n in size if n > 1)
     return np.broadcast_to(points, (*size, count)).reshape(*shape, count)
+
+
+_FEW = 8  # equations up to which blocks are not worth the while
+
+
+def solved(A: ca.SX, b: ca.SX) -> ca.SX:
+    """The solution of linear equations; of many, block after block of those that do not wait for one another."""
+    if A.shape[0] <= _FEW:
+        return ca.solve(A, b)
+    A, x = ca.sparsify(A), ca.SX(*b.shape)
+    count, rows, columns, at, *_ = A.sparsity().btf()
+    for k in range(count):
+        row, column = rows[at[k] : at[k + 1]], columns[at[k] : at[k + 1]]
+        before = columns[: at[k]]
+        right = b[row, :] - ca.mtimes(A[row, before], x[before, :]) if before else b[row, :]
+        x[column, :] = ca.solve(ca.densify(A[row, column]), right)
+    return x

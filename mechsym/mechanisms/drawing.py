@@ -9,9 +9,11 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of, sketched
+from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of, seen, sketched
 from mechsym.mechanisms.own import is_file, packaged
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism, listing
@@ -21,6 +23,7 @@ from mechsym.quantities.units import Metre, Radian
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
 
+_PATHS, _WAY = ("rail", "trace"), 97  # kinds that follow a point, and over how many angles of a turn
 _PIN = 0.018  # radius of the pin of a link, by the width of all of them
 
 __all__ = ["Circle", "Line", "Point", "Shapes", "declared", "drawn", "extent_of", "shapes"]
@@ -55,28 +58,52 @@ def drawn(
     return declared(functions(), listing(mechanism))
 
 
-def declared(mechanism: Mechanism, said: "Listing") -> Callable[[float], Shapes] | None:
-    """Crank angle [rad] of a mechanism with one coordinate to the shapes of its declaration; None where it has none."""
+def declared(
+    mechanism: Mechanism, said: "Listing", poses: Callable[[float], Sequence[float]] | None = None
+) -> Callable[[float], Shapes] | None:
+    """Crank angle [rad] of a mechanism with one coordinate to the shapes of its declaration; None where it has none.
+
+    poses: coordinates over an angle [rad], of which a motion is a turn, for any number of them.
+    """
     if said.get("sketch"):
         return lambda angle: sketched(said, mechanism.parameters, angle, None)
-    if "drawing" not in mechanism.functions or len(mechanism.coordinates) != 1:
+    if "drawing" not in mechanism.functions or (poses is None and len(mechanism.coordinates) != 1):
         return None
     function, joints = mechanism.functions["drawing"], _joints(said["shapes"])
+    shaped = [shape for shape in said["shapes"] if shape["kind"] not in _PATHS]
 
     def places(angle: float) -> Mapping[str, float]:
-        return dict(zip(function.name_out(), map(float, function.call([angle])), strict=True))
+        return dict(
+            zip(function.name_out(), map(float, function.call(poses(angle) if poses else [angle])), strict=True)
+        )
 
     def shapes(angle: float) -> Shapes:
         at = places(angle)
-        pins = (Circle(role="joint", centre=(at[x], at[y]), radius=radius) for x, y in joints)
-        return (*(_shape(shape, at) for shape in said["shapes"]), *pins)
+        pins = (Circle(role="joint", centre=(at[x], at[y]), radius=radius, space=_inner(at, (x,))) for x, y in joints)
+        return (*still, *(_shape(shape, at) for shape in shaped), *pins, *axes)
 
     start = places(0.0)
     if len({(start[x], start[y]) for shape in said["shapes"] for x, y in shape["points"]}) < 2:
         return None  # a point has no extent
+    axes = _axes([_inner(start, (x,))[0] for s in said["shapes"] if "space" in s for x, _ in s["points"]])
+    way = [places(angle) for angle in np.linspace(0.0, 2 * math.pi, _WAY)] if len(shaped) < len(said["shapes"]) else []
+    still = [line for shape in said["shapes"] if shape["kind"] in _PATHS for line in _path(shape, way)]
     radius = _PIN * max((math.dist((start[a], start[b]), (start[c], start[d])) for a, b in joints for c, d in joints),
                         default=0.0)  # fmt: skip
     return shapes
+
+
+def _path(said: Json, way: Sequence[Mapping[str, float]]) -> list[Line]:
+    """What a point runs along: its path, or a rail on both sides of a slide that moves straight."""
+    (x, y), *ahead = said["points"]
+    points = np.array([(at[x], at[y]) for at in way])
+    if not ahead:
+        return [Line(role=said["role"], points=tuple(map(tuple, points.tolist())))]
+    along = np.array([way[0][n] for n in ahead[0]]) - points[0]
+    s = (points - points[0]) @ along / (along @ along)
+    ends = points[0] + np.outer([s.min() - 2.5, s.max() + 2.5], along)
+    sides = (ends + side * np.array([-along[1], along[0]]) for side in (1, -1))
+    return [Line(role=said["role"], points=tuple(map(tuple, side.tolist()))) for side in sides]
 
 
 def _joints(found: Sequence[Json]) -> list[tuple[str, str]]:
@@ -87,11 +114,28 @@ def _joints(found: Sequence[Json]) -> list[tuple[str, str]]:
     return list(dict.fromkeys((x, y) for link in links for x, y in link["points"]))
 
 
+def _inner(found: Mapping[str, float], names: Sequence[str]) -> tuple[tuple[float, float, float], ...]:
+    """Places in space by the names of their first coordinates as they are seen; none of what is drawn in the plane."""
+    inner = [[f"draw_in_{axis}{name.removeprefix('draw_x')}" for axis in "xyz"] for name in names]
+    return tuple((found[x], found[y], found[z]) for x, y, z in inner if x in found)
+
+
+def _axes(places: Sequence[tuple[float, float, float]]) -> Shapes:
+    """The axes of the frame, a quarter of the mechanism long."""
+    if not places:
+        return ()
+    length = max(max(p[k] for p in places) - min(p[k] for p in places) for k in range(3)) / 4
+    ends = ((length, 0.0, 0.0), (0.0, length, 0.0), (0.0, 0.0, length))
+    return tuple(Line(role="frame", points=((0.0, 0.0), seen(e)), space=((0.0, 0.0, 0.0), e)) for e in ends)
+
+
 def _shape(said: Json, found: Mapping[str, float]) -> Line | Circle:
     points: list[Point] = [(found[x], found[y]) for x, y in said["points"]]
+    space = _inner(found, [x for x, _ in said["points"]])
     if said["kind"] == "circle":
-        return Circle(role=said["role"], centre=points[0], radius=found[said["radius"]])
+        return Circle(role=said["role"], centre=points[0], radius=found[said["radius"]], space=space)
     if said["kind"] == "box":
         (x, y), a, b = points[0], found[said["width"]] / 2, found[said["height"]] / 2
         points = [(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]
-    return Line(role=said["role"], points=tuple(points))
+        space = ()
+    return Line(role=said["role"], points=tuple(points), space=space)

@@ -109,8 +109,7 @@ def _held(mechanism: Mechanism, driven: Sequence[str], q: np.ndarray) -> tuple[s
     if not count:
         return ()
     J = np.asarray(mechanism.functions["constraints"].call([*q, *([0.0] * len(q))])[1])
-    scale = np.abs(J).max(axis=0)
-    scaled = J / np.where(scale > 0, scale, 1.0)
+    scaled = loops.scaled(mechanism, J)
     best = [rest[k] for k in scipy.linalg.qr(scaled[:, rest], pivoting=True, mode="r")[1][:count]]
     size = np.linalg.svd(scaled[:, best], compute_uv=False)
     if not size[-1] > _SINGULAR * size[0]:

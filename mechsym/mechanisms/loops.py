@@ -16,6 +16,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.mechanisms.arrays import solved
 from mechsym.mechanisms.record import Mechanism, accelerations, velocities
 from mechsym.quantities.units import Metre, Radian
 
@@ -31,6 +32,13 @@ def split(mechanism: Mechanism, dependents: Sequence[str]) -> tuple[list[int], l
     return [i for i in index.values() if i not in held], held
 
 
+def scaled(mechanism: Mechanism, jacobian: np.ndarray) -> np.ndarray:
+    """A Jacobian [SI] with columns alike in size, so that metres and radians compare, as pure numbers do."""
+    sizes = np.abs(jacobian).max(axis=0)
+    pure = np.array([mechanism.units.get(q) == "-" for q in mechanism.coordinates])
+    return jacobian / np.where((sizes > 0) & ~pure, sizes, 1.0)
+
+
 def closed(mechanism: Mechanism, q: ca.SX, dependents: Sequence[str], steps: int = _STEPS) -> ca.SX:
     """Coordinates with the dependent ones closed by Newton's method from where they are.
 
@@ -40,7 +48,7 @@ def closed(mechanism: Mechanism, q: ca.SX, dependents: Sequence[str], steps: int
     for _ in range(steps if held else 0):
         gap, jacobian, _ = mechanism.functions["constraints"](*ca.vertsplit(q), *([0] * q.numel()))
         moved = ca.SX(q)
-        moved[held] = q[held] - ca.solve(jacobian[:, held], gap)
+        moved[held] = q[held] - solved(jacobian[:, held], gap)
         q = moved
     return q
 
@@ -58,10 +66,10 @@ def motion(mechanism: Mechanism, q: ca.SX, u: ca.SX, dependents: Sequence[str]) 
     _, jacobian, _ = mechanism.functions["constraints"](*ca.vertsplit(q), *([0] * n))
     T = ca.SX(n, len(free))
     T[free, :] = ca.SX.eye(len(free))
-    T[held, :] = -ca.solve(jacobian[:, held], jacobian[:, free])
+    T[held, :] = -solved(jacobian[:, held], jacobian[:, free])
     _, _, gamma = mechanism.functions["constraints"](*ca.vertsplit(q), *ca.vertsplit(ca.mtimes(T, u)))
     c = ca.SX(n, 1)
-    c[held] = -ca.solve(jacobian[:, held], gamma)
+    c[held] = -solved(jacobian[:, held], gamma)
     return T, c
 
 
@@ -157,6 +165,12 @@ def _guess(mechanism: Mechanism, phi: ca.SX) -> tuple[ca.SX, int]:
     return ca.vertcat(*rows), turns
 
 
+def one_coordinate(mechanism: Mechanism, guesses: Mapping[str, float]) -> Mechanism:
+    """A mechanism whose loops leave one coordinate, as a function of that one; guesses: of the others [rad] or [m]."""
+    held = {name: float(guesses.get(name, guess)) for name, guess in mechanism.dependents.items()}
+    return reduced(replace(mechanism, dependents=held))[0]
+
+
 def reduced(mechanism: Mechanism) -> tuple[Mechanism, int]:
     """The mechanism with its first coordinate alone, the others closed at every angle.
 
@@ -224,4 +238,5 @@ def _kinematics(mechanism: Mechanism, q: ca.SX, phi: ca.SX, pose: ca.SX) -> ca.F
         results |= {name: value, f"d{name}_d{driver}": first, f"d2{name}_d{driver}2": ca.jtimes(first, q, T)}
     results |= {"inertia": inertia, f"dinertia_d{driver}": ca.jtimes(inertia, q, T)}
     at_pose = ca.Function("kinematics", [q], list(results.values()))
-    return ca.Function("kinematics", [phi], list(at_pose.call([pose])), [driver], list(results))
+    options = {"allow_duplicate_io_names": True}  # the coordinate may be asked for as an output
+    return ca.Function("kinematics", [phi], list(at_pose.call([pose])), [driver], list(results), options)

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import casadi as ca
 
+from mechsym.mechanisms.arrays import solved
+
 
 def with_multipliers(functions: Mapping[str, ca.Function], dependents: Sequence[str]) -> ca.Function:
     """Reactions whose multipliers are worked out from the dependent rows, with the driving force of each other row.
@@ -24,7 +26,7 @@ def with_multipliers(functions: Mapping[str, ca.Function], dependents: Sequence[
     held, rest = [i for i, n in enumerate(q) if n in dependents], [i for i, n in enumerate(q) if n not in dependents]
     _, jacobian, _ = constraints(*(letters[n] for n in constraints.name_in()))
     needed = ca.mtimes(mass, ca.vertcat(*(letters[f"{n}dd"] for n in q))) + bias - force
-    mu = ca.solve(jacobian[:, held].T, needed[held])
+    mu = solved(jacobian[:, held].T, needed[held])
     found = raw(**letters, **dict(zip(multipliers, ca.vertsplit(mu), strict=True)))
     found |= {f"driving_{q[i]}": needed[i] - ca.mtimes(jacobian[:, [i]].T, mu) for i in rest}
     return ca.Function("reactions", list(letters.values()), list(found.values()), names, list(found))

@@ -14,6 +14,7 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms import own
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.drawn_parts import Circle, Line, sketched
+from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.proportions import Proportions, declared
 from mechsym.mechanisms.record import Mechanism, bind, listing
 from mechsym.quantities import record
@@ -96,10 +97,7 @@ class DeclaredMechanism:
         """The same on its first coordinate, loops closed along it."""
         found = self.build(parameters)
         if found.dependents:
-            from mechsym.mechanisms import loops
-
-            held = {name: value for name, value in guesses.items() if name in found.dependents}
-            return loops.reduced(dataclasses.replace(found, dependents={**found.dependents, **held}))[0]
+            return one_coordinate(found, guesses)
         if len(found.coordinates) != 1:
             raise BadInput(f"{found.name} has {len(found.coordinates)} coordinates; this command takes one")
         return found

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from mechsym.files import Json
 from mechsym.mechanisms.drawing import Circle, Shapes, extent_of, shapes
-from mechsym.mechanisms.turning import FRAMES, STYLES, ordered, rules, scene
+from mechsym.mechanisms.turning import STYLES, ordered, rules, scene
 from mechsym.page import page
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Metre, Radian
@@ -64,12 +64,8 @@ def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -
 
 def animation(mechanism: str, parameters: Record, title: str, bore: float | None = None) -> str:
     """A page in which the mechanism turns; it needs nothing from outside; with a bore [m] to scale."""
-    return animation_of(lambda at: shapes(mechanism, parameters, at, bore), title)
-
-
-def animation_of(drawn: Callable[[float], Shapes], title: str, turns: int = 1) -> str:
-    """A page in which a drawing over the crank angle [rad] turns so often; it needs nothing from outside."""
-    return turning_page([scene(drawn, "the mechanism to scale", turns, FRAMES * turns)], title)
+    drawn = scene(lambda at: shapes(mechanism, parameters, at, bore), "the mechanism to scale")
+    return turning_page([drawn], title)
 
 
 def turning_page(scenes: Sequence[Json], title: str) -> str:

@@ -48,6 +48,7 @@ class Mechanism:
     units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: Of coordinates that are no angles [rad]
     #: How outputs of watched points are told, with a dot where the code has an identifier
     shown: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    undetermined: tuple[str, ...] = ()  #: Reactions that redundant joints hold against one another
 
     @property
     def state_units(self) -> tuple[str, ...]:
@@ -137,7 +138,8 @@ def _named(name: str, bound: Mechanism) -> Mechanism:
         of_point = re.compile(rf"(d\d*)?{point}_([xy])((?:_d.*)?)")
         matches = ((n, of_point.fullmatch(n)) for n in known["outputs"])
         shown |= {n: f"{point}.{m[1] or ''}{m[2]}{m[3]}" for n, m in matches if m}
-    return dataclasses.replace(bound, name=name, units=known["coordinates"], shown=shown)
+    undetermined = tuple(known.get("undetermined", ()))
+    return dataclasses.replace(bound, name=name, units=known["coordinates"], shown=shown, undetermined=undetermined)
 
 
 def bind(name: str, parameters: Mapping[str, Scalar]) -> Mechanism:

@@ -28,7 +28,7 @@ class MechanismState:
     rate: str
 
 
-_UNITS = {"rad": ("kg*m^2", "N*m", "rad/s^2"), "m": ("kg", "N", "m/s^2")}
+_UNITS = {"rad": ("kg*m^2", "N*m", "rad/s^2"), "m": ("kg", "N", "m/s^2"), "-": ("kg*m^2", "N*m", "1/s^2")}
 _MIXED = ("of its coordinates",) * 3
 
 
@@ -50,7 +50,7 @@ def state(
     mass, bias, force = (np.asarray(v) for v in dynamics.call(numbers(dynamics.name_in())))
     found = dict(zip(accelerations(mechanism), qdd, strict=True)) | dict(values)
     outputs: dict[str, float | None] = {**_named(mechanism.functions["kinematics"], numbers(q)), **joint_forces}
-    outputs |= _inertia(mechanism, values)
+    outputs |= _inertia(mechanism, values) | dict.fromkeys(mechanism.undetermined)
     if "reactions" in mechanism.functions and not any(n.startswith("driving_") for n in joint_forces):
         reactions = mechanism.functions["reactions"]
         outputs |= _named(reactions, [float(found.get(n, 0.0)) for n in reactions.name_in()])

@@ -1,7 +1,7 @@
 """Drawings that turn in a page: what stands still once, what moves for every angle; colours by the role of a part."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -57,14 +57,31 @@ def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames
     paths = np.array([[v for shape in frame for v in places(shape)] for frame in all_frames])
     moves = (paths != paths[0]).any(axis=0)
     shapes, start = [], 0
-    for shape in all_frames[0]:
+    for number, shape in enumerate(all_frames[0]):
         at = slice(start, start := start + len(places(shape)))
         radius = round(scale * shape.radius, 1) if isinstance(shape, Circle) else 0
         closed = isinstance(shape, Circle) or shape.points[0] == shape.points[-1]
         moving = paths[:, at].tolist() if moves[at].any() else []
         shapes.append({"role": shape.role, "r": radius, "closed": closed, "at": places(shape), "moves": moving})
+        if shape.space:
+            rows = [[round(scale * v, 1) for p in frame[number].space for v in p] for frame in all_frames]
+            shapes[-1]["space"] = rows if moving else rows[:1]
     size = [1000.0, round(scale * (high - low + 2 * pad), 1)]
-    return {"name": name, "size": size, "scale": scale, "turns": turns, "count": frames, "shapes": shapes}
+    origin = [round(scale * (pad - left), 1), round(scale * (high + pad), 1)]
+    facts = {"name": name, "size": size, "scale": scale, "origin": origin, "turns": turns, "count": frames}
+    return facts | {"shapes": shapes} | ({"space": True} if any("space" in shape for shape in shapes) else {})
+
+
+ARROW = 200  # length of the largest force of the gas, of a scene that is 1000 wide
+
+
+@record
+class Load:
+    """A force in a joint, at the frames of a scene."""
+
+    name: str  #: What presses on what
+    at: np.ndarray  #: Where, x + i y, shape (n,) [m]
+    force: np.ndarray  #: Along x + i y, shape (n,) [N]
 
 
 @record
@@ -94,7 +111,38 @@ def filled(shown: Json, charges: Sequence[Pushed]) -> Json:
         share = np.rint(100 * charges[number].force / most).astype(int)
         rows.append({"wall": wall, "piston": crown, "share": share.tolist()})
     count = max([shown["count"], *(len(row["share"]) for row in rows)])
-    return shown | {"gases": rows, "count": count, "turns": shown["turns"] * count / shown["count"]}
+    turns = shown["turns"] * count / shown["count"]
+    return shown | {"gases": rows, "most": most, "count": count, "turns": turns}
+
+
+def pushed(shown: Json, loads: Sequence[Load]) -> Json:
+    """A scene with the forces in its joints, to one scale with those of its gas where there are any."""
+    most = shown.get("most") or max((float(np.abs(one.force).max()) for one in loads), default=0.0)
+    rows = [
+        {
+            "name": one.name,
+            "at": _pixels(shown, one.at),
+            "to": [[round(ARROW * f.real / most), round(-ARROW * f.imag / most)] for f in one.force],
+        }
+        for one in loads
+        if most
+    ]
+    return shown | {"loads": rows, "most": most}
+
+
+def _pixels(shown: Json, at: np.ndarray) -> list[list[float]]:
+    (left, top), scale = shown["origin"], shown["scale"]
+    found: list[list[float]] = np.round([left + scale * at.real, top - scale * at.imag], 1).T.tolist()
+    return found
+
+
+def cranks(shown: Json) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Where each crank that a scene draws starts and ends, x + i y at its frames [m]."""
+    left, top = shown["origin"]
+    for shape in (s for s in shown["shapes"] if s["role"] == "crank" and s["moves"] and not s["closed"]):
+        x, y = np.moveaxis(_places(shape)[np.arange(shown["count"]) % len(shape["moves"])], -1, 0)
+        places = (x - left - 1j * (y - top)) / shown["scale"]
+        yield places[:, 0], places[:, -1]
 
 
 _WALLS = "wall head head wall".split()  # corners of a cylinder as it is drawn

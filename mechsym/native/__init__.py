@@ -1,27 +1,27 @@
 """Machine code for generated functions: evaluation, integration and marching in emitted C, with a way without it.
 
-tape.py       a CasADi function as plain instructions        kernels.py   equal parts rolled into loops
-rewrite.py    cheaper forms of it                            source.py    C text
+tape.py       a CasADi function as plain instructions, and cheaper forms of it
+kernels.py    equal parts rolled into loops                  source.py    C text
 evaluate.py   scalar and batch calls, derivatives            fallback.py  the same without a compiler
 cache.py      compiled files, checked before use             arc.py       motion along the arc length of each angle
 adams.py      steps that look back, in lanes                 c/adams.h    their control
-integrate.py  runs in time: DOP853 in lanes, collocation     fold.py      equal Runge-Kutta steps at many designs
-march.py      a recurrence over stages in many lanes
+integrate.py  runs in time: DOP853 in lanes, collocation
+march.py      a recurrence over stages, and equal Runge-Kutta steps at many designs, in many lanes
 c/*.h         what does not depend on the program: elementary functions, methods, step control
 """
 
 from mechsym.quantities import lazily
 
 _NAMES = {
-    "Breaks": "mechsym.native.runs:Breaks",
+    "Breaks": "mechsym.native.integrate:Breaks",
     "Compiled": "mechsym.native.evaluate:Compiled",
-    "Level": "mechsym.native.runs:Level",
-    "Outcome": "mechsym.native.runs:Outcome",
-    "Runs": "mechsym.native.runs:Runs",
-    "Table": "mechsym.native.runs:Table",
+    "Level": "mechsym.native.integrate:Level",
+    "Outcome": "mechsym.native.integrate:Outcome",
+    "Runs": "mechsym.native.integrate:Runs",
+    "Table": "mechsym.native.integrate:Table",
     "compiled": "mechsym.native.evaluate:compiled",
     "compiled_all": "mechsym.native.evaluate:compiled_all",
-    "folder": "mechsym.native.fold:folder",
+    "folder": "mechsym.native.march:folder",
     "marcher": "mechsym.native.march:marcher",
 }
 __all__ = sorted(_NAMES)

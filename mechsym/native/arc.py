@@ -28,8 +28,7 @@ class Form:
     rates: ca.Function  #: (t, y, p) to the rates
     forces: ca.Function  #: (t, y, p) to the torque, or the acceleration where J is constant, and the rates of `read`
     works: ca.Function  #: (t, y, p) to the rates of `unread`
-    #: For each angle (q, p) to J and dJ/dq; None where it is constant [SI]
-    inertia: tuple[ca.Function | None, ...]
+    inertia: tuple[ca.Function | None, ...]  #: For each angle (q, p) to J and dJ/dq; None where it is constant [SI]
     #: States that are angles, and the speed of each
     angles: tuple[int, ...]
     speeds: tuple[int, ...]

@@ -1,15 +1,38 @@
-"""C files that integrate y' = f(t, y, p) in lanes: the emitted right-hand side, a method, its step control."""
+"""C files that integrate y' = f(t, y, p) in lanes: the emitted right-hand side, a method, its step control.
+
+DOP853 is the explicit Runge-Kutta method of order 8 with error estimates of orders 5 and 3. Source: E. Hairer, S. P.
+Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer 1993, section II.5, and the program
+dop853.f that goes with it. Stages count from 1; stage 13 is the derivative at the end of the step, stages 14 to 16 are
+made only for dense output. The numbers are in `dop853.toml`; `tests/native/test_integrate.py` checks the conditions of
+order.
+"""
 
 import functools
+import tomllib
+from collections.abc import Mapping
+from importlib import resources
 
 import numpy as np
 from numpy.polynomial import legendre
 
 from mechsym.errors import BadInput
-from mechsym.native import dop853_table as table
 from mechsym.native import source
 from mechsym.native.source import Program, header, preamble
 from mechsym.quantities.units import Array, Pure
+
+_TABLE = tomllib.loads(resources.files("mechsym.native").joinpath("dop853.toml").read_text("utf-8"))
+
+
+def _row(numbers: Mapping[str, float]) -> dict[int, float]:
+    """Coefficients by earlier stage."""
+    return {int(stage): number for stage, number in numbers.items()}
+
+
+NODES: tuple[float, ...] = tuple(_TABLE["nodes"])
+A = {int(stage): _row(row) for stage, row in _TABLE["stages"].items()}
+ERROR_5, WEIGHTS_3 = _row(_TABLE["error_5"]), _row(_TABLE["weights_3"])
+DENSE = tuple(map(_row, _TABLE["dense"]))
+
 
 # of the collocation method: one vector register of doubles
 STAGES = 8
@@ -60,17 +83,17 @@ def weighted(weights: dict[int, Pure]) -> str:
 @functools.cache
 def dop853_numbers() -> str:
     """Numbers of DOP853 as macros: MS_STAGES, MS_EXTRA_STAGES, MS_WEIGHTS, MS_ERROR_5, MS_ERROR_3, MS_DENSE_1..4."""
-    lower = {stage: table.A[13].get(stage, 0.0) - table.WEIGHTS_3.get(stage, 0.0) for stage in table.A[13]}
-    stages = {s: f"F({s}, {table.NODES[s - 1]!r}, {weighted(table.A[s])})" for s in table.A if s != 13}
+    lower = {stage: A[13].get(stage, 0.0) - WEIGHTS_3.get(stage, 0.0) for stage in A[13]}
+    stages = {s: f"F({s}, {NODES[s - 1]!r}, {weighted(A[s])})" for s in A if s != 13}
     first = " \\\n    ".join(text for s, text in stages.items() if s < 13)
     extra = " \\\n    ".join(text for s, text in stages.items() if s > 13)
     lines = [
         f"#define MS_STAGES(F) \\\n    {first}",
         f"#define MS_EXTRA_STAGES(F) \\\n    {extra}",
-        f"#define MS_WEIGHTS {weighted(table.A[13])}",
-        f"#define MS_ERROR_5 {weighted(table.ERROR_5)}",
+        f"#define MS_WEIGHTS {weighted(A[13])}",
+        f"#define MS_ERROR_5 {weighted(ERROR_5)}",
         f"#define MS_ERROR_3 {weighted(lower)}",
-        *(f"#define MS_DENSE_{i} {weighted(row)}" for i, row in enumerate(table.DENSE, 1)),
+        *(f"#define MS_DENSE_{i} {weighted(row)}" for i, row in enumerate(DENSE, 1)),
     ]
     return "\n".join(lines)
 

@@ -21,8 +21,7 @@ import casadi
 
 from mechsym.native import tape
 from mechsym.native.kernels import Kernel, kernels
-from mechsym.native.rewrite import cheaper, factored, marked
-from mechsym.native.tape import Tape, read
+from mechsym.native.tape import Tape, cheaper, factored, marked, read
 from mechsym.quantities import record
 
 

@@ -1,11 +1,10 @@
 """Design of an engine by optimisation.
 
-problem   what may change and what must hold, as numbers      solver   solved with IPOPT, its limits explained
+solver    what may change and what must hold, as numbers; solved with IPOPT, its limits explained
 trace     a measured run      identify   parameters out of it, with intervals      fit   the closest motion
 """
 
-from mechsym.optimise.problem import Limit, Optimise, Programme, problem
-from mechsym.optimise.solver import Optimum, pareto, solve
+from mechsym.optimise.solver import Limit, Optimise, Optimum, Programme, pareto, problem, solve
 
 __all__ = ["Limit", "Optimise", "Optimum", "Programme", "pareto", "problem", "solve"]
 

@@ -19,8 +19,7 @@ from mechsym import budget
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.optimise.fit import unit_columns
-from mechsym.optimise.problem import DesignTask, Limit
-from mechsym.optimise.solver import Optimum, optimum_of
+from mechsym.optimise.solver import DesignTask, Limit, Optimum, optimum_of
 from mechsym.quantities import record
 
 _STEP = 1e-3  # of a variable's range, for differences

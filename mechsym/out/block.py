@@ -107,29 +107,27 @@ def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> 
     names = [p.name for p in ports]
     if twins := sorted({n for n in names if names.count(n) > 1}):
         raise BadInput(f"two parameters have the name {', '.join(twins)}; rename a part")
-    symbols = _symbols(problem, ports, chosen)
+    n, curves = len(problem.mechanism.coordinates), sum(len(law.curves) for law in chosen)
+    sizes = {"x": 2 * n, "u": len(problem.mechanism.inputs), "p": len(ports), "w": 2 * curves}
+    sizes["s"] = sum(len(law.switches) for law in chosen)
+    symbols = {"t": ca.SX.sym("t"), **{letter: ca.SX.sym(letter, size) for letter, size in sizes.items()}}
     rates, outputs = _expressions(problem, mechanism, len(own), chosen, symbols)
     units = _units(problem.mechanism) | {u: v for law in chosen for u, v in law.units.items()}
     units |= {f"{part.name}_on_{part.input}": units[part.input] for part in problem.parts}
-    arguments = [symbols[k] for k in ("t", "x", "u", "p", "w", "s")]
+    arguments = list(symbols.values())
     q, u = problem.mechanism.coordinates, velocities(problem.mechanism)
     closed = constrained.start(problem) if problem.mechanism.dependents else (problem.q0, problem.u0)
     starts = zip((*q, *u), (*closed[0], *closed[1]), strict=True)
     return Block(
-        name=name,
-        about=about,
+        name=name, about=about,
         states=tuple(Port(name=n, unit=units[n], start=float(start)) for n, start in starts),
         inputs=tuple(Port(name=n, unit=units[n], about=f"added to what acts on {n}") for n in problem.mechanism.inputs),
-        parameters=ports,
-        outputs=tuple(Port(name=n, unit=units.get(n, "")) for n in outputs),
-        curves=tuple(c for law in chosen for c in law.curves),
-        switches=tuple(s for law in chosen for s in law.switches),
-        kinks=problem.kinks,
-        stops=problem.stops,
-        t_end=problem.t_end,
+        parameters=ports, outputs=tuple(Port(name=n, unit=units.get(n, "")) for n in outputs),
+        curves=tuple(c for law in chosen for c in law.curves), kinks=problem.kinks, stops=problem.stops,
+        switches=tuple(s for law in chosen for s in law.switches), t_end=problem.t_end,
         rates=ca.Function("rates", arguments, [ca.densify(rates)]),
         observed=ca.Function("observed", arguments, [ca.densify(ca.vertcat(*outputs.values()))]),
-    )
+    )  # fmt: skip
 
 
 def law_of(problem: Problem, part: Part) -> Law:
@@ -149,26 +147,18 @@ def law_of(problem: Problem, part: Part) -> Law:
 def curve_law(part: str, curve: Curve) -> Law:
     """A part that is a curve, with a factor on it as its parameter."""
     scale = Port(name=f"{part}_scale", unit="-", start=1.0, about=f"factor on {part}")
-    return Law(
-        part=part,
-        parameters=(scale,),
-        curves=(curve,),
-        value=lambda at: at.letters[scale.name] * at.curves[0][0],
-    )
+    name = scale.name
+    return Law(part=part, parameters=(scale,), curves=(curve,), value=lambda at: at.letters[name] * at.curves[0][0])
 
 
 def _steps_law(problem: Problem, part: Part, value: Steps) -> Law:
     unit = _units(problem.mechanism)[part.input]
-    levels = [
-        Port(
-            name=f"{part.name}_{i}", unit=unit, start=v, about=f"{part.name} after jump {i}" if i else "before any jump"
-        )
-        for i, v in enumerate(value.values)
-    ]
-    times = [
-        Port(name=f"{part.name}_time_{i}", unit="s", start=v, about=f"time of jump {i} of {part.name}")
-        for i, v in enumerate(value.times, 1)
-    ]
+    levels, times = [], []
+    for i, level in enumerate(value.values):
+        about = f"{part.name} after jump {i}" if i else "before any jump"
+        levels.append(Port(name=f"{part.name}_{i}", unit=unit, start=level, about=about))
+    for i, time in enumerate(value.times, 1):
+        times.append(Port(name=f"{part.name}_time_{i}", unit="s", start=time, about=f"time of jump {i} of {part.name}"))
 
     def total(at: LawPoint) -> ca.SX:
         values = [at.letters[level.name] for level in levels]
@@ -200,13 +190,6 @@ def _units(mechanism: Mechanism) -> dict[str, str]:
     units = dict.fromkeys(mechanism.inputs, "N*m") | units
     units |= {n: f"{units[c]}/s" for n, c in zip(velocities(mechanism), q, strict=True)}
     return units | {n: f"{units[c]}/s^2" for n, c in zip(accelerations(mechanism), q, strict=True)}
-
-
-def _symbols(problem: Problem, ports: Sequence[Port], laws: Sequence[Law]) -> dict[str, ca.SX]:
-    curves, switches = sum(len(law.curves) for law in laws), sum(len(law.switches) for law in laws)
-    n = len(problem.mechanism.coordinates)
-    sizes = {"x": 2 * n, "u": len(problem.mechanism.inputs), "p": len(ports), "w": 2 * curves, "s": switches}
-    return {"t": ca.SX.sym("t"), **{name: ca.SX.sym(name, size) for name, size in sizes.items()}}
 
 
 def _expressions(

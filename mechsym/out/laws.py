@@ -10,9 +10,8 @@ from mechsym.hinge.springs.face import Spring, lettered
 from mechsym.jobs.problem import Ready
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, propeller_torque
 from mechsym.out.block import Block, Curve, Law, LawPoint, Port, block
-from mechsym.quantities.records import Field
 
-_ABOUT = {"rho0": "distance of the roller centres with the spring at its free height"}
+_RHO0 = "distance of the roller centres with the spring at its free height"
 
 
 def block_of(name: str, about: str, ready: Ready) -> Block:
@@ -22,7 +21,9 @@ def block_of(name: str, about: str, ready: Ready) -> Block:
     if ready.guide is not None:
         laws.append(hinge_law("hinge", ready.guide, ready.guide.spring))
     if ready.load is not None:
-        laws.append(load_law("load", ready.load, 2 * len(problem.mechanism.coordinates) - 1))
+        n = len(problem.mechanism.coordinates)
+        # the flywheel comes last on a shaft that twists, the shaft first of what loops hold
+        laws.append(load_law("load", ready.load, n if problem.mechanism.dependents else 2 * n - 1))
     return block(name, about, problem, laws)
 
 
@@ -31,9 +32,11 @@ def hinge_law(part: str, guide: Guide, spring: Spring, state: int = 0) -> Law:
 
     .. math:: M_h = \text{shaft ratio}\; c\, F(c(\rho_0 - \rho))\, \rho'(\theta)
     """
-    fields = [f for f in dataclasses.fields(spring) if f.name in spring.tunable]
-    ports = [_port(f, float(getattr(spring, f.name))) for f in fields]
-    ports.append(Port(name="rho0", unit="m", start=guide.parameters.rho0, about=_ABOUT["rho0"]))
+    ports = []
+    for field in (f for f in dataclasses.fields(spring) if f.name in spring.tunable):
+        about, start = f"spring: {field.metadata.get('about', '')}", float(getattr(spring, field.name))
+        ports.append(Port(name=field.name, unit=field.metadata["unit"], start=start, about=about))
+    ports.append(Port(name="rho0", unit="m", start=guide.parameters.rho0, about=_RHO0))
     ratio, c = guide.parameters.shaft_ratio, guide.rollers
     drawn = [Curve(name="rho", state=state, ratio=ratio, poly=path(guide))]
     if spring.state:  # its temperature is that of steady running at the speed of the design
@@ -55,11 +58,6 @@ def hinge_law(part: str, guide: Guide, spring: Spring, state: int = 0) -> Law:
 
     units = {"rho": "m", "spring_closing": "m", "spring_force": "N", "spring_pressure": "Pa"}
     return Law(part=part, parameters=tuple(ports), curves=tuple(drawn), value=value, outputs=outputs, units=units)
-
-
-def _port(field: Field, value: float) -> Port:
-    about = field.metadata.get("about", "")
-    return Port(name=field.name, unit=field.metadata["unit"], start=value, about=f"spring: {about}")
 
 
 def load_law(part: str, load: Load, speed: int) -> Law:

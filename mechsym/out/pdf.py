@@ -16,10 +16,8 @@ def chromium() -> str:
     """Path of a Chromium. Raises BadInput: None is installed."""
     found = next((path for path in map(shutil.which, NAMES) if path), None)
     if found is None:
-        raise BadInput(
-            "--pdf needs a Chromium or Chrome, and none is found; install one (Debian: apt-get install chromium), or "
-            "open the HTML report and print it from any browser"
-        )
+        way = "install one (Debian: apt-get install chromium), or open the HTML report and print it from any browser"
+        raise BadInput(f"--pdf needs a Chromium or Chrome, and none is found; {way}")
     return found
 
 
@@ -33,13 +31,11 @@ def to_pdf(text: str, path: Path) -> Path:
             program, "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
             f"--user-data-dir={folder}/profile", f"--print-to-pdf={printed}", page.as_uri(),
         ]  # fmt: skip
+        way = "print the HTML report from a browser"
         try:
             done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=_LONGEST)
         except subprocess.TimeoutExpired:
-            raise BadInput(
-                f"{program} did not print within {_LONGEST} s; print the HTML report from a browser"
-            ) from None
+            raise BadInput(f"{program} did not print within {_LONGEST} s; {way}") from None
         if not printed.exists():
-            why = " ".join(done.stderr.split())[-200:]
-            raise BadInput(f"{program} did not print ({why}); print the HTML report from a browser")
+            raise BadInput(f"{program} did not print ({' '.join(done.stderr.split())[-200:]}); {way}")
         return write_bytes(path, printed.read_bytes())

@@ -3,6 +3,8 @@
 import functools
 import re
 from typing import TYPE_CHECKING
+from unicodedata import lookup
+from xml.etree import ElementTree
 
 import mechsym
 from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text
@@ -14,7 +16,12 @@ if TYPE_CHECKING:
 _KEYED = re.compile(r"[A-Za-z][\w.]*(?= ?=)")  # a key before its value
 _NAMED = re.compile(r"(?<![\w./\\])[A-Za-z]\w*_\w+(?![\w(/]|\.[a-z])")  # a key, no file
 _SYMBOL = 3  # letters before its index
+_GREEK = {name.lower(): lookup(f"GREEK SMALL LETTER {name}") for name in
+          ("ALPHA", "BETA", "GAMMA", "THETA", "PHI", "RHO", "OMEGA", "ETA", "MU", "TAU")}  # fmt: skip
+_LETTER = re.compile(rf"(?<![\w./\\-])({'|'.join(_GREEK)})(_?\w*)(?![\w(/=-]|\.[a-z])")
 _TIMES = re.compile(r"(?<=[a-zA-Z])\*(?=[a-zA-Z])")
+_TWICE = re.compile(r"\b(k?J|W|N|kg)/(kg|m²|m)/(K⁴?|s)")
+_LINE = 70  # letters of an equation that stand on one line
 
 
 def page(name: str, **values: object) -> str:
@@ -40,7 +47,7 @@ def _environment() -> "jinja2.Environment":
     made.globals["version"] = mechsym.__version__
     made.filters |= {
         "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "plain": pretty,
-        "pretty": typeset,
+        "pretty": typeset, "pieces": pieces,
         "words": key_words, "places": lambda text: _KEYED.sub(lambda found: key_words(found[0]), str(text)),
         "quantity": lambda value, unit, digits=5: typeset(quantity_text(value, unit, digits)),
     }  # fmt: skip
@@ -58,12 +65,39 @@ def typeset(text: object) -> str:
     """Text of a page: units as a book sets them, symbols with their index, other keys as what is typed."""
     from markupsafe import Markup, escape
 
-    return Markup(_NAMED.sub(_set, str(escape(pretty(text)))))  # noqa: S704 escaped before
+    return Markup(_NAMED.sub(_set, _LETTER.sub(_letter, str(escape(pretty(text))))))  # noqa: S704 escaped before
+
+
+def _letter(found: re.Match[str]) -> str:
+    """A Greek letter with its index; a word that only begins as one stays."""
+    index = found[2].lstrip("_")
+    if found[2] and not (index.isdigit() or found[2][0] == "_" and len(index) <= _SYMBOL):
+        return found[0]
+    return _GREEK[found[1]] + (f"<sub>{index}</sub>" if index else "")
 
 
 def _set(found: re.Match[str]) -> str:
     base, _, index = found[0].partition("_")
     return f"{base}<sub>{index.replace('_', ' ')}</sub>" if len(base) <= _SYMBOL else f"<code>{found[0]}</code>"
+
+
+def pieces(mathml: str) -> list[str]:
+    """An equation in pieces between which a line may break: a long one before each sign between the terms of a side.
+
+    >>> pieces("<mrow><mi>x</mi><mo>=</mo><mn>2</mn><mo>-</mo><mi>y</mi></mrow>")
+    ['<mrow><mi>x</mi><mo>=</mo><mn>2</mn><mo>−</mo><mi>y</mi></mrow>']
+    """
+    whole = mathml.replace("<mo>-</mo>", "<mo>\u2212</mo>")
+    if len(re.sub(r"<[^>]*>|&\w+;", "", whole)) < _LINE:
+        return [whole]
+    rows: list[str] = [""]
+    for side in ElementTree.fromstring(whole.replace("&InvisibleTimes;", "\u2062")):  # noqa: S314 written by ourselves
+        signs = [one.text for one in side if one.tag == "mo"]
+        for one in side if side.tag == "mrow" and {"+", "\u2212"} & {*signs} else (side,):
+            if one.tag == "mo" and one.text in ("+", "\u2212", "="):
+                rows.append("")
+            rows[-1] += ElementTree.tostring(one, "unicode")
+    return [f"<mrow>{row}</mrow>" for row in rows if row]
 
 
 def pretty(text: object) -> str:
@@ -73,4 +107,5 @@ def pretty(text: object) -> str:
     '37810 kg m²'
     """
     found = _TIMES.sub(" ", str(text)).replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
+    found = _TWICE.sub(r"\1/(\2 \3)", found)
     return found.replace("1e-9", "1e\u20119")  # a hyphen that does not break

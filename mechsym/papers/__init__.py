@@ -1,16 +1,15 @@
 """The papers: every formula as printed, and every published number and figure beside what the models give.
 
 sources.py   the papers by name; a paper is a folder here, and nothing else lists it
-record.py    the recorded verdicts and values; a finding is a result, only a changed one is a failure
-rows.py      a row of a reproduction: published, computed, verdict, note
+rows.py      a row of a reproduction: published, computed, verdict, note; the recorded verdicts and values: a finding
+             is a result, only a changed one is a failure
 page.py      CSV, HTML and pictures of a run, the angle axis of its figures
 
 A paper's folder:
 
 __init__.py  SOURCE: stem, name, title, tolerance of its record
 printed.toml its formulas and claims in the order of the text, for the auditor
-claims.py    what decides a claim, and what a misprint costs
-rows.py      rows(): published numbers beside the computed ones; what the models give, or in computed.py beside it
+rows.py      rows(): published numbers beside the computed ones; what decides a claim (or in claims.py beside it)
 figures.py   figures(): its figures by name, drawn from the computation
 """
 

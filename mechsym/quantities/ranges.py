@@ -54,7 +54,10 @@ def read_range(text: str, option: str, unit: str = "-", key: str = "") -> Range:
     if kind == "steps":
         numbers = _steps(where, *numbers)
     elif count is not None:
-        numbers = _even(where, numbers, count)
+        import numpy as np
+
+        _check_count(where, count)
+        numbers = tuple(np.linspace(numbers[0], numbers[1], count).tolist())
     whole = kind == "steps" or count is not None
     return Range(kind="grid" if whole else kind, values=numbers, unit="".join(units))
 
@@ -102,13 +105,6 @@ def _steps(where: str, first: float, last: float, step: float) -> tuple[float, .
     count = (last - first) / step * (1 + 1e-12) + 1e-9 + 1
     _check_count(where, count)
     return tuple(first + k * step for k in range(int(count)))
-
-
-def _even(where: str, ends: tuple[float, ...], count: int) -> tuple[float, ...]:
-    import numpy as np
-
-    _check_count(where, count)
-    return tuple(np.linspace(ends[0], ends[1], count).tolist())
 
 
 def _check_count(where: str, count: float, most: int = MOST) -> None:

@@ -33,11 +33,7 @@ def quantity(
 
     moved: key that tells it since; files that still have this one are read, and it is left alone. optional: whether a
     result does not tell it where it is None. card: word that names it on a card of a report, told in so many `digits`.
-
-    Parameters
-    ----------
-    only : tuple of str
-        A choice of the same record and the words with which this value is read; empty: always
+    only: a choice of the same record and the words with which this value is read; always where it is empty.
     """
     metadata = {"unit": unit, "above": above, "below": below, "low": low, "high": high, "about": about, "only": only}
     if moved:
@@ -174,10 +170,6 @@ def _equal(self: Record, other: Record) -> bool:
     return _compared(self) == _compared(other) if other.__class__ is self.__class__ else NotImplemented
 
 
-def _hash(self: Record) -> int:
-    return hash(_compared(self))
-
-
 def _frozen(self: object, name: str, *_: object) -> NoReturn:
     raise dataclasses.FrozenInstanceError(f"cannot change field {name!r}; dataclasses.replace makes another record")
 
@@ -188,13 +180,13 @@ class _Signature:
     def __get__(self, made: object, cls: type) -> inspect.Signature:
         if made is not None:
             raise AttributeError("__signature__")
-        return inspect.Signature([_parameter(field) for field in dataclasses.fields(cls) if field.init])
-
-
-def _parameter(field: Field) -> inspect.Parameter:
-    default = field.default if field.default_factory is dataclasses.MISSING else ...
-    default = inspect.Parameter.empty if default is dataclasses.MISSING else default
-    return inspect.Parameter(field.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=field.type)
+        parameters = []
+        for field in (field for field in dataclasses.fields(cls) if field.init):
+            default = field.default if field.default_factory is dataclasses.MISSING else ...
+            default = inspect.Parameter.empty if default is dataclasses.MISSING else default
+            kind = inspect.Parameter.KEYWORD_ONLY
+            parameters.append(inspect.Parameter(field.name, kind, default=default, annotation=field.type))
+        return inspect.Signature(parameters)
 
 
 def _in_short(self: Record) -> str:
@@ -221,7 +213,8 @@ def _value_in_short(value: object) -> str:
 
 # `dataclass` would write and compile five functions for each record, which takes longer than all else in an import
 _SHARED = {
-    "__init__": _made, "__repr__": _in_short, "__eq__": _equal, "__hash__": _hash, "__setattr__": _frozen,
+    "__init__": _made, "__repr__": _in_short, "__eq__": _equal, "__hash__": lambda self: hash(_compared(self)),
+    "__setattr__": _frozen,
     "__delattr__": _frozen, "__signature__": _Signature(),
 }  # fmt: skip
 

@@ -38,24 +38,10 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from mechsym.quantities.records import OPTIONAL, PART, part, quantity, result
-
-__all__ = [
-    "Columns",
-    "computed",
-    "declared",
-    "is_result",
-    "leaves",
-    "names_of",
-    "on_card",
-    "part",
-    "quantity",
-    "result",
-    "some",
-    "tell",
-    "units_of",
-    "walk",
-]
+from mechsym.quantities.records import OPTIONAL, PART
+from mechsym.quantities.records import part as part
+from mechsym.quantities.records import quantity as quantity
+from mechsym.quantities.records import result as result
 
 _INLINE = "inline"  # in place of a unit: the names of the part stand among those of the whole
 _ELSEWHERE = "@"  # a unit that stands in another field
@@ -79,6 +65,17 @@ class Declared(NamedTuple):
     path: str
     unit: str
     about: str
+
+
+class Entry(NamedTuple):
+    """One name that a class tells: a number with its unit, or a word or part without."""
+
+    name: str
+    hint: object
+    unit: str | None
+    about: str
+    inline: bool
+    optional: bool
 
 
 class computed:
@@ -159,12 +156,12 @@ _optional: Callable[[type], frozenset[str]] = functools.cache(_left_out)
 
 def _names(value: object) -> dict[str, str | None]:
     """Names that a result tells with their units; empty of what is no result."""
-    kind = type(value)
-    return {n: u for n, u in _units(kind).items() if n not in _optional(kind) or not _empty(getattr(value, n))}
-
-
-def _empty(value: object) -> bool:
-    return value is None or (hasattr(value, "__len__") and not len(value))
+    kind, names = type(value), {}
+    for name, unit in _units(kind).items():
+        one = getattr(value, name) if name in _optional(kind) else unit
+        if name not in _optional(kind) or not (one is None or (hasattr(one, "__len__") and not len(one))):
+            names[name] = unit
+    return names
 
 
 _PLAIN = frozenset({float, int, str, bool, type(None)})  # most values of long lists, looked at first
@@ -277,23 +274,26 @@ def declared(kind: type, path: str = "") -> Iterator[Declared]:
     >>> next(declared(Engine))
     Declared(path='wheels[].inertia', unit='kg*m^2', about='about the shaft')
     """
+    for entry in entries_of(kind):
+        inner = path if entry.inline else f"{path}.{entry.name}" if path else entry.name
+        yield from _declared_by(entry.hint, inner, entry.unit, entry.about)
+
+
+def entries_of(kind: type) -> Iterator[Entry]:
+    """What a class tells, in the order in which it does."""
     hints = typing.get_type_hints(kind)
     fields = {f.name: f for f in dataclasses.fields(kind)} if dataclasses.is_dataclass(kind) else {}
     for name, unit in _units(kind).items():
-        inner = path if unit == _INLINE else f"{path}.{name}" if path else name
         if name in fields:
-            about = fields[name].metadata.get("about") or _about(kind, name)
-            yield from _declared_by(hints[name], inner, None if unit == _INLINE else unit, about)
+            # the comment beside a field, in the class that declares it
+            said = next((told[name] for parent in kind.__mro__ if name in (told := comments(parent))), "")
+            hint, about = hints[name], fields[name].metadata.get("about") or said
         else:
             function = inspect.getattr_static(kind, name).func
+            hint = typing.get_type_hints(function).get("return")
             about = (inspect.getdoc(function) or "").partition("\n")[0].rstrip(".")
-            yield from _declared_by(typing.get_type_hints(function).get("return"), inner, unit, about)
-
-
-def _about(kind: type, name: str) -> str:
-    """The comment beside a field, in the class that declares it."""
-
-    return next((told[name] for parent in kind.__mro__ if name in (told := comments(parent))), "")
+        inline = unit == _INLINE
+        yield Entry(name, hint, None if inline else unit, about, inline, name in _optional(kind))
 
 
 def _declared_by(hint: object, path: str, unit: str | None, about: str) -> Iterator[Declared]:

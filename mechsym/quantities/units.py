@@ -176,7 +176,10 @@ def parse(value: object, unit: str, key: str = "value") -> float:
             raise BadInput(f"{key} = {shown(value)} is not {wanted}; write for example {example}")
         number = float(match[1])
         if match[2].translate(_SIGNS).replace(" ", "") in _CELSIUS:
-            number = _kelvin(value, number, unit, key)
+            if unit != "K":
+                why = f"degC is for temperatures only, and not in products; give it in {unit}"
+                raise BadInput(f"{key} = {shown(value)}: {why}")
+            number += _ZERO_CELSIUS
         elif match[2]:
             number *= _scale(value, match[2], unit, key)
     else:
@@ -186,12 +189,6 @@ def parse(value: object, unit: str, key: str = "value") -> float:
         size = f"0 or of magnitude {_SMALLEST:g} to {_LARGEST:g}"
         raise BadInput(f"{key} = {shown(value)} is beyond any machine; give {wanted}, {size}")
     return number
-
-
-def _kelvin(value: str, number: float, unit: str, key: str) -> float:
-    if unit != "K":
-        raise BadInput(f"{key} = {shown(value)}: degC is for temperatures only, and not in products; give it in {unit}")
-    return number + _ZERO_CELSIUS
 
 
 def _scale(value: str, text: str, unit: str, key: str) -> float:

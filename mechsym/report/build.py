@@ -118,9 +118,11 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
 
 
 def _turning(one: CaseReport) -> list[Json]:
-    """What turns at the head of a report: the engine with its hinge, or the machine alone."""
+    """What turns at the head of a report: the engine with its hinge, or the machine alone, and what presses in it."""
     of_parts = next((scenes for found in one.parts if (scenes := found.turning())), None)
-    return with_gas(of_parts, one.case) if of_parts else turning(one.case)
+    scenes = with_gas(of_parts, one.case) if of_parts else turning(one.case)
+    presses = next((found.pressed for found in one.parts if found.pressed), None)
+    return [presses(scenes[0]), *scenes[1:]] if scenes and presses else scenes
 
 
 def _title(reports: Sequence[CaseReport]) -> str:

@@ -19,9 +19,9 @@ from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.friction import AUXILIARIES, NO_PLACE
 from mechsym.forces.result import Forces
-from mechsym.forces.shown import borne
+from mechsym.forces.shown import borne, pressed
 from mechsym.forces.summary import half
-from mechsym.hinge.result import complete
+from mechsym.hinge.result import complete, ripple_text
 from mechsym.hinge.shown import scenes
 from mechsym.hinge.summary import HingeNumbers
 from mechsym.jobs.cycle import cycle
@@ -36,11 +36,12 @@ from mechsym.mechanisms import roles_of
 from mechsym.page import Card, Finding, Grid, card, grid, ranked
 from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
-from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text, shown_in
+from mechsym.quantities.display import figure, key_words, quantity_text, shown_in
 from mechsym.quantities.results import tell, units_of
+from mechsym.report.motion import over_time
 from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
-from mechsym.sizing.shown import tightest
-from mechsym.torsion import train
+from mechsym.sizing.rows import tightest
+from mechsym.torsion import twist
 from mechsym.torsion.shown import criticals, span
 
 _GIVES = "The engine gives"  # with which a sentence on the power at the shaft begins: it stands first
@@ -50,13 +51,13 @@ _LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "
 def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
     """The part of a force analysis."""
     numbers = told(case, found)
-    doubts += train.doubts(numbers.vibration) if numbers.vibration else ()
+    doubts += twist.doubts(numbers.vibration) if numbers.vibration else ()
     reasons = tuple(found.unbalanced)
     return ReportPart(
         name="forces", title=title, view=found.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
         verdict=f"{_friction(found)}.", facts=tuple(numbers.numbers.facts), grids=(_borne(found),),
         decide=reasons, doubts=doubts, silent=("rigid links at constant speed; friction of the first order",),
-        numbers=tell(numbers), beside=tuple(criticals(numbers.vibration)),
+        numbers=tell(numbers), beside=tuple(criticals(numbers.vibration)), pressed=lambda shown: pressed(shown, found),
     )  # fmt: skip
 
 
@@ -214,13 +215,13 @@ def _hinge(case: Case) -> ReportPart:
     rows = [{"check": c.name.replace("_", " "), "value and limit": c.text, "kept": "yes" if c.kept else "NO",
              "margin": _per_cent(c.shown_margin)} for c in verdict.checks]  # fmt: skip
     runs = [
-        {"run": t.about, "ripple": ratio_text(t.speed_ripple), "end": _ENDS.get(t.result.end, t.result.end)}
+        {"run": t.about, "ripple": ripple_text(t.speed_ripple), "end": _ENDS.get(t.result.end, t.result.end)}
         for t in design.trials
     ]
     saved = quantity_text(numbers.flywheel_inertia_saved, "kg*m^2", 4)
     decide, told = [], f"The {design.answer}."
     if verdict.feasible and not design.target.met:
-        decide.append(f"the ripple: {design.target.words} ('mechsym codesign --losses inside' designs with them)")
+        decide.append(f"{design.target.words} ('mechsym codesign --losses inside' designs with them)")
     if not verdict.feasible:
         decide.append(f"the hinge as it stands cannot be built: {verdict.reason}; change spring, guide or limits")
     if numbers.misfire_speed_share == 0:
@@ -247,6 +248,8 @@ def _per_cent(share: float | None) -> str:
 
 
 def _forces(case: Case) -> ReportPart:
+    if "motion" in case.sections:
+        return over_time(PARTS["forces"].title, case)
     found = forces(case)
     return force_part(PARTS["forces"].title, case, found, of_forces(case, found))
 
@@ -254,7 +257,9 @@ def _forces(case: Case) -> ReportPart:
 def _size(case: Case) -> ReportPart:
     printed = roles_of(case.mechanism).rules == "slider crank" and "part_crosshead" in case.sections
     found = check_printed(case) if printed else size(case)
-    rows = [{**row, "component": key_words(row["component"])} for row in found.rows]
+    # a reaction keeps its letter with the index
+    rows = [{**row, "component": row["component"] if row["component"][:2] == "R_" else key_words(row["component"])}
+            for row in found.rows]  # fmt: skip
     sizes = [_sized(row) for row in rows if row["limit"] is None]
     checks = [_sized(row) | {"": "" if row["holds"] else "BELOW"} for row in rows if row["limit"] is not None]
     tight = [_tight(row) for row in tightest(found)[:3]]

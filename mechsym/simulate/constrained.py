@@ -19,7 +19,7 @@ import scipy
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, velocities
-from mechsym.native.runs import Level
+from mechsym.native.integrate import Level
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Second
 from mechsym.simulate import crossing as crossings
@@ -123,8 +123,7 @@ def choose(mechanism: Mechanism, q: np.ndarray, now: tuple[str, ...]) -> Depende
     q: a closed pose [rad] or [m].
     """
     jacobian = np.asarray(mechanism.functions["constraints"].call([*q, *([0.0] * len(q))])[1])
-    scale = np.abs(jacobian).max(axis=0)
-    scaled = jacobian / np.where(scale > 0, scale, 1.0)
+    scaled = loops.scaled(mechanism, jacobian)
     _, held_ = loops.split(mechanism, now)
     columns = np.sort(scipy.linalg.qr(scaled, pivoting=True, mode="r")[1][: jacobian.shape[0]])
     sizes = np.linalg.svd(scaled, compute_uv=False)

@@ -21,8 +21,7 @@ import numpy as np
 
 from mechsym.mechanisms.record import BoundFunctions, Mechanism, bind_module
 from mechsym.native.compiler import NoCompiler
-from mechsym.native.integrate import integrate
-from mechsym.native.runs import Breaks, Level, Runs, Table
+from mechsym.native.integrate import Breaks, Level, Runs, Table, integrate
 from mechsym.simulate.equations import System, outer_values, system
 from mechsym.simulate.integrate import raw, runs, unsuited
 from mechsym.simulate.phase import Raw

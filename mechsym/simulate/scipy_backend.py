@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 
-from mechsym.native.runs import Level
+from mechsym.native.integrate import Level
 from mechsym.simulate.equations import right_side
 from mechsym.simulate.phase import Leg, Phase, Span
 

@@ -9,7 +9,7 @@ hypocycloid/      an engine as a whole: its forces, masses, checks, and sizes to
 slider_crank.py   the same for a slider crank
 crosshead.py      a crosshead drive held against its rules
 checks.py         a part beside its limit
-rows.py           results as rows
+rows.py           results as rows, and what of them is worth seeing
 drawing.py        the section view
 
 A rule refuses input outside its validity with `BadInput`; an unsafe part is not an error but a `Check` whose factor is

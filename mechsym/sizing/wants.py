@@ -140,8 +140,7 @@ class CrankPart:
     web_width: float = quantity("m", above=0, about="smallest width of a web")
     #: Diameter of the shaft at the inner journal [m]
     shaft: float = quantity("m", above=0, about="shaft at the inner journal")
-    #: Length of the shaft from the web [m]
-    shaft_length: float = quantity("m", above=0, about="length of the shaft")
+    shaft_length: float = quantity("m", above=0, about="length of the shaft")  #: Length of the shaft from the web [m]
     #: Diameter of the output shaft [m]
     output: float = quantity("m", above=0, about="output shaft")
     pin_bore: float = quantity("m", default=0.0, low=0, about="bore of the crankpin")

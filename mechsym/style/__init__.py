@@ -37,6 +37,7 @@ from mechsym.style.panels import (
     same_path,
     significant,
     spread,
+    to_scale,
     unit_words,
 )
 from mechsym.style.picture import svg, write_picture
@@ -72,6 +73,7 @@ __all__ = [
     "significant",
     "spread",
     "svg",
+    "to_scale",
     "unit_words",
     "write_picture",
 ]

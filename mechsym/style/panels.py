@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 
 SMALL = 8  # points of text beside the axes' own
+_FLATTEST = 0.4  # height of a panel to scale by its width, or the other way round
 
 
 def panels(
@@ -57,6 +58,18 @@ def bare(axis: "Axes") -> None:
     axis.xaxis.label.set_fontsize(SMALL + 1)
     axis.yaxis.label.set_fontsize(SMALL + 1)
     axis.spines[["top", "right"]].set_visible(False)
+
+
+def to_scale(figure: "Figure", axes: "Sequence[Axes]") -> None:
+    """Panels to one scale across and up, filled by what they show, in a figure no higher than they need."""
+    ratios = []
+    for axis in axes:
+        limits = np.array([axis.get_xlim(), axis.get_ylim()])
+        short = np.maximum(_FLATTEST * np.ptp(limits, axis=1).max() - np.ptp(limits, axis=1), 0.0)
+        (left, right), (low, high) = limits + 0.5 * short[:, None] * np.array([-1.0, 1.0])
+        axis.set(xlim=(left, right), ylim=(low, high), aspect="equal")
+        ratios.append((high - low) / (right - left))
+    figure.set_figheight(1.3 + min(1.2, max(ratios)) * (figure.get_figwidth() / len(axes) - 0.8))
 
 
 def heading(axis: "Axes", text: str) -> None:

@@ -12,14 +12,12 @@ run.py       the points in chunks, from the store or computed
 work.py      chunks on processes; a worker that dies takes one point with it
 cluster.py   chunks on a dask cluster
 store.py     finished points in a file: the same command goes on where it stopped
-points.py    how a chunk is computed: simulations, hinges, cycles; singles.py has the other commands
+points.py    how a chunk is computed: simulations, hinges, cycles
 hinges.py    hinges whose guides are judged side by side
 guides.py    which guides can be built, many at once
 cycles.py    cycles that differ in numbers only as one map
-outcomes.py  a result, or a gap with a reason
-numbers.py   what the commands tell of a sweep
-data.py      labelled columns with units, CSV, netCDF
-sensitivity.py  Sobol indices: which value matters how much
+outcomes.py  a result, or a gap with a reason; what the other commands say of one case
+data.py      labelled columns with units, CSV, netCDF, Sobol indices; what the commands tell of a sweep
 plots.py     the picture
 study.py     several sweeps of a file, one report
 """

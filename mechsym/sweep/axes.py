@@ -54,27 +54,18 @@ def parse_axis(text: str, place: Place) -> Axis:
     key, span = split(text)
     if place.unit is None:
         words = tuple(part.strip() for part in span.split(","))
-        _check_words(text, words)
+        if not all(words) or len(set(words)) < len(words):
+            raise BadInput(f"--over {shown(text)}: a word is empty or stands twice; write KEY=WORD,OTHER")
         return Axis(key=key, place=place, unit="", suffix="", kind="grid", values=words)
-    found = read_range(span, "--over", place.written or place.unit, key)
-    unit = _unit(text, found.unit, place)
-    suffix = "" if place.written or unit == place.unit or unit == "-" else unit
-    return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=found.kind, values=found.values)
-
-
-def _unit(text: str, written: str, place: Place) -> str:
-    """The unit of an axis, of the right dimension."""
-    if written and place.written:
+    written = read_range(span, "--over", place.written or place.unit, key)
+    if written.unit and place.written:
         why = f"the key names {place.written}"
-        raise BadInput(f"--over {shown(text)}: unit {written!r} is one too many, {why}; leave it away")
-    if written:
-        parse(f"1 {written}", place.unit or "-", f"--over {place.section}.{place.field}")
-    return written or place.written or place.unit or "-"
-
-
-def _check_words(text: str, words: tuple[str, ...]) -> None:
-    if not all(words) or len(set(words)) < len(words):
-        raise BadInput(f"--over {shown(text)}: a word is empty or stands twice; write KEY=WORD,OTHER")
+        raise BadInput(f"--over {shown(text)}: unit {written.unit!r} is one too many, {why}; leave it away")
+    if written.unit:  # of the right dimension
+        parse(f"1 {written.unit}", place.unit or "-", f"--over {place.section}.{place.field}")
+    unit = written.unit or place.written or place.unit or "-"
+    suffix = "" if place.written or unit == place.unit or unit == "-" else unit
+    return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=written.kind, values=written.values)
 
 
 def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict[str, int], list[tuple[Value, ...]]]:
@@ -224,9 +215,8 @@ def _split(text: str) -> tuple[str, ast.expr, str]:
     try:
         tree = ast.parse(formula.replace("^", "**"), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise BadInput(
-            f"--tie {key}: {shown(formula)} is no formula; write for example sqrt(4*V/(pi*stroke))"
-        ) from None
+        way = "write for example sqrt(4*V/(pi*stroke))"
+        raise BadInput(f"--tie {key}: {shown(formula)} is no formula; {way}") from None
     _checked(key, tree)
     return key, tree, formula
 

@@ -3,7 +3,6 @@
 import dataclasses
 import functools
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,9 +14,6 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.results import Columns
 from mechsym.quantities.units import Scalar
 from mechsym.sweep.outcomes import Gap, Outcome
-
-if TYPE_CHECKING:
-    from mechsym.cycle.closed.model import ClosedEngine
 
 BLOCK = 500  # cycles in one map: enough to hide the making of its function, few enough for the progress to move
 _SECTIONS = ("parameters", "chamber", "cycle", "gas", "heat_transfer", "friction_pressure")
@@ -74,6 +70,8 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
 
     Returns figures: as `mechsym.jobs.cycle` of the engine, each with one value; a gap where there is no cycle.
     """
+    from mechsym.cycle.closed.model import closed_period
+    from mechsym.cycle.closed.run import steps_needed
     from mechsym.cycle.engine import columns, over_design
     from mechsym.jobs.cycle import engine, of_engine
     from mechsym.jobs.gas import one_cylinder
@@ -81,22 +79,15 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
     seen = [one_cylinder(case) for case in family]
     design = {"omega": np.array([case.need("operation").speed for case in seen])} | _varied(seen)
     machine = engine(seen[0])
-    steps, reasons = _steps(machine, design)
+    steps, reasons = np.ones(design["omega"].size, dtype=int), dict[int, str]()
+    if machine.cycle.method != "nunes2017_printed":
+        steps, reasons = steps_needed(functools.partial(closed_period, machine), design)
     outcomes: dict[int, Outcome] = {i: Gap(reason=reason, of_input=True) for i, reason in reasons.items()}
     for group in (np.flatnonzero(steps == count) for count in set(steps[steps > 0])):
         found = columns(over_design(machine, {name: values[group] for name, values in design.items()}))
         for k, i in enumerate(group.tolist()):
             outcomes[i] = _of_the_engine(of_engine(family[i], _at(found, k), design["omega"][[i]]))
     return [outcomes[i] for i in range(len(family))]
-
-
-def _steps(machine: "ClosedEngine", design: Mapping[str, np.ndarray]) -> tuple[np.ndarray, dict[int, str]]:
-    from mechsym.cycle.closed.model import closed_period
-    from mechsym.cycle.closed.run import steps_needed
-
-    if machine.cycle.method == "nunes2017_printed":
-        return np.ones(design["omega"].size, dtype=int), {}
-    return steps_needed(functools.partial(closed_period, machine), design)
 
 
 def _varied(seen: Sequence[Case]) -> dict[str, np.ndarray]:

@@ -1,12 +1,18 @@
 """A sweep as one labelled data set: numbers by name over the axes, gaps with their reasons, CSV and netCDF."""
 
 import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mechsym import files
+from mechsym.files import Json
+from mechsym.quantities import results
+from mechsym.quantities.results import Columns, part, quantity, result
+from mechsym.quantities.units import Array, Pure
+from mechsym.sweep.axes import Axis, Value
 from mechsym.sweep.outcomes import Gap, asked
 from mechsym.sweep.run import Sweep
 
@@ -49,11 +55,8 @@ def main_results(result: Sweep) -> dict[str, np.ndarray]:
 def dataset(result: Sweep) -> "xarray.Dataset":
     """The sweep as an xarray.Dataset.
 
-    Returns
-    -------
-    data : xarray.Dataset
-        Axes as coordinates and results as variables, with their units; `failure` holds the reasons of the gaps. A
-        result that has the name of an axis and other values is called `result.<name>`
+    Returns data: axes as coordinates and results as variables, with their units; `failure` holds the reasons of the
+    gaps. A result that has the name of an axis and other values is called `result.<name>`.
     """
     try:
         import xarray as xr
@@ -110,3 +113,161 @@ def write_table(result: Sweep, folder: Path) -> Path:
 def write_netcdf(result: Sweep, folder: Path) -> Path:
     """Write the sweep as netCDF. Raises MissingExtra: xarray or h5netcdf is not installed."""
     return files.write_netcdf(folder / "sweep.nc", dataset(result))
+
+
+@result
+class SweptAxis:
+    """A value of the case and what it takes on."""
+
+    unit: str = part()
+    values: tuple[Value, ...] = quantity("@unit")  #: Of a grid its values, of samples one for each point
+
+
+@result
+class FailedPoint:
+    """A point without a result."""
+
+    index: int = quantity("-")  #: Number of the point, the last axis fastest
+    at: Columns = part()  #: Values of the axes there
+    reason: str = part()
+
+
+@results.result
+class SobolIndex:
+    """How much of a result's variance one value brings."""
+
+    result: str = part()
+    key: str = part()
+    first: float = quantity("-")  #: By itself, the others averaged
+    first_low: float = quantity("-")  #: Lower end of its 95 % interval
+    first_high: float = quantity("-")  #: Upper end of its 95 % interval
+    total: float = quantity("-")  #: With all that it does together with others
+    total_low: float = quantity("-")  #: Lower end of its 95 % interval
+    total_high: float = quantity("-")  #: Upper end of its 95 % interval
+    left_out: int = quantity("-")  #: Base samples that a gap takes away
+
+
+@result
+class SweepNumbers:
+    """A sweep with the results of all its points."""
+
+    case: str = part()
+    analysis: str = part()
+    dims: Mapping[str, int] = quantity("-")  #: Points along each dimension
+    shape: tuple[int, ...] = quantity("-")  #: The same as a list
+    axes: Mapping[str, SweptAxis] = part()
+    units: Mapping[str, str] = part()
+    data: Columns = part()  #: Each result at all points, the last axis fastest
+    failed: tuple[FailedPoint, ...] = part()
+    sobol: tuple[SobolIndex, ...] = part()
+    interrupted: bool = part()
+    kept: int = quantity("-")  #: Points that were finished before
+    set_aside: str | None = part()
+    files: tuple[str, ...] = part()
+
+
+@result
+class StudiedSweep:
+    """A sweep of a study."""
+
+    name: str = part()
+    about: str = part()
+    over: tuple[str, ...] = part()
+    tied: tuple[str, ...] = part()
+    points: int = quantity("-")  #: How many there are
+    numbers: SweepNumbers = part(inline=True)
+    picture: str  # as SVG
+    rows: list[Json]  # smallest and largest of the main results
+
+
+@result
+class StudyNumbers:
+    """The sweeps of a study."""
+
+    study: str = part()
+    sweeps: tuple[StudiedSweep, ...] = part()
+    interrupted: bool = part()
+    files: tuple[str, ...] = part()
+
+
+def numbers(sweep: Sweep, files: list[Path]) -> SweepNumbers:
+    """The numbers of a sweep, and the files that were written of it."""
+    data, axis_units = columns(sweep), {a.key: a.unit for a in sweep.axes}
+    along = zip(*sweep.points, strict=True) if "sample" in sweep.dims else (a.values for a in sweep.axes)
+    failed = tuple(
+        FailedPoint(index=i, at=Columns(dict(zip(axis_units, sweep.points[i], strict=True)), axis_units), reason=reason)
+        for i, reason in failures(sweep).items()
+    )
+    # a word that is not there is null, as a number
+    told = {name: [v if v != "" else None for v in column.tolist()] for name, column in data.items()}
+    return SweepNumbers(
+        case=sweep.case,
+        analysis=sweep.analysis,
+        dims=dict(sweep.dims),
+        shape=tuple(sweep.dims.values()),
+        axes={a.key: SweptAxis(unit=a.unit, values=tuple(v)) for a, v in zip(sweep.axes, along, strict=True)},
+        units={name: sweep.units[name] for name in data},
+        data=Columns(told, sweep.units),
+        failed=failed,
+        sobol=tuple(indices(sweep)) if sweep.sobol else (),
+        interrupted=sweep.interrupted,
+        kept=sweep.kept,
+        set_aside=sweep.aside or None,
+        files=tuple(map(str, files)),
+    )
+
+
+_AGAIN = 1000  # resamplings of the confidence
+_SHARE = (2.5, 97.5)  # percentiles of an interval that holds the truth 19 times in 20
+
+
+def indices(result: Sweep) -> list[SobolIndex]:
+    """Sobol indices of the main results, or of those that are shown, with their confidence.
+
+    Returns rows: one for each result that varies and each axis; none where fewer than two base samples are whole.
+    """
+    count, d = result.sobol, len(result.axes)
+    found = []
+    for name, values in main_results(result).items():
+        blocks = values.reshape(d + 2, count)
+        whole = np.isfinite(blocks).all(axis=0)
+        if whole.sum() > 1 and np.ptp(blocks[:, whole]) > 1e-12 * np.abs(blocks[:, whole]).max():
+            found += _of_one(name, result.axes, blocks[:, whole], int(count - whole.sum()))
+    return found
+
+
+def _of_one(name: str, axes: Sequence[Axis], blocks: np.ndarray, left_out: int) -> list[SobolIndex]:
+    here = estimates(blocks)
+    rng = np.random.default_rng(0)
+    rows = rng.integers(blocks.shape[1], size=(_AGAIN, blocks.shape[1]))
+    again = estimates(blocks[:, rows])
+    (low_1, high_1), (low_t, high_t) = (np.nanpercentile(a, _SHARE, axis=-1) for a in again)
+    return [
+        SobolIndex(
+            result=name, key=axis.key, first=float(here[0][i]), first_low=float(low_1[i]),
+            first_high=float(high_1[i]), total=float(here[1][i]), total_low=float(low_t[i]),
+            total_high=float(high_t[i]), left_out=left_out,
+        )
+        for i, axis in enumerate(axes)
+    ]  # fmt: skip
+
+
+def estimates(blocks: np.ndarray) -> tuple[Pure[Array], Pure[Array]]:
+    r"""First-order and total indices out of samples A, B, and A with one column of B after the other.
+
+    .. math:: S_i = \frac{\overline{f_B (f_{AB_i} - f_A)}}{V}, \quad T_i = \frac{\overline{(f_A - f_{AB_i})^2}}{2 V}
+
+    blocks: results of A, B, AB_1 .. AB_d, shape (d + 2, .., n) [unit of the result]. Returns first, total: indices,
+    shape (d, ..).
+    Source: Saltelli et al., Computer Physics Communications 181 (2010), table 2, (b) and (f), the latter of Jansen.
+    Valid: independent values. V is the variance of A and B together.
+
+    >>> a, b = np.array([1.0, 2.0, 3.0, 4.0]), np.array([2.0, 4.0, 1.0, 3.0])
+    >>> [s.round(3).tolist() for s in estimates(np.array([a, b, b]))]  # one value: it is all of the variance
+    [[1.0], [1.0]]
+    """
+    a, b, both = blocks[0], blocks[1], np.concatenate([blocks[0], blocks[1]], axis=-1)
+    mean, variance = both.mean(axis=-1, keepdims=True), both.var(axis=-1)
+    change = blocks[2:] - a
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return ((b - mean) * change).mean(axis=-1) / variance, (change**2).mean(axis=-1) / 2 / variance

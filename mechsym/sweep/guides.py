@@ -35,7 +35,11 @@ def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[s
     smallest), `judged` (1 for numbers of `judge`, 0 within 1e-4 of them), and `margins.limit` of each [-].
     """
     places = {key: cases.locate(case, key, overrides) for key in heres[0]}
-    numbers = {key: place for key, place in places.items() if _is_number(place)}
+    numbers = {
+        key: place
+        for key, place in places.items()
+        if place.section in _SECTIONS and place.unit is not None and place.field != "shaft_ratio"
+    }
     groups: dict[tuple[tuple[str, Value], ...], list[int]] = {}
     for i, here in enumerate(heres):
         groups.setdefault(tuple((k, v) for k, v in here.items() if k not in numbers), []).append(i)
@@ -49,10 +53,6 @@ def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[s
             found = [known(error)] * len(members)
         outcomes |= dict(zip(members, found, strict=True))
     return [outcomes[i] for i in range(len(heres))]
-
-
-def _is_number(place: Place) -> bool:
-    return place.section in _SECTIONS and place.unit is not None and place.field != "shaft_ratio"
 
 
 def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[str, Value]]) -> list[Outcome]:

@@ -79,14 +79,10 @@ def judged(found: Sequence[Case], show: Collection[str]) -> list[Outcome]:
     for balance, members in groups.items():
         verdict = _verdicts(balance, [w.design for _, w in members])
         for (i, w), one in zip(members, verdict, strict=True):
-            outcomes[i] = (
-                one
-                if isinstance(one, Gap)
-                else guarded(
-                    lambda known: some(HingeNumbers(judged=known), only),
-                    JudgedHinge(machine=w.machine, hinge=w.hinge, verdict=one),
-                )
-            )
+            outcomes[i] = one
+            if not isinstance(one, Gap):
+                hinge = JudgedHinge(machine=w.machine, hinge=w.hinge, verdict=one)
+                outcomes[i] = guarded(lambda judged: some(HingeNumbers(judged=judged), only), hinge)
     return [outcomes[i] for i in range(len(found))]
 
 

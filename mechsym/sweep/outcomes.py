@@ -2,13 +2,22 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.quantities import record
-from mechsym.quantities.results import walk
+from mechsym.files import Json
+from mechsym.mechanisms.shaft import ElasticShaft
+from mechsym.quantities import record, results
+from mechsym.quantities.results import Columns, names_of, part, some, units_of, walk
+from mechsym.simulate import Result
+from mechsym.simulate.result import RunNumbers
+from mechsym.torsion.twist import ShaftSection, sections
+
+if TYPE_CHECKING:
+    from mechsym.forces.summary import ForceNumbers
 
 # results that are words worth keeping
 WORDS = ("status", "end", "guide.reason")
@@ -79,3 +88,64 @@ def asked(name: str, show: str) -> bool:
     """Whether a name or group that is shown means a result, whose name may carry its unit."""
     name = name.partition(" [")[0]
     return name == show or name.startswith(f"{show}.")
+
+
+def forces(case: Case) -> "ForceNumbers":
+    """Figures of `mechsym forces`."""
+    from mechsym.forces.summary import summary
+    from mechsym.jobs.forces import forces as run
+
+    return summary(run(case), case.name, case.source)
+
+
+def size(case: Case) -> Json:
+    """Rows of `mechsym size` as component.quantity with its unit, and .limit and .safety_factor of a check."""
+    from mechsym.jobs.size import size as sized
+
+    found = sized(case)
+    numbers: dict[str, object] = {"failing [-]": len(found.failing), "converged [-]": found.converged}
+    for row in found.rows:
+        name = f"{row['component']}.{row['quantity']}".replace(" ", "_")
+        # one quantity may be held against several rules
+        unit = f" [{row['unit'] or '-'}]"
+        name = name if name + unit not in numbers else f"{name}.{row['rule']}".replace(" ", "_")
+        numbers[name + unit] = row["value"]
+        if row["limit"] is not None:
+            numbers |= {f"{name}.limit{unit}": row["limit"], f"{name}.safety_factor [-]": row["safety_factor"]}
+    return numbers
+
+
+def codesign(case: Case) -> Columns:
+    """Figures of `mechsym codesign`; of a list over speeds and loads the smallest and the largest value."""
+    from mechsym.codesign.result import CoDesignNumbers, numbers_of
+    from mechsym.jobs.codesign import codesign as design
+    from mechsym.jobs.codesign import settings_of
+
+    every = some(numbers_of(design(case, settings_of(case))), names_of(CoDesignNumbers))
+    found: dict[str, object] = {}
+    for name, value in every.items():
+        numbers = [v for v in value if isinstance(v, float | int)] if isinstance(value, Sequence) else []
+        several, unit = len(numbers) > 1 and not isinstance(value, str), every.units[name]
+        ends = {"min": min(numbers), "max": max(numbers)} if several else {}
+        found[name] = Columns(ends, dict.fromkeys(ends, unit)) if several else value
+    return Columns(found, every.units)
+
+
+_PEAKS = ("twist_peak", "torque_peak")
+
+
+@results.result
+class SweptRun:
+    """A run at a point of a sweep."""
+
+    numbers: RunNumbers = part(inline=True)
+    peaks: Columns = part(inline=True)  #: Largest of all sections of an elastic shaft
+    twist: Mapping[str, ShaftSection] = part()
+
+
+def swept(shaft: ElasticShaft | None, result: Result, numbers: RunNumbers) -> SweptRun:
+    """A finished run with its numbers and the twist of its shaft."""
+    twists = () if shaft is None else sections(shaft, result, result.t[-1] - numbers.window)
+    peaks = {name: max(getattr(section, name) for section in twists) for name in (_PEAKS if twists else ())}
+    named = {section.section: section for section in twists}
+    return SweptRun(numbers=numbers, peaks=Columns(peaks, units_of(ShaftSection)), twist=named)

@@ -13,7 +13,7 @@ from mechsym.quantities.display import key_words, without_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
 from mechsym.style.panels import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
-from mechsym.sweep.sensitivity import indices
+from mechsym.sweep.data import indices
 
 _MOST = 6  # panels
 _FEW = 4  # values of an axis that are drawn as lines of their own
@@ -69,8 +69,7 @@ def _panels(result: Sweep, shown: Mapping[str, object], rows: int = 1) -> tuple[
 
 
 def _label(name: str, unit: str) -> str:
-    words = key_words(name, WORDS)
-    return f"{words} [{unit}]" if unit else words
+    return key_words(name, WORDS) + (f" [{unit}]" if unit else "")
 
 
 def _places(axis: XAxis | YAxis, name: str, values: np.ndarray) -> None:
@@ -91,9 +90,8 @@ def _scaled(name: str, values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
     if unit in ("", "-"):
         return np.where(np.abs(values) < _ROUND_OFF, 0.0, values), _label(name, unit)
     factor, word = axis_unit(unit, values)
-    return values * factor, _label(
-        name if name in WORDS else without_unit(name, unit), word
-    )  # speed_rpm in rad/s is no speed_rpm
+    stem = name if name in WORDS else without_unit(name, unit)  # speed_rpm in rad/s is no speed_rpm
+    return values * factor, _label(stem, word)
 
 
 def _slice(result: Sweep, free: list[int], column: np.ndarray) -> np.ndarray:
@@ -107,12 +105,8 @@ def _slice(result: Sweep, free: list[int], column: np.ndarray) -> np.ndarray:
 def _title(result: Sweep, free: list[int]) -> str:
     fixed = [a for i, a in enumerate(result.axes) if i not in free and len(a.values) > 1]
     held = ", ".join(_value(a, a.values[len(a.values) // 2]) for a in fixed)
-    gaps = len(failures(result))
-    parts = [
-        f"{result.analysis} of {result.case}" + (f" at {held}" if held else ""),
-        f"{gaps} of {len(result.points)} points failed" if gaps else "",
-    ]
-    return "; ".join(part for part in parts if part)
+    gaps, whole = len(failures(result)), f"{result.analysis} of {result.case}" + (f" at {held}" if held else "")
+    return whole + (f"; {gaps} of {len(result.points)} points failed" if gaps else "")
 
 
 def _value(axis: Axis, value: float | str) -> str:

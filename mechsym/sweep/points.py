@@ -1,5 +1,6 @@
 """How the points of a sweep are computed: a driven machine is simulated, an engine gets its hinge or runs its cycle."""
 
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -8,7 +9,7 @@ from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import meant, require
 from mechsym.mechanisms.shaft import elastic
 from mechsym.quantities import record
-from mechsym.sweep import cycles, guides, hinges, singles
+from mechsym.sweep import cycles, guides, hinges, outcomes
 from mechsym.sweep.axes import Value
 from mechsym.sweep.outcomes import ARITHMETIC, Gap, Outcome, guarded, known
 
@@ -36,7 +37,7 @@ READS = {
     "codesign": ("mechsym.codesign.result", "mechsym.jobs.codesign", *_SCIPY),
 }
 # what one point takes, roughly [s]
-_SINGLES = {"forces": (singles.forces, 0.5), "size": (singles.size, 2.0), "codesign": (singles.codesign, 10.0)}
+_SINGLES = {"forces": (outcomes.forces, 0.5), "size": (outcomes.size, 2.0), "codesign": (outcomes.codesign, 10.0)}
 # verdicts on a run whose numbers cannot be trusted
 _BAD = ("failed", "not converged", "chaotic")
 _LANES = 16  # runs that the compiled integrator takes side by side
@@ -70,9 +71,8 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
     if analysis == "hinge":
         return _hinges(show)
     if analysis == "guides":
-        return Route(
-            analysis=analysis, run=_each(lambda case: {}), together=guides.BLOCK, seconds=0.0001, at=guides.guides
-        )
+        run = _each(lambda case: {})
+        return Route(analysis=analysis, run=run, together=guides.BLOCK, seconds=0.0001, at=guides.guides)
     if analysis in _SINGLES:
         single, seconds = _SINGLES[analysis]
         return Route(analysis=analysis, run=_each(single), together=1, seconds=seconds)
@@ -94,10 +94,10 @@ def _each(one: Callable[[Case], object]) -> Callable[[Sequence[Case]], list[Outc
 
 
 def _maps(found: Sequence[Case]) -> list[Outcome]:
-    outcomes: dict[int, Outcome] = {}
+    results: dict[int, Outcome] = {}
     for members in cycles.families(found):
-        outcomes |= dict(zip(members, _bisected([found[i] for i in members]), strict=True))
-    return [outcomes[i] for i in range(len(found))]
+        results |= dict(zip(members, _bisected([found[i] for i in members]), strict=True))
+    return [results[i] for i in range(len(found))]
 
 
 def _bisected(family: list[Case]) -> list[Outcome]:
@@ -112,39 +112,40 @@ def _bisected(family: list[Case]) -> list[Outcome]:
 
 
 def _simulated(found: Sequence[Case]) -> list[Outcome]:
-    from mechsym.cases.runs import settings_of
+    from mechsym.cases.settings import settings_of
     from mechsym.jobs.problem import problem_of
     from mechsym.jobs.run import in_loop
+    from mechsym.simulate import simulate, simulate_many
+    from mechsym.simulate.constrained import LOCKED
 
     looped = [i for i, case in enumerate(found) if in_loop(case)]
     problems = {i: guarded(problem_of, case) for i, case in enumerate(found) if i not in looped}
-    outcomes: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
-    outcomes |= {i: guarded(_in_loop, found[i]) for i in looped}
+    results: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
+    results |= {i: guarded(_by_itself, found[i]) for i in looped}
     groups: dict[Settings, list[int]] = {}
-    for i in (i for i in problems if i not in outcomes):
+    for i in (i for i in problems if i not in results):
         groups.setdefault(settings_of(found[i]), []).append(i)
     for settings, members in groups.items():
-        for i, result in zip(members, _side_by_side([problems[i] for i in members], settings), strict=True):
-            outcomes[i] = result if isinstance(result, Gap) else _verdict(found[i], problems[i], result)
-    return [outcomes[i] for i in range(len(found))]
+        own = [problems[i] for i in members]
+        try:
+            runs = simulate_many(own, settings)
+        except ARITHMETIC:  # one of them upset the others
+            runs = [guarded(functools.partial(simulate, settings=settings), problem) for problem in own]
+        for i, result in zip(members, runs, strict=True):
+            if isinstance(result, Gap):
+                results[i] = result
+                continue
+            ends = "sides" in problems[i].mechanism.functions and (result.end == LOCKED or result.status in _BAD)
+            results[i] = guarded(_by_itself, found[i]) if ends else _verdict(found[i], problems[i], result)
+    return [results[i] for i in range(len(found))]
 
 
-def _in_loop(case: Case) -> Outcome:
-    """One point whose gas is integrated with the motion."""
-    from mechsym.cases.runs import settings_of
+def _by_itself(case: Case) -> Outcome:
+    """One point whose gas is integrated with the motion, or that passes a dead point of its closed forms."""
+    from mechsym.cases.settings import settings_of
     from mechsym.jobs.run import run_of
 
     return _told(case, *run_of(case, settings_of(case))[:2])
-
-
-def _side_by_side(problems: "list[Problem]", settings: "Settings") -> list[Outcome]:
-    from mechsym.simulate import simulate, simulate_many
-
-    try:
-        return simulate_many(problems, settings)
-    except ARITHMETIC:
-        # one of them upset the others
-        return [guarded(lambda problem: simulate(problem, settings), p) for p in problems]
 
 
 def _verdict(case: Case, problem: "Problem", result: "Result") -> Outcome:
@@ -157,8 +158,6 @@ def _verdict(case: Case, problem: "Problem", result: "Result") -> Outcome:
 
 
 def _told(case: Case, result: "Result", numbers: "RunNumbers") -> Outcome:
-    from mechsym.sweep.singles import swept
-
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")
-    return swept(elastic(case.mechanism, case.need("parameters")), result, numbers)
+    return outcomes.swept(elastic(case.mechanism, case.need("parameters")), result, numbers)

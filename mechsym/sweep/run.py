@@ -141,11 +141,10 @@ def layout(plan: Plan) -> Layout:
 
 def ends(found: Layout) -> list[dict[str, str | float]]:
     """Overrides that set one value to its smallest or largest, for doubts about the case there."""
-    columns = zip(*found.points, strict=True)
-    at = [
-        (axis, value) for axis, values in zip(found.axes, columns, strict=True) for value in (min(values), max(values))
-    ]
-    return [{axis.key: override(axis, value)} for axis, value in at]
+    overrides = []
+    for axis, values in zip(found.axes, zip(*found.points, strict=True), strict=True):
+        overrides += [{axis.key: override(axis, value)} for value in (min(values), max(values))]
+    return overrides
 
 
 def forecast(plan: Plan, count: int) -> Second:
@@ -187,7 +186,10 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
         with contextlib.closing(_computed(order, chosen, chunks, means, asked_to)) as results:
             for done in results:
                 inputs.tell(done.reads)
-                _check_unchanged(read | read_there, done.reads)
+                for name, content in done.reads.items():  # points of two contents of one file are refused
+                    if (read | read_there).get(name, content) != content:
+                        way = "the same command computes all points as it is now"
+                        raise BadInput(f"{name} has changed while the sweep ran; {way}")
                 _check_shown(plan.show, done.outcomes)
                 found = [o if isinstance(o, Gap) else kept(o, plan.show) for o in done.outcomes]
                 for i, outcome in zip(done.members, found, strict=True):
@@ -196,8 +198,11 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
                     store.keep(kept_in, done, found)
                 progress(len(done.members))
     interrupted = asked_to.is_set()  # in its last points too: a study would go on with the next sweep
-    if not interrupted:
-        _check_reasons(outcomes)
+    refused = [outcome for outcome in outcomes if isinstance(outcome, Gap) and outcome.of_input]
+    reasons = {outcome.reason for outcome in refused}
+    # what fails everywhere for one reason does not depend on the axes: bad input, not gaps
+    if not interrupted and len(reasons) == 1 and len(refused) == len(outcomes):
+        raise BadInput(reasons.pop())
     return Sweep(
         case=base.name, analysis=chosen.analysis, axes=place.axes, dims=place.dims, points=place.points,
         outcomes=tuple(outcomes), show=plan.show, sobol=plan.sobol or 0,
@@ -220,28 +225,19 @@ def _stored(plan: Plan, read: Mapping[str, str], means: Means) -> Iterator[store
         yield found
 
 
-def _check_unchanged(before: Mapping[str, str], now: Mapping[str, str]) -> None:
-    """Refuse points of two contents of one file."""
-    for name, content in now.items():
-        if before.get(name, content) != content:
-            raise BadInput(f"{name} has changed while the sweep ran; the same command computes all points as it is now")
-
-
 def _computed(
     order: work.SweepOrder, chosen: Route, chunks: Sequence[work.Chunk], means: Means, asked_to: threading.Event
 ) -> Generator[work.Done, None, None]:
     if means.scheduler:
         return cluster.on_cluster(order, chunks, means.scheduler, asked_to)
-    jobs = means.jobs or _worth(chosen, chunks)
+    jobs = means.jobs
+    if not jobs:  # as many as there are cores, or none where they would take longer to start than to work
+        seconds = chosen.seconds * sum(len(c.members) for c in chunks)
+        pays = hasattr(os, "sched_getaffinity") and seconds > _WORTH
+        jobs = len(os.sched_getaffinity(0)) if pays else 1
     if jobs > 1 and len(chunks) > 1:
         return work.on_processes(order, chunks, jobs, asked_to)
     return work.here(order, chunks, asked_to)
-
-
-def _worth(chosen: Route, chunks: Sequence[work.Chunk]) -> int:
-    """As many processes as there are cores, or none where they would take longer to start than to work."""
-    seconds = chosen.seconds * sum(len(c.members) for c in chunks)
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") and seconds > _WORTH else 1
 
 
 def _chunks(place: Layout, together: int) -> list[work.Chunk]:
@@ -249,14 +245,10 @@ def _chunks(place: Layout, together: int) -> list[work.Chunk]:
     count = len(place.points)
     parts = -(-count // together)
     ends = [count * i // parts for i in range(parts + 1)]
+    heres = [{a.key: override(a, v) for a, v in zip(place.axes, point, strict=True)} for point in place.points]
     return [
-        work.Chunk(members=tuple(range(a, b)), heres=tuple(_here(place, i) for i in range(a, b)))
-        for a, b in zip(ends, ends[1:], strict=False)
+        work.Chunk(members=tuple(range(a, b)), heres=tuple(heres[a:b])) for a, b in zip(ends, ends[1:], strict=False)
     ]
-
-
-def _here(place: Layout, index: int) -> dict[str, Value]:
-    return {a.key: override(a, v) for a, v in zip(place.axes, place.points[index], strict=True)}
 
 
 def _check_shown(show: tuple[str, ...], found: Sequence[Outcome]) -> None:
@@ -266,10 +258,3 @@ def _check_shown(show: tuple[str, ...], found: Sequence[Outcome]) -> None:
     for name in show if names else ():
         if name != "all" and not any(asked(n, name) for n in names):
             raise BadInput(f"--show {name} is no result here; {suggest(name, sorted(names))}")
-
-
-def _check_reasons(outcomes: list[Outcome]) -> None:
-    """What fails everywhere for one reason does not depend on the axes: bad input, not gaps."""
-    reasons = {outcome.reason for outcome in outcomes if isinstance(outcome, Gap) and outcome.of_input}
-    if len(reasons) == 1 and all(isinstance(outcome, Gap) and outcome.of_input for outcome in outcomes):
-        raise BadInput(reasons.pop())

@@ -22,7 +22,6 @@ from pathlib import Path
 
 from mechsym import inputs
 from mechsym.errors import BadInput
-from mechsym.files import Json
 from mechsym.quantities import record
 from mechsym.sweep.outcomes import Gap, Outcome
 from mechsym.sweep.work import Done
@@ -126,7 +125,12 @@ def known(store: Store) -> dict[int, Outcome]:
     """Points that are finished, by index."""
     with _told(store.path):
         rows = store.connection.execute("select i, row from point").fetchall()
-    return {i: _outcome(json.loads(text)) for i, text in rows}
+    found: dict[int, Outcome] = {}
+    for i, text in rows:
+        stored = json.loads(text)
+        gap = "gap" in stored
+        found[i] = Gap(reason=stored["gap"], of_input=stored["of_input"]) if gap else dict(stored["row"])
+    return found
 
 
 def files_read(store: Store) -> dict[str, str]:
@@ -137,7 +141,11 @@ def files_read(store: Store) -> dict[str, str]:
 
 def keep(store: Store, done: Done, outcomes: Sequence[Outcome]) -> None:
     """Write what is kept of the points of a chunk in one go, and the files that they read."""
-    rows = [(i, _text(o), done.seconds, done.host) for i, o in zip(done.members, outcomes, strict=True)]
+    rows = []
+    for i, outcome in zip(done.members, outcomes, strict=True):
+        gap = isinstance(outcome, Gap)
+        text = json.dumps({"gap": outcome.reason, "of_input": outcome.of_input} if gap else {"row": outcome})
+        rows.append((i, text, done.seconds, done.host))
     with _told(store.path), store.connection:
         store.connection.execute("begin immediate")
         store.connection.executemany("insert or replace into point values (?, ?, ?, ?)", rows)
@@ -177,20 +185,13 @@ def _lives(process: int) -> bool:
         return False
     try:
         os.kill(process, 0)
+        # one that has ended may wait to be asked how, as in a container whose first process reaps late
+        stat = Path(f"/proc/{process}/stat").read_text(encoding="latin-1")
     except ProcessLookupError:
         return False
     except OSError:
         return True
-    return not _only_waited_for(process)
-
-
-def _only_waited_for(process: int) -> bool:
-    """Whether a process has ended and nobody has asked yet how, as in a container whose first process reaps late."""
-    try:
-        stat = Path(f"/proc/{process}/stat").read_text(encoding="latin-1")
-    except OSError:
-        return False
-    return stat.rpartition(")")[2].split()[0] in "ZX"
+    return stat.rpartition(")")[2].split()[0] not in "ZX"
 
 
 def _about(connection: sqlite3.Connection, name: str) -> str:
@@ -209,23 +210,9 @@ def _told(path: Path) -> Iterator[None]:
         yield
     except sqlite3.OperationalError as error:
         if error.sqlite_errorcode in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
-            raise BadInput(
-                f"{path}: another process holds it ({error}); wait for it, or choose another --out"
-            ) from None
+            why = f"another process holds it ({error}); wait for it, or choose another --out"
+            raise BadInput(f"{path}: {why}") from None
         raise OSError(errno.EIO, str(error), str(path)) from error
     except sqlite3.DatabaseError as error:
-        raise BadInput(
-            f"{path}: no store of a sweep ({error}); remove it, or choose another folder with --out"
-        ) from None
-
-
-def _text(outcome: Outcome) -> str:
-    if isinstance(outcome, Gap):
-        return json.dumps({"gap": outcome.reason, "of_input": outcome.of_input})
-    return json.dumps({"row": outcome})
-
-
-def _outcome(stored: Json) -> Outcome:
-    if "gap" in stored:
-        return Gap(reason=stored["gap"], of_input=stored["of_input"])
-    return dict(stored["row"])
+        why = f"no store of a sweep ({error}); remove it, or choose another folder with --out"
+        raise BadInput(f"{path}: {why}") from None

@@ -28,9 +28,9 @@ from mechsym.sweep.run import Plan
 
 _TEXTS, _LISTS, _NUMBERS = ("case", "of"), ("over", "tied", "show"), ("samples", "sobol", "seed")
 _COMMON = (*_TEXTS, *_LISTS, *_NUMBERS, "set")
-_KINDS: dict[str, type] = (
-    dict.fromkeys(_TEXTS, str) | dict.fromkeys(_LISTS, list) | dict.fromkeys(_NUMBERS, int) | {"set": dict}
-)
+_KINDS: dict[str, type] = {
+    **dict.fromkeys(_TEXTS, str), **dict.fromkeys(_LISTS, list), **dict.fromkeys(_NUMBERS, int), "set": dict,
+}  # fmt: skip
 _WORD = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]*")
 _MOST = 100  # sweeps of a study
 
@@ -116,9 +116,12 @@ def _sweep(common: Json, table: Json, number: int, beside: Path) -> StudySweep:
     for key in ("case", "over"):
         if not values.get(key):
             raise BadInput(f"{where}{key} is missing; it is what `mechsym sweep` takes")
+    case, there = values["case"], beside / values["case"]
+    if case not in cases.names() and not Path(case).exists() and there.exists():
+        case = str(there)  # it lies beside the study and not in the working folder
     try:
         plan = Plan(
-            case=_beside(values["case"], beside), over=tuple(values["over"]), overrides=values["set"],
+            case=case, over=tuple(values["over"]), overrides=values["set"],
             analysis=values.get("of"), samples=values.get("samples"), sobol=values.get("sobol"),
             seed=values.get("seed", 0), show=tuple(values.get("show", ())), tied=tuple(values.get("tied", ())),
         )  # fmt: skip
@@ -148,9 +151,3 @@ def _text_of(table: Json, key: str, where: str, usual: str | None = None) -> str
     if not isinstance(value, str):
         raise BadInput(f"{where}{key} = {shown(value)} is not a text")
     return value
-
-
-def _beside(case: str, folder: Path) -> str:
-    """A case that lies beside the study and not in the working folder."""
-    there = folder / case
-    return str(there) if case not in cases.names() and not Path(case).exists() and there.exists() else case

@@ -72,10 +72,8 @@ def prepared(order: SweepOrder) -> Callable[[Chunk], Done]:
         start = time.process_time()  # a clock would count what else the machine does
         with inputs.reads() as read:
             outcomes = tied(order, chosen, chunk.heres)
-        seconds = (time.process_time() - start) / len(chunk.members)
-        return Done(
-            members=chunk.members, outcomes=tuple(outcomes), seconds=seconds, host=socket.gethostname(), reads=read
-        )
+        seconds, host = (time.process_time() - start) / len(chunk.members), socket.gethostname()
+        return Done(members=chunk.members, outcomes=tuple(outcomes), seconds=seconds, host=host, reads=read)
 
     return work
 
@@ -136,7 +134,9 @@ def on_processes(
                 busy[k] = _sent(workers, k, waiting.popleft(), order)
             ready = connection.wait([workers[k].pipe for k in busy], timeout=_PAUSE)
             for k in [k for k in busy if workers[k].pipe in ready]:
-                chunk, answer = busy.pop(k), _answer(workers[k])
+                chunk, answer = busy.pop(k), None
+                with contextlib.suppress(EOFError, OSError):
+                    answer = workers[k].pipe.recv()
                 if answer is None:
                     again = _after_death(chunk, workers[k])
                     workers[k] = _started(order)
@@ -188,14 +188,6 @@ def _sent(workers: list[_Worker], k: int, chunk: Chunk, order: SweepOrder) -> Ch
     return chunk
 
 
-def _answer(worker: _Worker) -> Done | Exception | None:
-    try:
-        answer: Done | Exception = worker.pipe.recv()
-    except (EOFError, OSError):
-        return None
-    return answer
-
-
 def _after_death(chunk: Chunk, worker: _Worker) -> tuple[list[Chunk], list[Done]]:
     """What is tried again, and the points that are given up."""
     worker.process.join()
@@ -205,14 +197,10 @@ def _after_death(chunk: Chunk, worker: _Worker) -> tuple[list[Chunk], list[Done]
     if len(chunk.members) > 1:
         pairs = zip(chunk.members, chunk.heres, strict=True)
         return [Chunk(members=(i,), heres=(place,), died=1) for i, place in pairs], []
-    gap = Gap(reason=f"the process that computed it died twice ({_cause(worker.process.exitcode)})")
+    status = worker.process.exitcode
+    cause = f"signal {signal.Signals(-status).name}" if status is not None and status < 0 else f"exit status {status}"
+    gap = Gap(reason=f"the process that computed it died twice ({cause})")
     return [], [Done(members=chunk.members, outcomes=(gap,), seconds=0.0, host=socket.gethostname())]
-
-
-def _cause(status: int | None) -> str:
-    if status is not None and status < 0:
-        return f"signal {signal.Signals(-status).name}"
-    return f"exit status {status}"
 
 
 def _ended(worker: _Worker) -> None:

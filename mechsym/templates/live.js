@@ -24,7 +24,7 @@
     };
     return [xs, ...curves.map(over)];
   }
-  const read = (value, low, high) => value == null ? "–" : value.toFixed(Math.max(0, 3 - Math.floor(Math.log10(high - low || 1))));
+  const read = (value, low, high) => value == null ? "" : value.toFixed(Math.max(0, 3 - Math.floor(Math.log10(high - low || 1))));
 
   function plot(box, p, svg) {
     const lines = p.curves.map(([k]) => svg.querySelector(`[data-curve="${k}"] path`));
@@ -36,7 +36,7 @@
     const wide = () => Math.max(220, box.clientWidth), high = () => named + Math.round(Math.min(340, Math.max(190, 0.62 * wide())));
     const marks = u => {
       const { ctx, bbox } = u, ratio = devicePixelRatio;
-      ctx.save(); ctx.strokeStyle = ctx.fillStyle = ink(); ctx.lineWidth = ratio; ctx.font = `${11 * ratio}px system-ui, sans-serif`; ctx.setLineDash([2 * ratio, 3 * ratio]);
+      ctx.save(); ctx.strokeStyle = ctx.fillStyle = ink(); ctx.lineWidth = ratio; ctx.textAlign = "left"; ctx.textBaseline = "alphabetic"; ctx.font = `${11 * ratio}px system-ui, sans-serif`; ctx.setLineDash([2 * ratio, 3 * ratio]);
       let place = 0; // a name keeps clear of the one before it
       for (const [x, name] of p.marks) {
         const at = u.valToPos(x, "x", true);
@@ -50,7 +50,7 @@
     };
     const u = new uPlot({
       width: wide(), height: high(), padding: [8 + named, 12, 0, 0],
-      scales: { x: { time: false, range: (_, low, high) => low === high || low == null ? p.x : [Math.max(low, p.x[0]), Math.min(high, p.x[1])] },
+      scales: { x: { time: false, range: (_, low, high) => low === high || low == null || (low <= data[0][0] && high >= data[0].at(-1)) ? p.x : [Math.max(low, p.x[0]), Math.min(high, p.x[1])] },
                 y: { range: (u, low, high) => whole(u) || low == null ? p.y : uPlot.rangeNum(low, high, 0.1, true) } },
       axes: [{ label: p.across, stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, incrs, size: 34, labelSize: 22, font: "11px system-ui", labelFont: "12px system-ui" },
              { label: p.up, stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, size: 58, labelSize: 20, font: "11px system-ui", labelFont: "12px system-ui",
@@ -58,7 +58,7 @@
       series: [{ label: p.across, value: (_, v) => read(v, ...p.x) },
         ...p.curves.map(([, name], k) => ({ label: name, class: name ? "u-named" : "u-level", value: (_, v) => read(v, ...p.y), spanGaps: false,
           stroke: () => look(k).stroke, width: Math.max(1, 1.2 * parseFloat(look(k).strokeWidth)),
-          dash: /\d/.test(look(k).strokeDasharray) ? look(k).strokeDasharray.match(/[\d.]+/g).map(v => 1.3 * v) : undefined, points: { show: false } }))],
+          dash: /\d/.test(look(k).strokeDasharray) ? look(k).strokeDasharray.match(/[\d.]+/g).map(v => 1.3 * v) : undefined, pxAlign: 0, points: { show: false } }))],
       cursor: { sync: { key: p.across }, drag: { x: true, y: false }, points: { size: 6 } },
       hooks: { draw: [marks],
         setCursor: [u => { if (turn && u.cursor.event) crank(u.cursor.left >= 0 ? u.posToVal(u.cursor.left, "x") : null); }],

@@ -1,8 +1,7 @@
 """Torsional vibration of shafts.
 
 modes      natural frequencies, orders of excitation, critical speeds, stiffness that keeps major orders away
-twist      twist of every section of a shaft in a run, and where an engine settles
-train      criticals of a crank train at its speed of operation
+twist      twist of every section of a shaft in a run, where an engine settles, criticals of a crank train
 startup    a start-up by a weak drive: which critical speeds held it, in sentences and numbers; a finished run
 shown      Campbell diagram, start-up, twist, and what has to be known first
 """

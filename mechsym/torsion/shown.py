@@ -16,8 +16,7 @@ from mechsym.simulate.result import period_means
 from mechsym.simulate.speed import Speed
 from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import FinishedRun, StartUp
-from mechsym.torsion.train import TrainVibration, critical_words
-from mechsym.torsion.twist import ShaftSection, pairs, section_words
+from mechsym.torsion.twist import ShaftSection, TrainVibration, critical_words, pairs, section_words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -94,19 +93,23 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
 
     result, engine, starts, found = run.result, run.engine, run.start_ups, []
     if engine is not None and len(result.t) > 1:
-        see = "Speed over time with its mean over each period, and the last period over the angle."
+        see = f"Speed over time with its mean over each period, and the last period over the angle: {span(run.speed)}."
         found.append(Picture(name="speed", see=see, draw=lambda: speed(
             result, engine.coordinate, engine.period, engine.wanted, engine.words)))  # fmt: skip
     if result.happened.events:
         see = "The motion, and when each stop, contact and friction was met, left, stuck or slid."
         found.append(Picture(name="events", see=see, draw=lambda: met(result)))
     if run.twist:
-        see = "Twist of each shaft section: the peak decides on the shaft."
+        peak = quantity_text(max(section.twist_peak for section in run.twist), "rad", 4)
+        see = f"Twist of each shaft section: the peak, {peak}, decides on the shaft."
         found.append(Picture(name="twist", see=see, draw=lambda: twist(result, len(run.twist))))
     if starts:
-        see = "Where an order of the drive meets a natural frequency the start-up may be held."
+        natural = quantity_text(starts[0].natural, "rad/s", 4)
+        see = f"Where an order of the drive meets the natural frequency, {natural}, the start-up may be held."
         found.append(Picture(name="campbell", see=see, draw=lambda: campbell(starts[0])))
-        see = "The start-up with its dampers: held below a critical speed, or through it."
+        held = [f"at order {c.critical.order:g}, {quantity_text(c.critical.speed, 'rad/s', 4)}"
+                for start in starts for c in start.captures]  # fmt: skip
+        see = f"The start-up beside a rigid shaft: {'held ' + '; '.join(held) if held else 'nothing holds it'}."
         found.append(Picture(name="startup", see=see, draw=lambda: start_up(starts, starts[0].claim.claim_speed)))
     return tuple(found)
 
@@ -147,6 +150,12 @@ def of_run(run: FinishedRun) -> Iterator[Finding]:
         yield Finding(rank=NOT_MET, words=run.summary.reason or f"the run is {run.result.status}")
     if run.result.end == "stall":
         yield Finding(rank=NOT_MET, words="the shaft stops", value=float(run.result.t[-1]), unit="s")
+    for start in run.start_ups:
+        for stay in start.captures:
+            at, twist = (quantity_text(v, u, 4) for v, u in ((stay.critical.speed, "rad/s"), (start.twist_peak, "rad")))
+            words = f"the shaft is held at its critical speed of order {stay.critical.order:g}, {at}, from "
+            words += f"{figure(stay.t_start, 3)} s on; it twists by {twist}"
+            yield Finding(rank=NOT_MET, words=words, value=start.twist_peak, unit="rad")
     yield from criticals(run.vibration)
     if settling := drift(run):
         yield settling

@@ -27,8 +27,7 @@ from mechsym.simulate.result import RunNumbers
 from mechsym.simulate.settings import StepTorque
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.modes import Critical
-from mechsym.torsion.train import TrainVibration
-from mechsym.torsion.twist import Settling, ShaftSection, pairs, sections
+from mechsym.torsion.twist import Settling, ShaftSection, TrainVibration, pairs, sections
 
 _BAND = 0.02  # a mean speed this close to a critical one counts as being at it [-]
 _LONGER = 3.0  # held: it stays so many times longer than the rigid shaft would

@@ -13,7 +13,6 @@ from mechsym.app import Slider, hinge_answer, run, safe, server, sliders, tabs
 from mechsym.app.answers import moving
 from mechsym.app.saving import case_text
 from mechsym.errors import BadInput
-from mechsym.mechanisms.drawing import extent_of
 
 
 @pytest.mark.parametrize("name", cases.names())
@@ -68,10 +67,12 @@ def test_what_is_impossible_is_a_sentence():
     assert not hinge_answer("zotov-89", {"guide.rho0": 0.3}).good
 
 
-def test_guide_and_mechanism_are_drawn_to_one_scale():
+def test_guide_and_mechanism_turn_to_scale_with_their_gas():
     answer = hinge_answer("zotov-89", {})
-    left, right, low, high = extent_of(answer.drawn())
-    assert 2 < right - left < 6 and high - low > 1.6
+    machine, hinge = answer.scenes()
+    wide = [shown["size"][0] / shown["scale"] for shown in (machine, hinge)]
+    assert 2 < wide[0] < 6 and 1.6 < wide[1] < 2.4
+    assert machine["gases"] and any("share" in shape for shape in hinge["shapes"])
     page = moving(answer, "<zotov>")
     assert 'class="angle"' in page and "<zotov>" not in page
 

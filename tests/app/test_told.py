@@ -32,7 +32,7 @@ def test_numbers_stand_in_units_of_people():
     assert rows(given, units) == {"speed": "89 rpm", "end of the run": "2 s", "speeds, phi, mean": "90 rpm",
                            "largest pressure": "7.4 MPa",
                            "vibration, natural frequency": "10, 20 Hz",
-                           "twist 1": "of a; largest twist 5.7296 deg"}  # fmt: skip
+                           "twist 1": "of a; largest twist 5.73 deg"}  # fmt: skip
 
 
 def test_round_off_is_named_or_zero():
@@ -50,7 +50,7 @@ def test_what_belongs_together_stands_in_one_row():
     assert told(given, {"max.F": "N", "wiebe.start.value": "rad", "torque_orders.amplitude": "N*m"}) == [
         ("assumed", "one"), ("assumed", "two"),
         ("least to largest over the turn, gas force F", "-0.01 to 2 kN, largest at 12.5 deg"),
-        ("torque orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe, start", "5.7296 deg ± 0.57296 deg"),
+        ("torque orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe, start", "5.73 deg ± 0.573 deg"),
     ]  # fmt: skip
 
 

@@ -7,7 +7,8 @@ import pytest
 from benchmarks.auditor import matrix
 from benchmarks.auditor.spoiled import singles
 from mechsym.audit.hosts import sources as findings
-from mechsym.papers import record, sources
+from mechsym.papers import rows as record
+from mechsym.papers import sources
 
 pytestmark = pytest.mark.slow
 

@@ -12,7 +12,7 @@ from tables import read_table
 from mechsym import cases
 from mechsym.cli import main
 from mechsym.files import plain
-from mechsym.hinge import report
+from mechsym.hinge import shown
 from mechsym.hinge.guide import crank_torque
 from mechsym.hinge.summary import HingeNumbers
 from mechsym.jobs import hinge as design
@@ -48,7 +48,7 @@ def designed(request, designs):
 def written(designs, tmp_path_factory):
     """Report and tables of one design."""
     folder = tmp_path_factory.mktemp("hinge")
-    return {file.name: file for file in report.write(designs["zotov-89"], folder)}
+    return {file.name: file for file in shown.write(designs["zotov-89"], folder)}
 
 
 @pytest.fixture

@@ -46,10 +46,10 @@ COMMANDS = {
     "cases zotov-89": ({"scipy.optimize", "scipy.interpolate", "mechsym.jobs", "importlib.metadata"}, 360),
     "hinge zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 1010),
     "simulate zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 1010),
-    "cycle nunes-hypocycloid": ({"scipy.interpolate", "mechsym.hinge.contact", "mechsym.codesign"}, 920),
-    "cycle generator": ({"mechsym.codesign", "mechsym.hinge.contact"}, 1010),
+    "cycle nunes-hypocycloid": ({"scipy.interpolate", "mechsym.hinge.limits", "mechsym.codesign"}, 920),
+    "cycle generator": ({"mechsym.codesign", "mechsym.hinge.limits"}, 1010),
     "forces zotov-89": ({"mechsym.codesign.programme", "mechsym.sizing"}, 960),
-    "size nunes-slider-crank": ({"mechsym.codesign", "mechsym.hinge.contact"}, 970),
+    "size nunes-slider-crank": ({"mechsym.codesign", "mechsym.hinge.limits"}, 970),
 }
 
 

@@ -10,9 +10,9 @@ from codesigns import bound, design, task
 
 from mechsym.cli import main
 from mechsym.codesign.certificate import Terms, floor, hidden, proofs, swing_per_inertia
-from mechsym.codesign.hardware import roller_inertia
 from mechsym.codesign.points import Point
 from mechsym.codesign.rank import rank
+from mechsym.codesign.task import roller_inertia
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.springs.air import AirAbsolute, AirGauge

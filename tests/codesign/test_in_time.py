@@ -6,7 +6,7 @@ import scipy
 
 from mechsym import periodic
 from mechsym.codesign import running
-from mechsym.codesign.hardware import Hardware, roller_inertia
+from mechsym.codesign.task import Hardware, roller_inertia
 from mechsym.hinge.springs.air import AirAbsolute
 
 SPRING = AirAbsolute(A=0.03, H=1.0, n=1.3, p0=2e5)

@@ -14,7 +14,7 @@ from mechsym.codesign.manoeuvres import hold
 from mechsym.codesign.programme import solve
 from mechsym.codesign.running import ripple_of_last_turn
 from mechsym.codesign.verify import verify, worst
-from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.rollers import HingeLosses
 
 
 @cache

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from codesigns import design, task
 
-from mechsym.codesign.front import worth_it
-from mechsym.codesign.peers import cam_flywheel, gear_flywheel, peers
+from mechsym.codesign.front import cam_flywheel, gear_flywheel, peers, worth_it
 
 
 def by_name(points, ripple):

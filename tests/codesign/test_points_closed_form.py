@@ -8,10 +8,9 @@ import pytest
 from scipy.interpolate import CubicSpline, PPoly
 from scipy.special import ellipk
 
-from mechsym.codesign.contact_block import path_of
-from mechsym.codesign.hardware import roller_inertia
 from mechsym.codesign.points import Point, bare_flywheel, bare_ripple, grid, motion, sample
 from mechsym.codesign.rank import flywheel_estimate, rank
+from mechsym.codesign.task import path_of, roller_inertia
 
 OMEGA, OWN = 12.0, 0.5
 TURN = 2 * math.pi

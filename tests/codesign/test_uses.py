@@ -19,7 +19,7 @@ from mechsym.codesign.realise import realise
 from mechsym.codesign.verify import worst
 from mechsym.cycle.pressure import unfired
 from mechsym.errors import BadInput
-from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.rollers import HingeLosses
 from mechsym.jobs.codesign import points as points_of
 from mechsym.jobs.machine import machine
 from mechsym.mechanisms.record import curves

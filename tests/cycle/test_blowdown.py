@@ -10,10 +10,8 @@ import scipy
 
 from mechsym import cases
 from mechsym.cases.new_engine import write_engine
-from mechsym.cycle.closed.blowdown import open_period
-from mechsym.cycle.closed.differentiable import design_function
-from mechsym.cycle.closed.model import closed_period
-from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.closed.model import closed_period, open_period
+from mechsym.cycle.closed.performance import design_function, performance
 from mechsym.cycle.mixture import properties
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import cycle, engine

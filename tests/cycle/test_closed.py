@@ -11,8 +11,7 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.performance import performance
-from mechsym.cycle.closed.phases import closed_function, closed_map
-from mechsym.cycle.closed.run import dense, run
+from mechsym.cycle.closed.run import closed_function, closed_map, dense, run
 from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Woschni
 from mechsym.cycle.kinds.spark_ignition import otto_efficiency
 from mechsym.cycle.mixture import NasaMixture

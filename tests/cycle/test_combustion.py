@@ -16,7 +16,7 @@ from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.run import at_angles, run
 from mechsym.cycle.measured.checks import _EXPANSION_TOLD
-from mechsym.cycle.measured.fits import fit_double_wiebe, fit_wiebe, least_squares_fit
+from mechsym.cycle.measured.combustion import fit_double_wiebe, fit_wiebe, least_squares_fit
 from mechsym.cycle.measured.heat_release import (
     Walls,
     burn_angles,

@@ -11,9 +11,9 @@ from mechsym.cli.common import parse_speeds
 from mechsym.cli.compare import compare
 from mechsym.cli.cycle import cycle
 from mechsym.cycle.closed.model import at_design, design_names
-from mechsym.cycle.compare import crossovers
+from mechsym.cycle.columns import crossovers
 from mechsym.cycle.engine import curves, over_speeds
-from mechsym.cycle.motion import piston_motion
+from mechsym.cycle.gas import piston_motion
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.quantities import RPM

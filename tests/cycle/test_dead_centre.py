@@ -13,9 +13,9 @@ from slider_crank import slider_crank
 
 from mechsym.cli.cycle import cycle as cycle_command
 from mechsym.cycle.chamber import travel
-from mechsym.cycle.measured.dead_centre import behind_peak, from_compression, from_motored, is_motored, peak_angle
+from mechsym.cycle.measured.alignment import behind_peak, from_compression, from_motored, is_motored, peak_angle
+from mechsym.cycle.measured.file import spread_error
 from mechsym.cycle.measured.joint_fit import Prior
-from mechsym.cycle.measured.timing import spread_error
 
 LINE = (-90 * DEG, -15 * DEG)
 DATA = os.environ.get("MECHSYM_TEST_DATA", "")

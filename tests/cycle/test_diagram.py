@@ -9,14 +9,12 @@ from hypothesis import strategies as st
 from slider_crank import slider_crank
 
 from mechsym.cycle.chamber import travel, volume
-from mechsym.cycle.measured.charge_line import ChargeShape, log_pressure, mean_exponent
 from mechsym.cycle.measured.checks import diagram_doubts
 from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.measured.facts import cycle_work, weak_cycles, work_per_angle
-from mechsym.cycle.measured.joint_fit import Prior, cycle_lines, joint_fit
-from mechsym.cycle.measured.measure import measured_cycles
+from mechsym.cycle.measured.joint_fit import ChargeShape, Prior, cycle_lines, joint_fit, log_pressure, mean_exponent
+from mechsym.cycle.measured.measure import cycle_work, measured_cycles, weak_cycles, work_per_angle
 from mechsym.cycle.measured.pressure import diagram_pressure
-from mechsym.cycle.measured.smoothing import noise, smooth
+from mechsym.cycle.measured.signal import noise, smooth
 from mechsym.cycle.wiebe import wiebe
 from mechsym.errors import BadInput
 

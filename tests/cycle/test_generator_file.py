@@ -9,9 +9,8 @@ import pytest
 
 from mechsym import cases
 from mechsym.cycle.kinds import gas_in_cylinder, with_diagram
-from mechsym.cycle.measured.charge_line import mean_exponent
-from mechsym.cycle.measured.facts import cycle_work, weak_cycles, work_per_angle
-from mechsym.cycle.measured.measure import measured_cycles
+from mechsym.cycle.measured.joint_fit import mean_exponent
+from mechsym.cycle.measured.measure import cycle_work, measured_cycles, weak_cycles, work_per_angle
 from mechsym.errors import BadInput
 from mechsym.mechanisms import crosshead
 

@@ -7,9 +7,8 @@ import pytest
 from simulated_engine import DEG, records
 from slider_crank import slider_crank
 
-from mechsym.cycle.measured.charge_line import ChargeShape, by_clearance, log_pressure
-from mechsym.cycle.measured.dead_centre import from_compression, from_motored
-from mechsym.cycle.measured.joint_fit import Prior, clearance_asked
+from mechsym.cycle.measured.alignment import from_compression, from_motored
+from mechsym.cycle.measured.joint_fit import ChargeShape, Prior, by_clearance, clearance_asked, log_pressure
 
 LINE = (-90 * DEG, -15 * DEG)
 LIMIT, SHEET = 2.25, 0.03  # standard deviations, and what data sheets leave, as of the doubt

@@ -11,16 +11,14 @@ from scipy.integrate import quad
 
 from mechsym import cases
 from mechsym.cli import mechsym
-from mechsym.cycle.closed.differentiable import design_function
 from mechsym.cycle.closed.model import closed_period
-from mechsym.cycle.closed.phases import steps_of
-from mechsym.cycle.closed.run import at_angles, run
+from mechsym.cycle.closed.performance import design_function
+from mechsym.cycle.closed.run import at_angles, run, steps_of
 from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, knock_along, knock_of_runs, share_of_delay
 from mechsym.cycle.mixture import ConstantGamma
 from mechsym.jobs.cycle import engine
 from mechsym.jobs.optimise import optimise
-from mechsym.optimise.problem import Optimise, problem
-from mechsym.optimise.solver import solve
+from mechsym.optimise.solver import Optimise, problem, solve
 
 OMEGA = 300.0
 

@@ -10,9 +10,9 @@ from simulated_engine import DEG, records
 from slider_crank import slider_crank
 
 from mechsym.cli.cycle import cycle as cycle_command
-from mechsym.cycle.measured.dead_centre import THROUGH, from_motored
+from mechsym.cycle.measured.alignment import THROUGH, from_motored
 from mechsym.cycle.measured.joint_fit import Prior, joint_fit, pulls
-from mechsym.cycle.measured.lag import cycle_fits, sensor_lag, without_lag
+from mechsym.cycle.measured.shared_centre import cycle_fits, sensor_lag, without_lag
 
 LINE = (-90 * DEG, -15 * DEG)
 RUN_DOWN = np.linspace(1.0, 0.4, 6)

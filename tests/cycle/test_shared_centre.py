@@ -13,12 +13,11 @@ from simulated_engine import DEG, encoder_records
 from slider_crank import slider_crank
 
 from mechsym.cli.cycle import cycle as cycle_command
-from mechsym.cycle.measured.dead_centre import from_compression
-from mechsym.cycle.measured.figures import interval, mean_pressures, variation
+from mechsym.cycle.measured.alignment import from_compression
+from mechsym.cycle.measured.heat_release import interval, mean_pressures, variation
 from mechsym.cycle.measured.joint_fit import Prior, information, joint_fit
-from mechsym.cycle.measured.losses import expected_losses
-from mechsym.cycle.measured.shared_centre import EncoderRecord, shared_centre
-from mechsym.cycle.measured.swing import without_drift
+from mechsym.cycle.measured.shared_centre import EncoderRecord, expected_losses, shared_centre
+from mechsym.cycle.measured.signal import without_drift
 from mechsym.errors import BadInput
 
 LINE = (-90 * DEG, -15 * DEG)

@@ -9,10 +9,9 @@ from simulated_engine import DEG, encoder_records
 from slider_crank import slider_crank
 
 from mechsym.cycle.measured.diagram import Diagram
-from mechsym.cycle.measured.facts import diagram_facts
-from mechsym.cycle.measured.figures import mean_pressures
-from mechsym.cycle.measured.measure import measured_cycles
-from mechsym.cycle.measured.swing import closing, half_integral, without_drift
+from mechsym.cycle.measured.heat_release import mean_pressures
+from mechsym.cycle.measured.measure import diagram_facts, measured_cycles
+from mechsym.cycle.measured.signal import closing, half_integral, without_drift
 from mechsym.errors import BadInput
 
 EXHAUST = 1.1e5  # of every made record

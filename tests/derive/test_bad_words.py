@@ -163,7 +163,10 @@ def test_a_slip_is_told_in_one_line(tmp_path, slip):
             "the name 'angle_rod' is taken (first at",
         ),
         ("from mechsym.derive import Mechanism\n\nm = Mechanism(5)\n", "bad.py:3: 5 names no mechanism"),
-        ("from mechsym.derive import Mechanism\n\nm = Mechanism()\n", "write Mechanism(name, source='own', about='')"),
+        (
+            "from mechsym.derive import Mechanism\n\nm = Mechanism()\n",
+            "write Mechanism(name, source='own', about='', *, space=2)",
+        ),
         ("a = '\0'\n", "bad.py: SyntaxError: source code string cannot contain null bytes"),
         ("", "declares no mechanism; write a function that makes one and returns it"),
     ],

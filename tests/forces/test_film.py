@@ -15,8 +15,17 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from mechsym.cli import mechsym
-from mechsym.forces.film import beyond, finite_velocity, impedance, orbit, rotation, squeeze, velocity
-from mechsym.forces.mains import Journal, MainShaft
+from mechsym.forces.mains import (
+    Journal,
+    MainShaft,
+    beyond,
+    finite_velocity,
+    impedance,
+    orbit,
+    rotation,
+    squeeze,
+    velocity,
+)
 
 SHAFT = MainShaft(journal_diameter=0.05, bearing_width=0.02, clearance=25e-6, oil_viscosity=0.01)
 OMEGA, N = 300.0, 360

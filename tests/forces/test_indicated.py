@@ -11,7 +11,7 @@ from tables import read_table
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.forces.indicated import NORMAL_95, CrankTorque, gaps, pressure_from_torque, scatter, shaft_lines, work
+from mechsym.forces.textbook import NORMAL_95, CrankTorque, gaps, pressure_from_torque, scatter, shaft_lines, work
 from mechsym.jobs.indicated import common_gas, indicated
 from mechsym.jobs.machine import turn
 

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from small_machines import machine, smooth_gas, turn_of
 
 from mechsym.cases.settings import Operation
-from mechsym.cycle.gas import at_same_travel
-from mechsym.cycle.motion import piston_travel
+from mechsym.cycle.gas import at_same_travel, piston_travel
 from mechsym.errors import BadInput
 from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import (

@@ -12,8 +12,7 @@ from click.testing import CliRunner
 from mechsym import cases, cli
 from mechsym.cases.outcomes import of_motion
 from mechsym.errors import BadInput
-from mechsym.forces.driven import numbers
-from mechsym.forces.motion import WORDS
+from mechsym.forces.driven import WORDS, numbers
 from mechsym.jobs.forces import motion
 from mechsym.jobs.machine import mechanism_of
 from mechsym.mechanisms import evaluate, loops, state

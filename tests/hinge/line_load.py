@@ -1,7 +1,6 @@
 """A limit of its own for the tests: force of the spring by the width of contact."""
 
-from mechsym.hinge.bounds.face import GuideLimit
-from mechsym.hinge.choices import Limits
+from mechsym.hinge.choices import GuideLimit, Limits
 from mechsym.quantities import record
 
 LINE_LOAD = GuideLimit(

@@ -8,7 +8,7 @@ import pytest
 
 from mechsym import periodic
 from mechsym.errors import BadInput
-from mechsym.hinge import contact as contacts
+from mechsym.hinge import limits as contacts
 from mechsym.hinge.choices import GuideParameters, Limits
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.limits import judge, undercut_radius

@@ -12,7 +12,7 @@ from tables import read_table
 from mechsym import cases
 from mechsym.cli import main
 from mechsym.files import to_json
-from mechsym.hinge import report
+from mechsym.hinge import shown
 from mechsym.hinge import steady as steadiness
 from mechsym.hinge.guide import crank_torque
 from mechsym.hinge.summary import HingeNumbers
@@ -84,7 +84,7 @@ def test_flywheel_is_found_although_the_diagram_has_noise(generator):
 
 @pytest.mark.slow
 def test_files_hold_two_turns(generator, tmp_path):
-    files = {file.name: file for file in report.write(generator, tmp_path)}
+    files = {file.name: file for file in shown.write(generator, tmp_path)}
     table, _ = read_table(files["hinge.csv"])
     assert table["phi"][-1] == pytest.approx(4 * math.pi)
     for name in ("pressure", "hinge_torque", "hinge_work"):
@@ -97,7 +97,7 @@ def test_files_hold_two_turns(generator, tmp_path):
 
 @pytest.mark.slow
 def test_report_tells_what_was_measured_and_assumed(generator, tmp_path):
-    text = report.write(generator, tmp_path)[0].read_text(encoding="utf-8")
+    text = shown.write(generator, tmp_path)[0].read_text(encoding="utf-8")
     for words in (
         "firing dead centre at", "95 %:", "12 cycles", "nearly misfired", "were taken off", "scaled by",
         "spread evenly", "two ways to give it", "what repeats every turn", "turns even without a flywheel",

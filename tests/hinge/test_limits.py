@@ -13,7 +13,7 @@ from mechsym.hinge import limits as feasibility
 from mechsym.hinge.springs.air import AirGauge
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.coil import Coil
-from mechsym.papers.zotov2024.computed import family
+from mechsym.papers.zotov2024.rows import family
 
 LIMITS = section("limits")
 THERMAL = AirThermal(A=0.031, H=1.0, p0=5e6, tau=1.0)

@@ -15,7 +15,7 @@ from mechsym.codesign.loss import losses
 from mechsym.codesign.programme import solve
 from mechsym.codesign.verify import verify
 from mechsym.errors import BadInput
-from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.rollers import HingeLosses
 from mechsym.jobs.codesign import codesign_task
 from mechsym.out.cad.sheet import spring_text
 

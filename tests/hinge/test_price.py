@@ -10,8 +10,8 @@ from hinges import monotone_seal_torque
 from mechsym import cases, jobs
 from mechsym.cycle.pressure import unfired
 from mechsym.hinge.guide import cut, fitted
-from mechsym.hinge.losses import HingeLosses
 from mechsym.hinge.price import misfire_share, price
+from mechsym.hinge.rollers import HingeLosses
 from mechsym.hinge.torque import torque
 from mechsym.machine.record import lever
 from mechsym.simulate.angle import tabulate

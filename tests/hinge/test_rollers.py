@@ -6,8 +6,8 @@ from hinges import HIGHER, LOWER, section, whole
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from mechsym.hinge import contact as turn
 from mechsym.hinge import guide, rollers
+from mechsym.hinge import limits as turn
 from mechsym.hinge.limits import undercut_radius
 from mechsym.hinge.rollers import RollerParameters
 

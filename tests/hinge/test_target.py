@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from mechsym import cases, jobs
 from mechsym.app.answers import hinge_answer
 from mechsym.cli import mechsym
-from mechsym.hinge.target import Target, design_words, guide_words
+from mechsym.hinge.result import Target, design_words, guide_words
 from mechsym.quantities.results import tell
 
 SUCCESS = re.compile(r"\boptimal\b|\bcan be built\b|\bbuildable\b|(?<!not )\bmet\b|class=\"yes\"")
@@ -28,11 +28,11 @@ def plain(page):
 @pytest.mark.parametrize(
     ("ripples", "kept", "words"),
     [
-        ((0.099,), False, "2 % missed with losses: 9.9 %"),
-        ((0.004, 0.0203), True, "2 % met with losses: 2.03 %"),
-        ((0.004, 0.0205), False, "2 % missed with losses: 2.05 %"),
-        ((None,), False, "2 % missed: with losses there is no steady motion"),
-        ((0.01, None), False, "2 % missed: with losses there is no steady motion at some points"),
+        ((0.099,), False, "ripple of 2 % missed with losses: 9.9 %"),
+        ((0.004, 0.0203), True, "ripple of 2 % met with losses: 2.03 %"),
+        ((0.004, 0.0205), False, "ripple of 2 % missed with losses: 2.05 %"),
+        ((None,), False, "ripple of 2 % missed: with losses there is no steady motion"),
+        ((0.01, None), False, "ripple of 2 % missed: with losses there is no steady motion at some points"),
     ],
 )
 def test_the_sentence(ripples, kept, words):
@@ -53,7 +53,10 @@ def test_no_guide_meets_nothing():
 
 
 def test_left_out_losses_are_said_to_be():
-    assert Target(ripple=0.02, with_losses=(0.02,), held=True, losses=False).words == "2 % met without losses: 2 %"
+    assert (
+        Target(ripple=0.02, with_losses=(0.02,), held=True, losses=False).words
+        == "ripple of 2 % met without losses: 2 %"
+    )
 
 
 @pytest.fixture(scope="module")
@@ -68,7 +71,7 @@ def test_hinge_says_first_what_it_misses(marine):
     real = numbers["losses"]["speed_ripple"]
     assert done.exit_code == 0 and real > 0.09
     first, *rest = done.output.splitlines()
-    assert re.fullmatch(r"guide can be cut; 2 % missed with losses: 9\.\d %", first)
+    assert re.fullmatch(r"guide can be cut; ripple of 2 % missed with losses: 9\.\d %", first)
     assert not SUCCESS.search("\n".join(rest))
     assert numbers["target"] == {"ripple": 0.02, "met": False, "ripple_with_losses": [real]}
     page = plain((folder / "report.html").read_text())

@@ -7,8 +7,7 @@ from hinges import small_stroke_index
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsym.hinge.springs.air_thermal import AirThermal
-from mechsym.hinge.springs.gas_heat import gas_temperature, x_of_index
+from mechsym.hinge.springs.air_thermal import AirThermal, gas_temperature, x_of_index
 
 N = 3600
 PHI = np.arange(N) * 2 * np.pi / N

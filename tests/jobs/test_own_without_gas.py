@@ -8,11 +8,10 @@ from one_turn import turned
 
 from mechsym import cases
 from mechsym.cases.check import check_file
-from mechsym.cases.runs import settings_of
+from mechsym.cases.settings import settings_of
 from mechsym.codesign.machines import point
 from mechsym.errors import BadInput
-from mechsym.hinge.report import html
-from mechsym.hinge.shown import pictures
+from mechsym.hinge.shown import html, pictures
 from mechsym.hinge.summary import HingeNumbers, hinge_columns
 from mechsym.hinge.torque import torque
 from mechsym.jobs.flywheel import flywheel

@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 from mechsym import cases
-from mechsym.cases.runs import settings_of
+from mechsym.cases.settings import settings_of
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.machine import turn

@@ -11,7 +11,7 @@ from one_turn import turned
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from mechsym import cases
-from mechsym.cases.runs import settings_of
+from mechsym.cases.settings import settings_of
 from mechsym.errors import BadInput
 from mechsym.jobs.hinge import hinge
 from mechsym.jobs.machine import machine, one_coordinate

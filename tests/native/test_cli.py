@@ -5,7 +5,7 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from mechsym.cli.native import native
+from mechsym.cli.catalogue import native
 
 
 @pytest.fixture(autouse=True)

@@ -6,8 +6,8 @@ import casadi as ca
 import numpy as np
 import pytest
 
-from mechsym.cycle.closed import runge_kutta
-from mechsym.native.fold import folder
+from mechsym.cycle.closed import run
+from mechsym.native.march import folder
 
 s, y, z = ca.SX.sym("s"), ca.SX.sym("y", 2), ca.SX.sym("z", 2)
 # y0 = exp(z0 sin s), and a quadrature beside it
@@ -19,10 +19,10 @@ def fold(request, monkeypatch, tmp_path):
     if request.param == "numpy":
         monkeypatch.delenv("CC", raising=False)
         monkeypatch.setenv("PATH", str(tmp_path))
-        return folder(RATE, runge_kutta.METHOD)
+        return folder(RATE, run.METHOD)
     if not any(map(shutil.which, ("gcc", "clang", "cc"))):
         pytest.skip("no C compiler")
-    return folder(RATE, runge_kutta.METHOD, request.param)
+    return folder(RATE, run.METHOD, request.param)
 
 
 @pytest.mark.parametrize("count", [1, 15, 16, 37])
@@ -30,7 +30,7 @@ def test_the_same_as_the_fold_of_casadi(fold, count):
     rng = np.random.default_rng(count)
     start, held = rng.uniform(0.5, 1.5, (2, count)), rng.uniform(-2, 2, (2, count))
     found = fold(start, held, 7)
-    one = runge_kutta.fold(RATE, 7)
+    one = run.fold(RATE, 7)
     wanted = np.stack([np.asarray(one(start[:, i], held[:, i])).T for i in range(count)], axis=2)
     assert found.shape == (7, 2, count)
     np.testing.assert_allclose(found, wanted, rtol=1e-13, atol=1e-15)

@@ -14,8 +14,7 @@ from mechsym import native
 from mechsym.native import source
 from mechsym.native.fallback import numpy_function
 from mechsym.native.kernels import constant_table, kernels, split
-from mechsym.native.rewrite import cheaper, factored
-from mechsym.native.tape import read
+from mechsym.native.tape import cheaper, factored, read
 
 # a change of the derivations or of CasADi that makes generated functions dearer must be seen
 BASELINE = Path(__file__).parent / "operation-counts.json"

@@ -11,13 +11,11 @@ from pictures import drawn, faults
 
 from mechsym.cases import load, text
 from mechsym.cli.optimise import optimise
-from mechsym.cycle.closed.differentiable import SCALAR_UNITS, design_function
-from mechsym.cycle.closed.performance import performance
+from mechsym.cycle.closed.performance import SCALAR_UNITS, design_function, performance
 from mechsym.cycle.plots import pareto_picture
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
-from mechsym.optimise.problem import Optimise, problem
-from mechsym.optimise.solver import pareto, solve
+from mechsym.optimise.solver import Optimise, pareto, problem, solve
 from mechsym.quantities import RPM
 
 NAMES = ["omega", "cycle.ignition", "chamber.compression_ratio", "parameters.e", "chamber.bore"]

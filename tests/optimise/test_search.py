@@ -10,8 +10,8 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.optimise import figures, optimise, programme
-from mechsym.optimise.problem import Limit, Optimise
 from mechsym.optimise.search import FigureProgramme, search
+from mechsym.optimise.solver import Limit, Optimise
 
 INF = float("inf")
 

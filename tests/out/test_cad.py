@@ -85,7 +85,7 @@ def test_a_file_states_length_and_area_of_the_exact_curves(shops):
     """At any tolerance: what the text says is not what the splines enclose."""
     shop = shops("zotov-89")
     document = ezdxf.read(io.StringIO(text(track(shop.guide, shop.rollers, 1e-5, shop.kinks), 0.06, ["a"])))
-    stated = check._stated(e.dxf.text for e in document.modelspace().query("TEXT"))
+    stated = check.stated([e.dxf.text for e in document.modelspace().query("TEXT")])
     assert stated.keys() == {"CENTRES", "INNER", "OUTER"}
     for layer, side in {"CENTRES": 0.0, "INNER": -1.0, "OUTER": 1.0}.items():
         true = check.true_size(shop.guide.rho, side * shop.rollers.radius)

@@ -16,7 +16,7 @@ from mechsym.out.fmi import controller, fmu, write
 pytest.importorskip("fmpy", reason="the extra fmu is not installed")
 validation = pytest.importorskip("fmpy.validation")
 
-from mechsym.out.fmi.drive import driven  # noqa: E402
+from mechsym.out.fmi.compare import driven  # noqa: E402
 
 SAMPLES = 180  # of a period
 

@@ -26,8 +26,7 @@ from mechsym.simulate import Settings, simulate
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
 validation = pytest.importorskip("fmpy.validation")
 
-from mechsym.out.fmi.compare import compare  # noqa: E402
-from mechsym.out.fmi.drive import driven  # noqa: E402
+from mechsym.out.fmi.compare import compare, driven  # noqa: E402
 
 VERSIONS = (2, 3)
 ALL = [pytest.param(name, marks=() if name == "zotov-89" else pytest.mark.slow) for name in cases.names()]

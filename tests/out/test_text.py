@@ -21,8 +21,8 @@ from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.mechanisms import names
 from mechsym.mechanisms.record import bind, generated
+from mechsym.out.text.dialects import of_block, of_mechanism
 from mechsym.out.text.files import files
-from mechsym.out.text.programs import of_block, of_mechanism
 from mechsym.simulate import Settings, simulate
 
 DERIVED = [n for n in names() if n != "crank_train"]

@@ -7,7 +7,7 @@ import pytest
 
 import mechsym
 from mechsym import cases
-from mechsym.cycle.compare import compare
+from mechsym.cycle.columns import compare
 from mechsym.errors import BadInput
 from mechsym.jobs.codesign import codesign, settings_of
 from mechsym.jobs.cycle import cycle

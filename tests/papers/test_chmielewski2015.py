@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.papers.chmielewski2015 import computed as paper
+from mechsym.papers.chmielewski2015 import rows as paper
 from mechsym.papers.sources import sources
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mechsym.cases import load
-from mechsym.cycle.compare import crossovers
+from mechsym.cycle.columns import crossovers
 from mechsym.cycle.engine import columns, over_speeds
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.papers.nunes2017.errata import errata

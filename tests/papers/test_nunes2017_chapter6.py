@@ -11,7 +11,7 @@ from mechsym.cases import load
 from mechsym.cycle.engine import over_speeds
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
-from mechsym.papers import record
+from mechsym.papers import rows as record
 from mechsym.papers.nunes2017 import outlook, rows
 from mechsym.quantities import RPM
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from mechsym.papers import record, sources
+from mechsym.papers import rows as record
+from mechsym.papers import sources
 
 SEEDS = os.environ.get("MECHSYM_TEST_SEEDS") or str(
     Path(os.environ.get("MECHSYM_TEST_DATA", "/nowhere")).parent / "seeds"

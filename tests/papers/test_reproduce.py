@@ -10,7 +10,8 @@ from pictures import drawn, faults, ids
 from mechsym import papers
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.papers import page, record, sources
+from mechsym.papers import page, sources
+from mechsym.papers import rows as record
 from mechsym.papers.rows import ARITHMETIC, KEYS, NOT_REPRODUCED, REPRODUCED, VERDICTS, by_digits, last_digit, row
 
 FAST = ("zotov2024", "moroianu2017", "prymak")

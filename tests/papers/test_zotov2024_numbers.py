@@ -5,7 +5,7 @@ import pytest
 
 from mechsym.cases import load
 from mechsym.papers.sources import sources
-from mechsym.papers.zotov2024 import computed as zotov2024
+from mechsym.papers.zotov2024 import rows as zotov2024
 
 PHI = np.linspace(0, 2 * np.pi, 721)
 

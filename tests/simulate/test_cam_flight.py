@@ -7,7 +7,7 @@ import pytest
 import scipy
 
 from mechsym import mechanisms
-from mechsym.forces.cams import cams as cams_of
+from mechsym.forces.summary import cams as cams_of
 from mechsym.forces.turn import crank_drive, turn
 from mechsym.mechanisms.record import bind
 from mechsym.simulate import Settings, simulate

@@ -7,7 +7,7 @@ import pytest
 from locking import CASE, FOURBAR
 
 from mechsym import cases
-from mechsym.cases.runs import settings_of
+from mechsym.cases.settings import settings_of
 from mechsym.errors import BadInput
 from mechsym.jobs import run
 from mechsym.jobs.problem import problem_of

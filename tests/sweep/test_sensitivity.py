@@ -10,8 +10,8 @@ from mechsym.cases.values import Place
 from mechsym.errors import BadInput
 from mechsym.sweep import Plan, layout, sweep
 from mechsym.sweep.axes import Axis, saltelli
+from mechsym.sweep.data import estimates, indices
 from mechsym.sweep.run import Sweep
-from mechsym.sweep.sensitivity import estimates, indices
 
 A, B = 7.0, 0.1
 _V1, _V2, _V13 = (1 + B * math.pi**4 / 5) ** 2 / 2, A**2 / 8, B**2 * math.pi**8 * (1 / 18 - 1 / 50)

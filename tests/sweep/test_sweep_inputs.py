@@ -194,7 +194,7 @@ OTHER_READERS = set(
     """
     app/commands.py app/saving.py app/server.py audit/theory/catalogue.py cases/numbers.py cli/__init__.py cli/audit.py
     derive/build.py files.py inputs.py mechanisms/own.py mechanisms/record.py native/cache.py native/compiler.py
-    out/cad/step.py out/fmi/build.py out/pdf.py out/web/build.py papers/record.py proof/motion.py sweep/store.py
+    out/cad/step.py out/fmi/build.py out/pdf.py out/web/build.py papers/rows.py proof/motion.py sweep/store.py
     transaction.py trust.py
 """.split()
 )

@@ -15,8 +15,7 @@ from mechsym.simulate.settings import StepTorque
 from mechsym.torsion import critical_speeds, matrices, orders, sections
 from mechsym.torsion.modes import Critical, Modes, Orders, holding_damping, modes, phase_sums, stiffness_factor
 from mechsym.torsion.startup import Capture, StartUp, StartUpClaim, find_captures, findings, numbers, start_up
-from mechsym.torsion.train import ShaftLimits, doubts, operating_range, vibration
-from mechsym.torsion.twist import sentences, settling
+from mechsym.torsion.twist import ShaftLimits, doubts, operating_range, sentences, settling, vibration
 
 TRAIN, FLYWHEEL = "crank_train", "crankshaft_flywheel"
 I1, I2, K, C = 0.3, 0.9, 5000.0, 4.0

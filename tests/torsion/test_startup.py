@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mechsym import cases, mechanisms
-from mechsym.cases.runs import settings_of
+from mechsym.cases.settings import settings_of
 from mechsym.jobs.problem import problem_of
 from mechsym.jobs.run import startup, startup_map
 from mechsym.simulate import Settings, simulate

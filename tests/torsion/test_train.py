@@ -12,7 +12,7 @@ from mechsym.cli import mechsym
 from mechsym.jobs.forces import vibration
 from mechsym.jobs.machine import turn
 from mechsym.jobs.run import run
-from mechsym.torsion.train import doubts, operating_range, twist_words, words
+from mechsym.torsion.twist import doubts, operating_range, twist_words, words
 
 NAME = "alpha-stirling"
 

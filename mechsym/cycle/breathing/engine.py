@@ -17,19 +17,17 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from mechsym.cycle.breathing.equations import Cylinder
 from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, GasExchange, HeatSink, Surroundings, charge
-from mechsym.cycle.breathing.run import breathe
+from mechsym.cycle.breathing.run import Cylinder, breathe
 from mechsym.cycle.breathing.turbocharger import Boost, Boosted, atmosphere, boosted
 from mechsym.cycle.chamber import Chamber, ChamberParameters, Motion, chamber, piston_force, travel, volume
-from mechsym.cycle.cylinder import ENGINE_PAGE, otto_bound
 from mechsym.cycle.friction import Friction, NoFriction, brake_figures, friction_pressure
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.heat import Adiabatic, Law
 from mechsym.cycle.knock import knock_along
 from mechsym.cycle.plots import breathing_picture
 from mechsym.cycle.pressure import Pressure, peak, periodic, pressure_over
-from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
+from mechsym.cycle.source import ENGINE_PAGE, EngineParts, FiguresPage, Progress, otto_bound, unseen
 from mechsym.cycle.wiebe import BURNT, burnt_at
 from mechsym.errors import BadInput
 from mechsym.files import Json
@@ -67,9 +65,7 @@ def run(engine: BreathingEngine, omega: Sequence[float]) -> BreathingRun:
     room, b = chamber(engine.chamber, engine.motion), engine.breathing
     _check(engine)
     walls = HeatSink(law=engine.heat_transfer, bore=room.bore, stroke=room.stroke, displacement=room.displacement)
-    cylinder = Cylinder(
-        breathing=b, charge=charge(engine.cycle), volume=lambda phi: volume(room, phi), walls=walls
-    )  # fmt: skip
+    cylinder = Cylinder(breathing=b, charge=charge(engine.cycle), volume=lambda phi: volume(room, phi), walls=walls)
     outside = atmosphere(b.altitude)
     if engine.boost is None:
         around = _around(b, outside[0], outside[1], outside[0])
@@ -100,8 +96,9 @@ def _around(b: Breathing, p_in: Scalar, T_in: Scalar, p_out: Scalar) -> Surround
 
 def _check(engine: BreathingEngine) -> None:
     b, c = engine.breathing, engine.cycle
-    given = [name for name in ("inlet_pressure", "inlet_temperature", "exhaust_pressure")
-             if getattr(b, name) is not None]  # fmt: skip
+    given = [
+        name for name in ("inlet_pressure", "inlet_temperature", "exhaust_pressure") if getattr(b, name) is not None
+    ]
     if engine.boost is not None and given:
         raise BadInput(f"breathing.{given[0]} and [boost] both say what is before the engine; leave one of them out")
     for name, late in (("exhaust", b.exhaust_opens > b.exhaust_closes), ("inlet", b.inlet_opens > b.inlet_closes)):

@@ -17,11 +17,9 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from mechsym.cycle.breathing.flow import orifice_flow
-from mechsym.cycle.breathing.scavenging import Scavenging, dew_point, flow_area, remaining, trapped_temperature
+from mechsym.cycle.breathing.flow import Scavenging, dew_point, flow_area, orifice_flow, remaining, trapped_temperature
 from mechsym.cycle.breathing.turbocharger import atmosphere, compressor_temperature
 from mechsym.cycle.chamber import Chamber, chamber_over, volume
-from mechsym.cycle.cylinder import CylinderGas
 from mechsym.cycle.kinds.two_stroke import (
     TwoStrokeMarine,
     absolute_pressure,
@@ -33,7 +31,7 @@ from mechsym.cycle.kinds.two_stroke import (
     two_stroke_pressure,
 )
 from mechsym.cycle.pressure import Pressure, mean_indicated_pressure
-from mechsym.cycle.source import EngineParts
+from mechsym.cycle.source import CylinderGas, EngineParts
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 from mechsym.quantities.display import quantity_text

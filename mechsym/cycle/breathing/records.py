@@ -16,16 +16,20 @@ class Breathing:
 
     inlet_diameter: float = quantity("m", above=0, about="inner diameter of the inlet valve's seat")
     inlet_lift: float = quantity("m", above=0, about="largest lift of the inlet valve")
-    inlet_opens: float = quantity("rad", default=math.radians(345), above=math.pi, below=5 * math.pi / 2,
-                                  about="from firing TDC")  # fmt: skip
-    inlet_closes: float = quantity("rad", default=math.radians(590), above=5 * math.pi / 2, below=PERIOD,
-                                   about="from firing TDC")  # fmt: skip
+    inlet_opens: float = quantity(
+        "rad", default=math.radians(345), above=math.pi, below=5 * math.pi / 2, about="from firing TDC"
+    )
+    inlet_closes: float = quantity(
+        "rad", default=math.radians(590), above=5 * math.pi / 2, below=PERIOD, about="from firing TDC"
+    )
     exhaust_diameter: float = quantity("m", above=0, about="inner diameter of the exhaust valve's seat")
     exhaust_lift: float = quantity("m", above=0, about="largest lift of the exhaust valve")
-    exhaust_opens: float = quantity("rad", default=math.radians(130), above=0, below=3 * math.pi / 2,
-                                    about="from firing TDC")  # fmt: skip
-    exhaust_closes: float = quantity("rad", default=math.radians(375), above=3 * math.pi / 2, below=3 * math.pi,
-                                     about="from firing TDC")  # fmt: skip
+    exhaust_opens: float = quantity(
+        "rad", default=math.radians(130), above=0, below=3 * math.pi / 2, about="from firing TDC"
+    )
+    exhaust_closes: float = quantity(
+        "rad", default=math.radians(375), above=3 * math.pi / 2, below=3 * math.pi, about="from firing TDC"
+    )
     valves: float = quantity("-", default=1.0, low=1, high=4, about="valves of each kind")
     discharge: float = quantity("-", default=0.7, above=0, high=1, about="discharge coefficient of valves and throats")
     throttle_diameter: float = quantity("m", above=0, about="throat between the surroundings and the plenum")
@@ -33,12 +37,15 @@ class Breathing:
     tailpipe_diameter: float = quantity("m", above=0, about="throat between the manifold and the surroundings")
     manifold_volume: float = quantity("m^3", above=0, about="volume behind the exhaust valve")
     altitude: float = quantity("m", default=0.0, low=-500, high=11000, about="height above the sea (ISA)")
-    inlet_pressure: float | None = quantity("Pa", default=None, above=0, about="absolute, before the throttle; else "
-                                            "the atmosphere's or the turbocharger's")  # fmt: skip
-    inlet_temperature: float | None = quantity("K", default=None, above=0, about="before the throttle; else the "
-                                               "atmosphere's or the turbocharger's")  # fmt: skip
-    exhaust_pressure: float | None = quantity("Pa", default=None, above=0, about="absolute, behind the tail pipe; else "
-                                              "the atmosphere's or the turbocharger's")  # fmt: skip
+    inlet_pressure: float | None = quantity(
+        "Pa", default=None, above=0, about="absolute, before the throttle; else the atmosphere's or the turbocharger's"
+    )
+    inlet_temperature: float | None = quantity(
+        "K", default=None, above=0, about="before the throttle; else the atmosphere's or the turbocharger's"
+    )
+    exhaust_pressure: float | None = quantity(
+        "Pa", default=None, above=0, about="absolute, behind the tail pipe; else the atmosphere's or the turbocharger's"
+    )
 
 
 @record

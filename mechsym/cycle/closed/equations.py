@@ -17,10 +17,9 @@ import casadi as ca
 from mechsym.cycle.chamber import Chamber, volume, volume_and_slope, wall_area
 from mechsym.cycle.heat import GasAtWall, Law, heat_flux, motored_swirl
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
-from mechsym.cycle.values import Scalar
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
 from mechsym.quantities import record
-from mechsym.quantities.units import Kelvin, Pascal, Radian
+from mechsym.quantities.units import Kelvin, Pascal, Radian, Scalar
 
 PHASES = ("before", "during", "after")
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term

@@ -82,7 +82,7 @@ KINDS: dict[str, Kind] = {
         cycle="mechsym.cycle.measured.diagram:Diagram",
         gas="mechsym.cycle.measured.pressure:DiagramGas",
         measured=True,
-        recorded="mechsym.cycle.measured.timing:speed_of",
+        recorded="mechsym.cycle.measured.file:speed_of",
     ),
     "spark-ignition": Kind(
         cycle="mechsym.cycle.kinds.spark_ignition:SparkIgnition",

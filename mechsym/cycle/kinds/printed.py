@@ -25,11 +25,10 @@ from mechsym.cycle.closed.performance import Performance, burnt_angles, figures
 from mechsym.cycle.heat import GasAtWall, Law, heat_flux
 from mechsym.cycle.kinds.spark_ignition import Charge, SparkIgnition, charge, timing
 from mechsym.cycle.mixture import ConstantGamma
-from mechsym.cycle.values import Value
 from mechsym.errors import BadInput
 from mechsym.native.march import marcher
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, NewtonMetre, RadPerSecond
+from mechsym.quantities.units import Array, NewtonMetre, RadPerSecond, Scalar
 
 _CLOSES, _FIRING, _OPENS = 180, 360, 540
 _POINTS = 721
@@ -46,8 +45,8 @@ class March:
     t: np.ndarray
     v: np.ndarray  #: shape (361,): Volume [m^3]
     #: shape (n,) and float: Gas when the inlet closes with all of the fuel, and the fuel [kg]
-    mass: Value
-    fuel: Value
+    mass: Scalar
+    fuel: Scalar
     #: shape (360, n): Heats of the steps [J]
     heat_released: np.ndarray
     wall_heat: np.ndarray
@@ -119,7 +118,9 @@ def mean_torque(chamber: Chamber, result: March) -> NewtonMetre[Array]:
     return chamber.pistons * crank_torque(chamber, result).sum(axis=0) / _POINTS
 
 
-def _loss(chamber: Chamber, law: Law, gas: ConstantGamma, state: tuple[Value, Value, Value], omega: Value) -> Value:
+def _loss(
+    chamber: Chamber, law: Law, gas: ConstantGamma, state: tuple[Scalar, Scalar, Scalar], omega: Scalar
+) -> Scalar:
     p, t, v_end = state
     speed = chamber.stroke * omega / np.pi
     flux = heat_flux(law, GasAtWall(p, t, v_end, gas.gas_constant, chamber.bore, speed))

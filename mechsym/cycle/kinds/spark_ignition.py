@@ -19,7 +19,6 @@ import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
-from mechsym.cycle.values import Value
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Pure, Radian, RadPerSecond, Scalar
@@ -89,9 +88,9 @@ class SparkIgnition:
 class Charge(NamedTuple):
     """What is in the chamber: gas (when the inlet closes) and fuel [kg], heat that combustion may release [J]."""
 
-    gas: Value
-    fuel: Value
-    heat: Value
+    gas: Scalar
+    fuel: Scalar
+    heat: Scalar
 
 
 def combustion_efficiency(cycle: SparkIgnition) -> Pure[Scalar]:

@@ -114,8 +114,9 @@ def _columns(engine: StirlingEngine, omega: float) -> Json:
     }  # fmt: skip
     temperatures = {
         f"T_{side}_{name}_k": float(getattr(curve, name)())
-        for side, curve in (("e", found.T_e), ("c", found.T_c)) for name in ("min", "max")
-    }  # fmt: skip
+        for side, curve in (("e", found.T_e), ("c", found.T_c))
+        for name in ("min", "max")
+    }
     if second is not None:
         temperatures |= {"T_h_k": second.T_h, "T_k_k": second.T_k, "regenerator_effectiveness": second.effectiveness}
         flow = sum(lost for name, lost in second.work_losses.items() if name.startswith("flow_"))

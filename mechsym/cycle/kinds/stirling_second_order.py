@@ -76,24 +76,18 @@ class SecondOrder:
     """A Stirling engine at one speed, with what it loses."""
 
     turn: StirlingTurn
-    #: shaft speed [rad/s]
-    omega: float
+    omega: float  #: shaft speed [rad/s]
     #: temperatures of the gas in heater and cooler [K]
     T_h: float
     T_k: float
-    #: share of its heat that the regenerator gives back [-]
-    effectiveness: float
+    effectiveness: float  #: share of its heat that the regenerator gives back [-]
     #: mean Reynolds number of the regenerator's screens, and of the seal's gap [-]
     screen_reynolds: float
     seal_reynolds: float
-    #: powers lost, by name [W]
-    work_losses: dict[str, float]
-    #: heats lost from the hot to the cold side, by name [W]
-    heat_losses: dict[str, float]
-    #: brake power [W]
-    power: float
-    #: heat from the hot side, losses included [W]
-    heat_in: float
+    work_losses: dict[str, float]  #: powers lost, by name [W]
+    heat_losses: dict[str, float]  #: heats lost from the hot to the cold side, by name [W]
+    power: float  #: brake power [W]
+    heat_in: float  #: heat from the hot side, losses included [W]
 
     @property
     def efficiency(self) -> float:
@@ -218,9 +212,9 @@ def _at(
     frictions = [film.tube_friction(Re, _valensi(gas, duct, cycle.mean_pressure, omega))
                  for Re, duct in zip(reynolds, ducts, strict=True)]  # fmt: skip
     frictions[1] = film.screen_friction(reynolds[1])
-    drops = np.array([
-        _pressure_drop(cycle, duct, flow, turn, f) for duct, flow, f in zip(ducts, flows, frictions, strict=True)
-    ])  # fmt: skip
+    drops = np.array(
+        [_pressure_drop(cycle, duct, flow, turn, f) for duct, flow, f in zip(ducts, flows, frictions, strict=True)]
+    )
     screens = _mean(turn, reynolds[1])
     nusselt = float(film.screen_nusselt(screens, gas.Pr, losses.porosity))
     effectiveness = film.regenerator_effectiveness(nusselt / (screens * gas.Pr) * ducts[1].A_w / (2 * ducts[1].area))
@@ -262,9 +256,10 @@ def _wall_side(cycle: StirlingCylinders, losses: StirlingLosses, found: SecondOr
     drops = [
         heat * (1 / (_film(cycle, duct, flow, found) * duct.A_w) + beyond)
         for heat, duct, flow, beyond in (
-            (hot, heater, flows[0], losses.heater_resistance), (cold, cooler, flows[2], losses.cooler_resistance)
+            (hot, heater, flows[0], losses.heater_resistance),
+            (cold, cooler, flows[2], losses.cooler_resistance),
         )
-    ]  # fmt: skip
+    ]
     return np.array([cycle.T_e - drops[0], cycle.T_c + drops[1]])
 
 

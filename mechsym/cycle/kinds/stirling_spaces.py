@@ -59,8 +59,7 @@ class FiveSpaces:
     #: ratio of the heat capacities [-] and gas constant [J/(kg*K)]
     gamma: Scalar
     R: Scalar
-    #: absolute pressure, mean over a turn [Pa]
-    mean_pressure: Scalar
+    mean_pressure: Scalar  #: absolute pressure, mean over a turn [Pa]
     #: heat conductance between gas and wall by angular speed, of each working space [J/(K*rad)]
     film_e: Scalar = 0.0
     film_c: Scalar = 0.0
@@ -194,8 +193,7 @@ _POINTS = 2880
 class WorkingGas:
     """An ideal gas of constant heat capacities, viscosity after Sutherland."""
 
-    #: gas constant [J/(kg*K)]
-    R: float
+    R: float  #: gas constant [J/(kg*K)]
     #: ratio of the heat capacities, and Prandtl number [-]
     gamma: float
     Pr: float

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.closed.runge_kutta import fold
+from mechsym.cycle.closed.run import fold
 from mechsym.cycle.kinds.stirling_spaces import STATES, TALLIES, FiveSpaces, evaluated, exchanger_capacity, rates
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -26,12 +26,9 @@ _CLEARANCE = 1e-3  # of the largest volume, in this march alone: nothing is divi
 class Order:
     """Directions of the flows from cut to cut."""
 
-    #: shaft angle where the turn starts, in the middle of the longest stretch [rad]
-    start: float
-    #: for each stretch whether gas flows into expansion and compression space
-    inward: tuple[tuple[bool, bool], ...]
-    #: for each cut the space whose flow turns round: 0 expansion, 1 compression
-    turning: tuple[int, ...]
+    start: float  #: shaft angle where the turn starts, in the middle of the longest stretch [rad]
+    inward: tuple[tuple[bool, bool], ...]  #: for each stretch whether gas flows into expansion and compression space
+    turning: tuple[int, ...]  #: for each cut the space whose flow turns round: 0 expansion, 1 compression
 
 
 def first_guess(spaces: FiveSpaces) -> tuple[Order, np.ndarray]:
@@ -129,8 +126,7 @@ Build = Callable[[Scalar], FiveSpaces]  # design (k,), symbols or numbers, to sp
 class StirlingTurn:
     """A periodic turn; curves have one entry a node, and a node at each cut twice."""
 
-    #: shaft angle of the nodes, over one turn from where the integration starts [rad]
-    phi: np.ndarray
+    phi: np.ndarray  #: shaft angle of the nodes, over one turn from where the integration starts [rad]
     #: absolute pressure [Pa] and its slope [Pa/rad]
     p: np.ndarray
     dp_dphi: np.ndarray
@@ -143,16 +139,11 @@ class StirlingTurn:
     #: flows from the heater and from the cooler into the working spaces, by angle [kg/rad]
     flow_e: np.ndarray
     flow_c: np.ndarray
-    #: heat that the gas has got from the matrix since the start [J]
-    stored: np.ndarray
-    #: mass of gas in all spaces [kg]
-    mass: float
-    #: angles where a flow turns round [rad]
-    cuts: np.ndarray
-    #: heats into the gas and works of the gas over the turn, by the names of `TALLIES` [J]
-    sums: dict[str, float]
-    #: largest remainder of the closing conditions, each by its size [-]
-    closure: float
+    stored: np.ndarray  #: heat that the gas has got from the matrix since the start [J]
+    mass: float  #: mass of gas in all spaces [kg]
+    cuts: np.ndarray  #: angles where a flow turns round [rad]
+    sums: dict[str, float]  #: heats into the gas and works of the gas over the turn, by the names of `TALLIES` [J]
+    closure: float  #: largest remainder of the closing conditions, each by its size [-]
 
     @property
     def work(self) -> float:
@@ -293,10 +284,11 @@ class _Basis:
         slopes, _ = rates(s, inward, phi, y)
         nothing = 1e-14 * s.R * self.mass  # an empty space has the temperature of what comes in
         own = [
-            (y[0] * s.volumes(phi)[j] + nothing * wall) / (s.R * y[1 + j] + nothing) if inward[j]
+            (y[0] * s.volumes(phi)[j] + nothing * wall) / (s.R * y[1 + j] + nothing)
+            if inward[j]
             else y[3 + j] * y[0] ** self.kappa
             for j, wall in enumerate((s.T_h, s.T_k))
-        ]  # fmt: skip
+        ]
         total = y[1] + y[2] + y[0] * exchanger_capacity(s) / s.R
         here = ca.Function("here", [phi, y, self.z], [
             ca.vertcat(phi, y[0], slopes[0], *s.volumes(phi), *own, slopes[1], slopes[2], y[6], total)

@@ -284,8 +284,9 @@ def _facts(cycle: TwoStrokeMarine, cylinder: Chamber, state: TwoStrokeState) -> 
         f"compression ratio {cycle.compression_ratio:g} is read as geometric; from exhaust closing it is {trapped:.2f}",
         f"pressures at top dead centre, absolute: compression {_pressure(state.p_comp)}, "
         f"expansion reference {_pressure(state.p_ref)}; when the exhaust opens {_pressure(state.p_evo)}",
-        f"temperature rise solved for the mean pressure: {state.dT:.0f} K on {state.T_comp:.0f} K; with lhv and c_v it "
-        f"means {state.excess_air:.2f} times the air needed and an indicated efficiency of {state.efficiency:.2f}",
+        f"temperature rise solved for the mean pressure: {state.dT:.0f} K on {state.T_comp:.0f} K; with heating "
+        f"value and c_v it means {state.excess_air:.2f} times the air needed and an indicated efficiency of "
+        f"{state.efficiency:.2f}",
         f"burnt at the nominal end of combustion: {burnt:.3f}; the rest burns on, there is no step",
         f"scavenge ports close at the mirror angle of opening (assumed); the pressure stays at "
         f"{_pressure(state.p_evc)} absolute until the exhaust closes",

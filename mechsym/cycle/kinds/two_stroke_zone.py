@@ -20,11 +20,11 @@ import scipy
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.run import ClosedRun, run
-from mechsym.cycle.cylinder import CylinderGas
 from mechsym.cycle.heat import Law, Woschni
 from mechsym.cycle.kinds.two_stroke import burnt_angles, scavenging_pressure
 from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
+from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Pure, Scalar

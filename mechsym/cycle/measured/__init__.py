@@ -1,1 +1,1 @@
-"""measured."""
+"""Measured diagrams: read, aligned, taken apart."""

@@ -7,14 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
-from mechsym.cycle.measured.alignment import between
-from mechsym.cycle.measured.charge_line import REFERENCE, log_pressure, mean_exponent
-from mechsym.cycle.measured.dead_centre import ENCODER, from_compression, from_motored
+from mechsym.cycle.measured.alignment import ENCODER, between, from_compression, from_motored
 from mechsym.cycle.measured.diagram import Diagram, line_prior
 from mechsym.cycle.measured.heat_release import burnt_fraction, heat_release, polytropic_fit
-from mechsym.cycle.measured.joint_fit import JointFit, Prior, clearance_asked, joint_fit
+from mechsym.cycle.measured.joint_fit import (
+    REFERENCE,
+    JointFit,
+    Prior,
+    clearance_asked,
+    joint_fit,
+    log_pressure,
+    mean_exponent,
+)
 from mechsym.cycle.measured.measure import USUAL_SCALE, MeasuredCycles, around_compression
-from mechsym.cycle.measured.smoothing import noise
+from mechsym.cycle.measured.signal import noise
 from mechsym.plausible import Doubt
 from mechsym.quantities.units import NewtonMetre, Pascal, Pure, Radian, RadPerSecond, Volume
 

@@ -1,4 +1,4 @@
-"""Reading a measured indicator diagram: a CSV file with a crank angle and a pressure column.
+r"""Reading a measured indicator diagram: a CSV file with a crank angle and a pressure column.
 
     # comment lines are kept
     crank_angle_deg,time_s,pressure_bar        units stand in the header: name_unit, name [unit] or name (unit)
@@ -7,6 +7,20 @@
 
 The angle may go on over the cycles or start again each turn or cycle; any spacing, any start. A file that cannot be
 trusted is refused with its line, the reason and the way out; nothing is repaired silently.
+
+A recording cut into cycles on one grid of angles.
+
+    recording  |--------x--------x--------x-----|       x: cuts, one period apart, never through compression,
+    cycles          k=0      k=1      k=2                   combustion or expansion
+
+The cut is the record's own start where that is harmless, so that no cycle is lost; else it moves on to 120 degrees
+behind the pressure peak.
+
+Speed of a measured record from its times, and how far angles are off that were spread evenly over each turn.
+
+time |        . '   by teeth: bent, the shaft slows down in compression and speeds up behind combustion
+     |   . '
+     | '_____|_____ angle     spread evenly: straight between two marks, with a kink at every mark
 """
 
 import math
@@ -14,10 +28,13 @@ import re
 from pathlib import Path
 
 import numpy as np
+import scipy
 
+from mechsym.cycle.chamber import Chamber, dvolume_dphi
+from mechsym.cycle.measured.diagram import Diagram, period_of
 from mechsym.errors import BadInput
 from mechsym.quantities import parse, record
-from mechsym.quantities.units import Radian, RadPerSecond
+from mechsym.quantities.units import Array, Pascal, Radian, RadPerSecond
 from mechsym.tables import numbers_of, split_table, text_of
 
 # Units of a pressure and of an angle; `rad` and `Pa` are the SI units they become
@@ -190,3 +207,137 @@ def _check_pressure(file: str, pressure: np.ndarray, name: str) -> None:
             f"{file}: {name} swings by {swing / 1e5:.4g} bar, no cylinder does (0.5 to 500 bar); "
             "is its unit right, and was the sensor connected?"
         )
+
+
+# The cut may not lie between these angles from the pressure peak
+_BEFORE, _AFTER = math.radians(-140.0), math.radians(80.0)
+_CUT = math.radians(120.0)
+_FEWEST, _MOST_SAMPLES = 720, 7200
+
+
+def cut_cycles(recording: Recording, period: Radian) -> tuple[Radian[Array], Pascal[Array]]:
+    """Cut a recording into whole cycles.
+
+    period: 2 pi or 4 pi. Returns angle: evenly spaced angles of the first cycle, zero as in the file; cycles: pressure
+    of each cycle, shape (k, n). An even record whose step divides the period is taken sample by sample; another one is
+    interpolated with a monotone cubic (PCHIP) to steps no wider than its own. A record of a single cycle is continued
+    periodically.
+    """
+    start = float(recording.angle[0])
+    angle, cycles = _cut(recording.angle, recording.pressure, start, period)
+    top = angle[int(np.argmax(cycles.mean(axis=0)))]
+    behind = math.remainder(start - top, period)
+    if not _BEFORE < behind < _AFTER:
+        return angle, cycles
+    wanted = start + (top + _CUT - start) % period
+    if recording.angle[-1] - wanted >= period - 1.5 * (angle[1] - angle[0]):
+        return _cut(recording.angle, recording.pressure, wanted, period)
+    twice = np.concatenate([angle, angle + period])
+    angle, cycles = _cut(twice, np.tile(cycles[0], 2), wanted, period)
+    return angle, cycles[:1]
+
+
+def _cut(angle: np.ndarray, pressure: np.ndarray, start: float, period: float) -> tuple[np.ndarray, np.ndarray]:
+    steps = np.diff(angle)
+    step, widest = float(np.median(steps)), float(steps.max())
+    first = int(np.searchsorted(angle, start - 1e-3 * step))
+    count = math.floor((angle[-1] - angle[first] + 1.001 * widest) / period)
+    per_period = round(period / step)
+    if bool(np.all(np.abs(steps - step) < 1e-3 * step)) and abs(per_period * step - period) < 1e-3 * step:
+        cycles = pressure[first : first + count * per_period].reshape(count, per_period)
+        return angle[first] + period / per_period * np.arange(per_period), cycles
+    samples = int(np.clip(math.ceil(period / float(steps.min())), _FEWEST, _MOST_SAMPLES))
+    grid = angle[first] + period / samples * np.arange(samples)
+    at = grid + period * np.arange(count)[:, None]
+    if at[-1, -1] > angle[-1]:
+        # the last cycle closes on the pressure it began with
+        pressure = np.append(pressure, np.interp(at[-1, 0], angle, pressure))
+        angle = np.append(angle, at[-1, 0] + period)
+    return grid, scipy.interpolate.PchipInterpolator(angle, pressure)(at)
+
+
+_TURN = 2 * math.pi
+_STRAIGHT = math.radians(0.1)
+_KINK = 1e-3
+_UNKNOWN = math.radians(1.5)  # where the speeds of the turns do not tell: usual for one cylinder
+_LARGEST_ERROR = math.radians(4.0)
+
+
+def cycle_speeds(recording: Recording, start: Radian, period: Radian, count: int) -> RadPerSecond[Array] | None:
+    """Mean speed of every cycle.
+
+    start: angle at which the first cycle begins; period: 2 pi or 4 pi. Returns omega: from the first to the last sample
+    of each cycle; None without times, shape (k,).
+    """
+    if recording.time is None:
+        return None
+    at = np.searchsorted(recording.angle, start + period * np.arange(count + 1) - 1e-9)
+    first, last = at[:-1], np.minimum(at[1:], recording.angle.size - 1)
+    return (recording.angle[last] - recording.angle[first]) / (recording.time[last] - recording.time[first])
+
+
+def recorded_speed(recording: Recording) -> RadPerSecond | None:
+    """Mean speed of a whole record. Returns omega: None without times."""
+    if recording.time is None:
+        return None
+    return float((recording.angle[-1] - recording.angle[0]) / (recording.time[-1] - recording.time[0]))
+
+
+def speed_of(diagram: Diagram) -> RadPerSecond | None:
+    """Speed that the file of a diagram tells by its times; None without them."""
+    if not diagram.file:
+        return None
+    columns = diagram.angle_column, diagram.pressure_column
+    return recorded_speed(read_diagram(diagram.file, period_of(diagram), *columns, diagram.recorded_speed))
+
+
+def turn_speeds(recording: Recording) -> RadPerSecond[Array] | None:
+    """Mean speed of every whole turn between two zeros of the encoder, where the angles are spread evenly over them.
+
+    Returns omega: None without times, with fewer than three turns, or where the angles follow the shaft inside a turn,
+    shape (k,).
+    """
+    if recording.time is None:
+        return None
+    turn = np.floor(recording.angle / _TURN + 1e-9)
+    whole = [t for t in np.unique(turn) if np.count_nonzero(turn == t) > 20][1:-1]
+    speeds = []
+    for number in whole:
+        angle, time = recording.angle[turn == number], recording.time[turn == number]
+        slope, level = np.polyfit(time - time[0], angle, 1)
+        if np.abs(level + slope * (time - time[0]) - angle).max() > _STRAIGHT:
+            return None
+        speeds.append(slope)
+    found = np.array(speeds)
+    kinked = found.size >= 3 and float(np.median(np.abs(np.diff(found)) / found.mean())) > _KINK
+    return found if kinked else None
+
+
+def spread_error(
+    turns: RadPerSecond[Array], phi: Radian[Array], p: Pascal[Array], cylinder: Chamber, zero: Radian
+) -> Radian:
+    r"""How far angles are off that were spread evenly over each turn.
+
+    .. math:: \frac{\Delta\omega}{\omega} = \frac{1}{J\omega^2} \int (M - \bar M)\,d\varphi, \quad
+        e = \int_{turn} \left(\frac{\Delta\omega}{\omega} - \overline{\frac{\Delta\omega}{\omega}}\right) d\varphi
+
+    turns: speed of successive turns, shape (k,); phi: evenly spaced crank angles of one period, from firing TDC; p:
+    absolute pressure of the mean cycle; zero: crank angle at which a turn of the encoder begins.
+
+    Returns
+    -------
+    error : float
+        Largest error over the period, from the gas torque M and the inertia J that explains by how much the speeds
+        of successive turns differ; 1.5 degrees where they cannot tell
+    """
+    step, count = float(phi[1] - phi[0]), round(phi.size * float(phi[1] - phi[0]) / _TURN)
+    torque = p * dvolume_dphi(cylinder, phi)
+    wave = np.cumsum(torque - torque.mean()) * step
+    from_mark = np.argsort(np.remainder(phi - zero, phi.size * step))
+    halves = np.array_split(wave[from_mark], count)
+    differ = float(np.ptp([half.mean() for half in halves]))
+    if count < 2 or differ < 0.02 * float(np.ptp(wave)):
+        return _UNKNOWN
+    seen = float(np.mean(np.abs(np.diff(turns)))) / float(turns.mean())
+    error = np.concatenate([np.cumsum(half - half.mean()) for half in halves]) * step
+    return min(float(np.abs(error).max()) * seen / differ, _LARGEST_ERROR)

@@ -7,10 +7,8 @@ import numpy as np
 
 from mechsym.cycle.chamber import dvolume_dphi, volume
 from mechsym.cycle.measured.combustion import DiagramCombustion
-from mechsym.cycle.measured.facts import cycle_work
-from mechsym.cycle.measured.figures import CombustionFigures
-from mechsym.cycle.measured.heat_release import burnt_fraction, heat_release
-from mechsym.cycle.measured.measure import around_compression
+from mechsym.cycle.measured.heat_release import CombustionFigures, burnt_fraction, heat_release
+from mechsym.cycle.measured.measure import around_compression, cycle_work
 from mechsym.cycle.plots import both_logarithmic
 from mechsym.page import Card, Picture, View, shows
 from mechsym.quantities.display import chosen, figure, per_cent, quantity_text, shown_in

@@ -20,7 +20,7 @@ from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Metre, Pascal, Pure, Scalar
 
 if TYPE_CHECKING:
-    from mechsym.hinge.losses import HingeLosses
+    from mechsym.hinge.rollers import HingeLosses
     from mechsym.hinge.springs.air_thermal import AirThermal
 
 _STRAIGHT = (
@@ -67,8 +67,7 @@ class Polytrope(Spring):
 
     def with_wall(self, losses: "HingeLosses", omega: float) -> "AirThermal":
         """The same gas with a wall; without a time of its own such that its index shows at this speed [rad/s]."""
-        from mechsym.hinge.springs.air_thermal import AirThermal
-        from mechsym.hinge.springs.gas_heat import relaxation_time
+        from mechsym.hinge.springs.air_thermal import AirThermal, relaxation_time
 
         return AirThermal(
             A=self.A,

@@ -1,7 +1,18 @@
-r"""A gas spring that exchanges heat with its wall, and the guide cut for it: the law `air_thermal`; see `gas_heat`.
+r"""A gas spring that exchanges heat with a wall of constant temperature, and the guide cut for it.
 
-Such a spring has no law of its closing alone; a guide is cut for its periodic motion at the speed of the design. With
-the work G that the rollers put into the gas by angle, first law and gas law give its state,
+    p = m R T / V,   V = A (H - z)                closed gas, one temperature, wall at T_w
+    tau = m c_v / (h A_w)                         time in which the gas takes the temperature of the wall
+
+.. math:: T' = -(\gamma - 1)\,T\,\frac{V'}{V} - \frac{T - T_w}{\omega\tau}, \qquad s = T V^{\gamma - 1}: \quad
+          s' = \frac{T_w V^{\gamma - 1} - s}{\omega\tau}
+
+over the angle. It is linear in s: one pass around the turn and one division give the periodic motion. tau to infinity
+is the adiabatic spring, n = gamma; tau to 0 the isothermal one, n = 1; both give back all that they take. Between them
+heat flows through a difference of temperature, and work is lost: a spring that shows n = 1.25 with gamma = 1.4 has
+omega tau = 1.29, and that is where it loses most. Only a heat store that follows the gas (foam) shows it without loss.
+
+The law `air_thermal`: such a spring has no law of its closing alone; a guide is cut for its periodic motion at the
+speed of the design. With the work G that the rollers put into the gas by angle, first law and gas law give its state,
 
 .. math:: G = \frac{l - M_\theta}{1 - p_a/p}, \qquad T' = \frac{(\gamma - 1) G}{K} - \frac{T - T_w}{\omega\tau}, \qquad
           (\ln V)' = -\frac{G}{K T}, \qquad K = \frac{(p_0 + p_a) A H}{T_w}
@@ -11,19 +22,116 @@ and l, the mean torque that the gas keeps, closes the volume after a period.
 
 import math
 
+import casadi as ca
 import numpy as np
 import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters
-from mechsym.hinge.losses import HingeLosses
+from mechsym.hinge.rollers import HingeLosses
 from mechsym.hinge.springs.face import GasTurn, Spring
-from mechsym.hinge.springs.gas_heat import gas_temperature, thermal_pressure
 from mechsym.hinge.springs.law_path import FULL, TrackPath, can_be_given, crossing, takes_work
 from mechsym.hinge.torque import Hinge
 from mechsym.quantities import quantity, record
-from mechsym.quantities.units import Array, Metre, Radian, RadPerSecond, Scalar
+from mechsym.quantities.units import Array, Kelvin, Metre, Pascal, Pure, Radian, RadPerSecond, Scalar, Volume
+
+R_NITROGEN = 296.8  # [J/kg/K]
+
+
+def thermal_pressure(
+    z: Metre[Scalar], H: Metre[Scalar], p0: Pascal[Scalar], pa: Pascal[Scalar], warmth: Pure[Scalar]
+) -> Pascal[Scalar]:
+    r"""Excess pressure of a gas spring whose temperature is known, for numbers and symbols alike.
+
+    .. math:: p = (p_0 + p_a) \frac{H}{H - z} \frac{T}{T_w} - p_a
+
+    z, H: closing and free height; p0, pa: excess pressure of the full column at the wall's temperature, and the
+    pressure outside. Source: ideal gas of constant mass.
+
+    >>> thermal_pressure(0.5, 1.0, 5e6, 1e5, 1.0)
+    10100000.0
+    """
+    return (p0 + pa) * (H / (H - z)) * warmth - pa
+
+
+def gas_temperature(
+    volume: Volume[Scalar], step: Radian[Scalar], x: Radian[Scalar], gamma: Pure, wall: Kelvin
+) -> Kelvin[Scalar]:
+    r"""Periodic temperature of a closed gas in a volume that moves; arrays and CasADi symbols.
+
+    .. math:: s_{i+1} = e^{-h/x} s_i + T_w \int V^{\gamma - 1} e^{-(h - t)/x} \frac{dt}{x}, \qquad T = s V^{1 - \gamma}
+
+    with V^(gamma - 1) a straight line over each step: exact in the limits of slow and fast exchange. volume: V over one
+    period without its end, in any unit. step: angle from each to the next; the last one closes the period. x: omega
+    tau. gamma: ratio of specific heats. Source: first law of a closed gas with heat flow in proportion to T - T_w.
+    Valid: one temperature in the gas, wall of constant temperature, ideal gas.
+
+    >>> still = gas_temperature(np.ones(4), np.full(4, np.pi / 2), 1.0, 1.4, 320.0)
+    >>> np.round(still, 6).tolist()
+    [320.0, 320.0, 320.0, 320.0]
+    """
+    forcing, count = wall * volume ** (gamma - 1), volume.shape[0]
+    symbols = isinstance(volume, ca.SX | ca.MX)
+    rates = [step[i] / x for i in range(count)] if symbols else list(np.asarray(step) / x)
+    known: dict[Scalar, tuple[Scalar, Scalar, Scalar]] = {}
+    for r in rates:  # even angles have one relaxation
+        if symbols or r not in known:
+            known[r] = relaxation(r)
+    decay = [known[r][0] for r in rates]
+    gains = [known[r][1] * forcing[i] + known[r][2] * forcing[(i + 1) % count] for i, r in enumerate(rates)]
+    end = 0.0
+    for keep, gain in zip(decay, gains, strict=True):
+        end = keep * end + gain
+    values = [end / _lost(sum(rates))]
+    for keep, gain in zip(decay[:-1], gains[:-1], strict=True):
+        values.append(keep * values[-1] + gain)
+    return (ca.vertcat(*values) if symbols else np.array(values)) * volume ** (1 - gamma)
+
+
+def relaxation_time(n: float, omega: float, losses: HingeLosses) -> float:
+    """Time [s] of the gas to take the wall's temperature: as assumed, or such that the index n shows at omega [rad/s].
+
+    An index at gamma or above leaves no exchange, one at 1 a very fast one.
+    """
+    if losses.tau > 0:
+        return losses.tau
+    return x_of_index(min(max(n, 1 + 1e-6), losses.gamma - 1e-6), losses.gamma) / omega
+
+
+def x_of_index(n: Pure, gamma: Pure = 1.4) -> Radian:
+    r"""omega tau at which small strokes show an index between 1 and gamma.
+
+    .. math:: x = \sqrt{\frac{n - 1}{\gamma - n}}
+
+    n: index, above 1 and below gamma; gamma: ratio of specific heats.
+
+    >>> round(x_of_index(1.25), 2)
+    1.29
+    """
+    return float(np.sqrt((n - 1) / (gamma - n)))
+
+
+def relaxation(r: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+    """exp(-r), and the weights of both ends of a straight line over a step of r relaxation times [-]."""
+    keep, lost = _exp(-r), _lost(r)
+    # lost / r - keep cancels for short steps; there its series stands
+    short = r / 2 - r**2 / 3 + r**3 / 8
+    if isinstance(r, ca.SX | ca.MX):
+        first = ca.if_else(r < 1e-4, short, lost / r - keep)
+    else:
+        first = short if r < 1e-4 else lost / r - keep
+    return keep, first, lost - first
+
+
+def _exp(r: Scalar) -> Scalar:
+    return ca.exp(r) if isinstance(r, ca.SX | ca.MX) else float(np.exp(r))
+
+
+def _lost(r: Scalar) -> Scalar:
+    """1 - exp(-r) with all its digits."""
+    return -ca.expm1(-r) if isinstance(r, ca.SX | ca.MX) else float(-np.expm1(-r))
+
 
 _STEP = np.pi / 360  # widest step of the march
 _STABLE = 1.5  # and by omega tau; the method is stable up to 2.78
@@ -165,7 +273,7 @@ def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParamete
     """Path on which the gas gives a torque, less the mean that it keeps.
 
     wanted: torque to give at its own speed. Source: first law of a closed gas with heat flow in proportion to T - T_w,
-    see `gas_heat`. Valid: one temperature in the gas, steady running at the speed of the design.
+    see above. Valid: one temperature in the gas, steady running at the speed of the design.
     """
     if not can_be_given(wanted):
         return TrackPath(status="takes_work", reason=takes_work(wanted))

@@ -13,7 +13,7 @@ from mechsym.quantities.units import Scalar
 if TYPE_CHECKING:
     from mechsym.hinge.balance import Balance
     from mechsym.hinge.choices import GuideParameters
-    from mechsym.hinge.losses import HingeLosses
+    from mechsym.hinge.rollers import HingeLosses
     from mechsym.hinge.springs.law_path import TrackPath
     from mechsym.hinge.torque import Hinge
 

@@ -8,9 +8,7 @@ the file also states those of the exact curve, which are compared with the path 
 import math
 import re
 import sys
-from collections.abc import Iterable
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -46,19 +44,23 @@ class DrawnCurve:
 
 def measured(path: Path, rho: "scipy.interpolate.PPoly", radius: float) -> tuple[list[DrawnCurve], int]:
     """Each spline of a file against the path and the roller radius [m]; and how many errors ezdxf's audit finds."""
-    ezdxf = _ezdxf()
+    try:
+        import ezdxf
+        import ezdxf.units
+    except ImportError:
+        raise MissingExtra("reading a DXF file needs the extra cad: pip install 'mechsym[cad]'") from None
     document = ezdxf.readfile(path)
     if document.units != ezdxf.units.MM:
         raise BadInput(f"{path}: units are not millimetres")
-    stated = _stated(e.dxf.text for e in document.modelspace().query("TEXT"))
-    rows = [_curve(e, rho, radius, stated) for e in document.modelspace().query("SPLINE")]
+    exact = stated([e.dxf.text for e in document.modelspace().query("TEXT")])
+    rows = [_curve(e, rho, radius, exact) for e in document.modelspace().query("SPLINE")]
     return rows, len(document.audit().errors)
 
 
-def _stated(texts: Iterable[str]) -> dict[str, tuple[float, float]]:
+def stated(texts: list[str]) -> dict[str, tuple[float, float]]:
     """Length [m] and area [m^2] of the exact curve by layer, as the text states them."""
-    found = [match for text in texts if (match := _STATED.fullmatch(text))]
-    return {match[1]: (1e-3 * float(match[2]), 1e-6 * float(match[3])) for match in found}
+    lines = [_STATED.fullmatch(text) for text in texts]
+    return {line[1]: (1e-3 * float(line[2]), 1e-6 * float(line[3])) for line in lines if line}
 
 
 def _curve(
@@ -67,13 +69,16 @@ def _curve(
     layer = entity.dxf.layer
     side, turned = _LAYERS[layer.removesuffix("_2")], math.pi if layer.endswith("_2") else 0.0
     tool = entity.construction_tool()
-    nodes = _nodes(np.unique(entity.knots))
-    at = [tool.derivatives([t], 1) for t in nodes[0]]
+    knots = np.unique(entity.knots)
+    x, w = np.polynomial.legendre.leggauss(max(8, _POINTS // len(knots)))  # in each piece of the spline
+    half = np.diff(knots)[:, None] / 2
+    places, weights = (knots[:-1, None] + half * (x + 1)).ravel(), (half * w).ravel()
+    at = [tool.derivatives([t], 1) for t in places]
     rows = np.array([[(d.x, d.y) for d in next(iter(found))] for found in at]) * 1e-3
     z, dz = (rows[:, k, 0] + 1j * rows[:, k, 1] for k in (0, 1))
     z, dz = z * np.exp(-1j * turned), dz * np.exp(-1j * turned)
     ends = [complex(p.x, p.y) * 1e-3 for p in tool.points([0.0, tool.max_t])]
-    length, area = np.sum(nodes[1] * np.abs(dz)), np.sum(nodes[1] * np.imag(np.conj(z) * dz)) / 2
+    length, area = np.sum(weights * np.abs(dz)), np.sum(weights * np.imag(np.conj(z) * dz)) / 2
     true_length, true_area = true_size(rho, side * radius)
     told = stated.get(layer.removesuffix("_2"), (math.nan, math.nan))
     return DrawnCurve(
@@ -82,13 +87,6 @@ def _curve(
         length_error=abs(float(length) / true_length - 1), area_error=abs(float(area) / true_area - 1),
         stated_error=max(abs(told[0] / true_length - 1), abs(told[1] / true_area - 1)),
     )  # fmt: skip
-
-
-def _nodes(knots: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Gauss points and weights in each piece of a spline."""
-    x, w = np.polynomial.legendre.leggauss(max(8, _POINTS // len(knots)))
-    half = np.diff(knots)[:, None] / 2
-    return (knots[:-1, None] + half * (x + 1)).ravel(), (half * w).ravel()
 
 
 def distance(z: np.ndarray, rho: "scipy.interpolate.PPoly") -> np.ndarray:
@@ -131,15 +129,6 @@ def main(arguments: list[str]) -> int:
             f"{row.length_error:.2g}, area error {row.area_error:.2g}, as stated {row.stated_error:.2g}"
         )
     return int(errors > 0 or not all(row.stated_error <= _DIGITS for row in rows))
-
-
-def _ezdxf() -> ModuleType:
-    try:
-        import ezdxf
-        import ezdxf.units
-    except ImportError:
-        raise MissingExtra("reading a DXF file needs the extra cad: pip install 'mechsym[cad]'") from None
-    return ezdxf
 
 
 if __name__ == "__main__":

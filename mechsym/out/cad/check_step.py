@@ -80,14 +80,9 @@ def _measured(name: str, shape: object) -> StepBody:
     BRepGProp.VolumePropertiesGK_s(shape, inside, _EPS)
     BRepBndLib.AddOptimal_s(shape, box, False, False)
     low, high = box.CornerMin(), box.CornerMax()
-    return StepBody(
-        name=name,
-        valid=BRepCheck_Analyzer(shape).IsValid(),
-        volume=_MM**3 * inside.Mass(),
-        low=(_MM * low.X(), _MM * low.Y(), _MM * low.Z()),
-        high=(_MM * high.X(), _MM * high.Y(), _MM * high.Z()),
-        shape=shape,
-    )
+    corners = [(_MM * corner.X(), _MM * corner.Y(), _MM * corner.Z()) for corner in (low, high)]
+    valid, volume = BRepCheck_Analyzer(shape).IsValid(), _MM**3 * inside.Mass()
+    return StepBody(name=name, valid=valid, volume=volume, low=corners[0], high=corners[1], shape=shape)
 
 
 def wall_deviation(

@@ -96,14 +96,15 @@ def track(guide: Guide, rollers: RollerParameters, tolerance: Metre, kinks: Sequ
         for name, d in (("centre", 0.0), ("inner", -rollers.radius), ("outer", rollers.radius))
     ]
     centre, inner, outer = curves
-    return Groove(
-        centre=centre,
-        inner=inner,
-        outer=outer,
-        roller_radius=rollers.radius,
-        tolerance=tolerance,
-        turned=tracks_of(guide),
-    )
+    centre, inner, outer = curves
+    return Groove(centre=centre, inner=inner, outer=outer, roller_radius=rollers.radius, tolerance=tolerance,
+                  turned=tracks_of(guide))  # fmt: skip
+
+
+def rotation(angle: float) -> np.ndarray:
+    """What turns rows of points about the axis by an angle [rad], shape (2, 2)."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, s], [-s, c]])
 
 
 def tracks_of(guide: Guide) -> tuple[float, ...]:
@@ -141,22 +142,19 @@ def cubic(name: str, curve: Point, edges: Radian[Array], tolerance: float, break
             theta = np.append(np.sort(np.concatenate(done)), edges[-1])
             points, tangents = curve(theta)
             points[-1] = points[0]  # closed to the last digit
-            length, area = _size(curve, np.unique([*theta, *(b for b in breaks if 0 < b < theta[-1])]))
+            # length, and area inside, by Gauss points between angles
+            places = np.unique([*theta, *(b for b in breaks if 0 < b < theta[-1])])
+            nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+            half = np.diff(places)[:, None] / 2
+            (x, y), (dx, dy) = (v.T for v in curve((places[:-1, None] + half * (nodes + 1)).ravel()))
+            weight = (half * weights).ravel()
+            length, area = float(weight @ np.hypot(dx, dy)), float(weight @ (x * dy - y * dx)) / 2
             return CubicPath(
                 name=name, theta=theta, points=points, tangents=tangents, deviation=largest, length=length, area=area
             )
         middle = (left[~good] + right[~good]) / 2
         left, right = np.concatenate([left[~good], middle]), np.concatenate([middle, right[~good]])
     raise BadInput(f"{name}: {tolerance:g} m cannot be kept near {np.degrees(left[0]):.6g} deg; allow more")
-
-
-def _size(curve: Point, theta: np.ndarray) -> tuple[float, float]:
-    """Length [m] and area inside [m^2] of a closed curve, by Gauss points between angles [rad]."""
-    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    half = np.diff(theta)[:, None] / 2
-    (x, y), (dx, dy) = (v.T for v in curve((theta[:-1, None] + half * (nodes + 1)).ravel()))
-    weight = (half * weights).ravel()
-    return float(weight @ np.hypot(dx, dy)), float(weight @ (x * dy - y * dx)) / 2
 
 
 def _error(curve: Point, left: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -182,11 +180,8 @@ def nurbs(path: CubicPath) -> tuple[np.ndarray, np.ndarray]:
     """Control points, shape (2 n + 2, 2) [m], and knots, shape (2 n + 6,) [rad], of a cubic B-spline."""
     thirds = np.diff(path.theta)[:, None] / 3
     pairs = np.stack([path.points[:-1] + thirds * path.tangents[:-1], path.points[1:] - thirds * path.tangents[1:]], 1)
-    inside = np.repeat(path.theta[1:-1], 2)
-    ends = [path.theta[0]] * 4, [path.theta[-1]] * 4
-    return np.concatenate([path.points[:1], pairs.reshape(-1, 2), path.points[-1:]]), np.concatenate(
-        [ends[0], inside, ends[1]]
-    )
+    knots = [path.theta[0]] * 4, np.repeat(path.theta[1:-1], 2), [path.theta[-1]] * 4
+    return np.concatenate([path.points[:1], pairs.reshape(-1, 2), path.points[-1:]]), np.concatenate(knots)
 
 
 def _refuse_crossing(rho: "scipy.interpolate.PPoly", radius: float) -> None:

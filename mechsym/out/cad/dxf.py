@@ -5,21 +5,18 @@ the second roller has layers of its own with the ending _2.
 """
 
 import io
-import math
 from collections.abc import Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mechsym.errors import MissingExtra
 from mechsym.files import write_text
-from mechsym.out.cad.curve import CubicPath, Groove, nurbs
+from mechsym.out.cad.curve import Groove, nurbs, rotation
 from mechsym.quantities.units import Metre
 
 if TYPE_CHECKING:
-    from ezdxf.document import Drawing
     from ezdxf.layouts import Modelspace
 
 _MM = 1e3
@@ -29,49 +26,40 @@ _COLOURS = {"CENTRES": 5, "INNER": 1, "OUTER": 3, "HOLES": 6, "ROLLERS": 4, "AXE
 def text(track: Groove, bore: Metre, lines: Sequence[str]) -> str:
     """The text of a DXF file.
 
-    bore: diameter of the hole for the shaft, 0 for none.
-
-    Parameters
-    ----------
-    lines : sequence of str
-        What the drawing says: case, spring, tolerance; below it length and area of the exact curves, by which whoever
-        reads the file sees that nothing was lost on the way
+    bore: diameter of the hole for the shaft, 0 for none. lines: what the drawing says, case, spring, tolerance; below
+    it stand length and area of the exact curves, by which whoever reads the file sees that nothing was lost on the way.
     """
-    ezdxf = _ezdxf()
+    try:
+        import ezdxf
+        import ezdxf.units
+    except ImportError:
+        raise MissingExtra("a DXF file needs the extra cad: pip install 'mechsym[cad]'") from None
+    ezdxf.options.write_fixed_meta_data_for_testing = True  # no time and no random identifier, from the first line on
     document = ezdxf.new("R2010", units=ezdxf.units.MM)
     space = document.modelspace()
     for name, colour in _COLOURS.items():
         document.layers.add(name, color=colour)
+    curves = {"CENTRES": track.centre, "INNER": track.inner, "OUTER": track.outer}
     for number, angle in enumerate(track.turned):
         ending = "" if number == 0 else f"_{number + 1}"
-        for layer, path in {"CENTRES": track.centre, "INNER": track.inner, "OUTER": track.outer}.items():
-            _spline(space, path, angle, layer + ending)
-        start = _MM * track.centre.points[0] @ _rotation(angle)
+        for layer, path in curves.items():
+            points, knots = nurbs(path)
+            flat, attributes = [(x, y, 0.0) for x, y in _MM * points @ rotation(angle)], {"layer": layer + ending}
+            spline = space.add_open_spline(flat, degree=3, knots=[float(k) for k in knots], dxfattribs=attributes)
+            spline.dxf.flags = 8  # planar, not closed: ends are clamped and meet
+        start = _MM * track.centre.points[0] @ rotation(angle)
         space.add_circle(start, _MM * track.roller_radius, dxfattribs={"layer": "ROLLERS"})
     if bore:
         space.add_circle((0, 0), _MM * bore / 2, dxfattribs={"layer": "HOLES"})
-    _frame(space, track, [*lines, *_sizes(track)])
-    return _written(document)
-
-
-def _sizes(track: Groove) -> list[str]:
-    """A line for each curve: length to the micrometre and area of the exact one."""
-    curves = {"CENTRES": track.centre, "INNER": track.inner, "OUTER": track.outer}
-    return [
-        f"{layer}: exact length {_MM * c.length:.3f} mm, area {_MM**2 * c.area:.3f} mm²" for layer, c in curves.items()
-    ]
-
-
-def _spline(space: "Modelspace", path: CubicPath, angle: float, layer: str) -> None:
-    points, knots = nurbs(path)
-    flat = [(x, y, 0.0) for x, y in _MM * points @ _rotation(angle)]
-    spline = space.add_open_spline(flat, degree=3, knots=[float(k) for k in knots], dxfattribs={"layer": layer})
-    spline.dxf.flags = 8  # planar, not closed: ends are clamped and meet
-
-
-def _rotation(angle: float) -> np.ndarray:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, s], [-s, c]])
+    sizes = ((layer, _MM * c.length, _MM**2 * c.area) for layer, c in curves.items())
+    exact = [f"{layer}: exact length {length:.3f} mm, area {area:.3f} mm²" for layer, length, area in sizes]
+    _frame(space, track, [*lines, *exact])
+    # classes are listed by name: ezdxf takes them from a set in any order
+    for name in sorted(document.entitydb.dxf_types_in_use()):
+        document.classes.add_class(name)
+    stream = io.StringIO()
+    document.write(stream)
+    return stream.getvalue()
 
 
 def _frame(space: "Modelspace", track: Groove, lines: Sequence[str]) -> None:
@@ -84,25 +72,6 @@ def _frame(space: "Modelspace", track: Groove, lines: Sequence[str]) -> None:
         space.add_text(line, height=height, dxfattribs={"layer": "TEXT"}).set_placement(place)
 
 
-def _written(document: "Drawing") -> str:
-    """The text of a drawing; classes are listed by name, which ezdxf takes from a set in any order."""
-    for name in sorted(document.entitydb.dxf_types_in_use()):
-        document.classes.add_class(name)
-    stream = io.StringIO()
-    document.write(stream)
-    return stream.getvalue()
-
-
 def write(track: Groove, path: Path, bore: float, lines: Sequence[str]) -> Path:
     """Write a guide as DXF, with a bore of that diameter [m]."""
     return write_text(path, text(track, bore, lines))
-
-
-def _ezdxf() -> ModuleType:
-    try:
-        import ezdxf
-        import ezdxf.units
-    except ImportError:
-        raise MissingExtra("a DXF file needs the extra cad: pip install 'mechsym[cad]'") from None
-    ezdxf.options.write_fixed_meta_data_for_testing = True  # no time and no random identifier, from the first line on
-    return ezdxf

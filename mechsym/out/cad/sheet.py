@@ -20,7 +20,7 @@ from mechsym.files import write_bytes
 from mechsym.hinge.guide import path as centre_path
 from mechsym.hinge.springs.face import Spring
 from mechsym.jobs.hinge import Workshop
-from mechsym.out.cad.curve import CubicPath, Groove, hermite
+from mechsym.out.cad.curve import Groove, hermite
 from mechsym.quantities import RPM
 from mechsym.quantities.display import quantity_text
 from mechsym.sizing.rules.bearings import equivalent_load, required_rating
@@ -92,7 +92,10 @@ def _profile(figure: Figure, shop: Workshop, track: Groove, bore: float) -> floa
     axis.set(xlim=(-scale * wide / 2, scale * wide / 2), ylim=(-scale * high / 2, scale * high / 2))
     theta = np.linspace(0, 2 * math.pi, 1441)
     for curve, style, width in ((track.centre, "-.", 0.8), (track.inner, "-", 1.3), (track.outer, "-", 1.3)):
-        points = _MM * _dense(curve)
+        width_of = np.diff(curve.theta)[:, None]  # eight points in each piece
+        ways = width_of * curve.tangents[:-1], width_of * curve.tangents[1:]
+        parts = [hermite(curve.points[:-1], curve.points[1:], *ways, u) for u in np.arange(8) / 8]
+        points = _MM * np.concatenate([np.stack(parts, 1).reshape(-1, 2), curve.points[-1:]])
         axis.plot(*points.T, style, color="black" if width > 1 else "#1f5fa8", linewidth=width)
     hole = _MM * bore / 2
     axis.plot(hole * np.cos(theta), hole * np.sin(theta), "-", color="black", linewidth=1.3)
@@ -126,16 +129,6 @@ def _radii(axis: "Axes", shop: Workshop, scale: float, along: float) -> None:
                   fontsize=7.5, bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0}, zorder=2.5)  # fmt: skip
 
 
-def _dense(curve: CubicPath) -> np.ndarray:
-    """Points along a cubic path, eight in each piece, shape (k, 2) [m]."""
-    width = np.diff(curve.theta)[:, None]
-    parts = [
-        hermite(curve.points[:-1], curve.points[1:], width * curve.tangents[:-1], width * curve.tangents[1:], u)
-        for u in np.arange(8) / 8
-    ]
-    return np.concatenate([np.stack(parts, 1).reshape(-1, 2), curve.points[-1:]])
-
-
 def _table(axis: "Axes", shop: Workshop) -> None:
     axis.axis("off")
     angles = np.arange(0, 360, _EVERY)
@@ -155,10 +148,13 @@ def _table(axis: "Axes", shop: Workshop) -> None:
 def _notes(shop: Workshop) -> list[str]:
     load, speed, rating = roller_life(shop)
     rollers, c = shop.rollers, shop.contact
-    told = [f"{by.name} {by.words}: ripple {_share(by.low)}, {_share(by.high)}" for by in shop.tolerances]
+
+    def share(value: float | None) -> str:
+        return "no steady motion" if value is None else f"{100 * value:.3g} %"
+
     return [
         "rho: shaft axis to roller centre; theta: angle of the guide's shaft, counter-clockwise",
-        *told,
+        *(f"{by.name} {by.words}: ripple {share(by.low)}, {share(by.high)}" for by in shop.tolerances),
         f"so that each by itself costs {100 * _RIPPLE:g} % of ripple at most: {', '.join(tolerances(shop))}",
         f"material: E = {rollers.E / 1e9:.4g} GPa, nu = {rollers.nu:g}; contact stress up to "
         f"{np.max(c.hertz_stress) / 1e6:.4g} MPa",
@@ -184,10 +180,6 @@ def spring_text(spring: Spring) -> str:
     fields = dataclasses.fields(spring)
     numbers = [f"{f.name} = {quantity_text(getattr(spring, f.name), f.metadata['unit'], 6)}" for f in fields]
     return f"{spring.words}, {', '.join(numbers)}"
-
-
-def _share(value: float | None) -> str:
-    return "no steady motion" if value is None else f"{100 * value:.3g} %"
 
 
 def plain(text: str) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import write_text
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.out.cad.curve import CubicPath, Groove, nurbs
+from mechsym.out.cad.curve import CubicPath, Groove, nurbs, rotation
 from mechsym.out.cad.solids import AXES, Body, Circle, Plate, Point, Turned, tangents, tube
 from mechsym.quantities import record
 from mechsym.quantities.units import Metre
@@ -45,13 +45,8 @@ def guide_bodies(
     """The disc and its rollers where the crank stands at dead centre; a groove is as deep as a roller is wide.
 
     count: rollers, which share the tracks; two on one track stand opposite each other. bore: diameter of the hole for
-    the shaft.
-
-    Parameters
-    ----------
-    thickness : float
-        Of the disc; by default the planes of its tracks stand as `rollers.plane_offset` says, or a roller's width
-        of the disc is left between two grooves
+    the shaft. thickness: of the disc; by default the planes of its tracks stand as `rollers.plane_offset` says, or a
+    roller's width of the disc is left between two grooves.
     """
     tracks, width = len(track.turned), rollers.width
     usual = rollers.plane_offset + width if tracks > 1 and rollers.plane_offset > width else (tracks + 1) * width
@@ -62,22 +57,13 @@ def guide_bodies(
     # a whole millimetre, so that the tolerance of the curves does not show in it
     radius = math.ceil(_MM * (float(np.max(np.hypot(*track.outer.points.T))) + rollers.radius)) / _MM
     disc = Disc(name="guide", track=track, radius=radius, bore=bore, thickness=thickness, depth=width)
-    return disc, *(_roller(disc, number, count) for number in range(count))
-
-
-def _roller(disc: Disc, number: int, count: int) -> Turned:
-    tracks = len(disc.track.turned)
-    angle = disc.track.turned[number] if tracks == count else 2 * math.pi * number / count
-    x, y = (float(v) for v in disc.track.centre.points[0] @ rotation(angle))
-    lower = tracks > 1 and number > 0
-    ends = (0.0, disc.depth) if lower else (disc.thickness - disc.depth, disc.thickness)
-    return tube(f"roller {number + 1}", (0.0, disc.track.roller_radius), ends, (x, y, 0.0), "z")
-
-
-def rotation(angle: float) -> np.ndarray:
-    """What turns rows of points about the axis by an angle [rad], shape (2, 2)."""
-    c, s = np.cos(angle), np.sin(angle)
-    return np.array([[c, s], [-s, c]])
+    rollers_made = []
+    for number in range(count):
+        angle = track.turned[number] if tracks == count else 2 * math.pi * number / count
+        x, y = (float(v) for v in track.centre.points[0] @ rotation(angle))
+        ends = (0.0, width) if tracks > 1 and number > 0 else (thickness - width, thickness)
+        rollers_made.append(tube(f"roller {number + 1}", (0.0, track.roller_radius), ends, (x, y, 0.0), "z"))
+    return disc, *rollers_made
 
 
 def write(path: Path, bodies: Sequence[Disc | Body]) -> Path:
@@ -118,7 +104,8 @@ def shape(body: Disc | Body) -> "TopoDS_Shape":
         case Turned():
             return _turned(body)
         case Plate():
-            return _plate(body)
+            rings = [_hull(body.ends, body.low), *(_ring(hole, body.low) for hole in body.holes)]
+            return _prism(_face(rings), (0.0, body.high - body.low, 0.0))
 
 
 def _disc(disc: Disc) -> "TopoDS_Shape":
@@ -167,11 +154,6 @@ def _turned(body: Turned) -> "TopoDS_Shape":
     polygon.Close()
     axis = gp_Ax1(_point(body.place), gp_Dir(*AXES[body.axis]))
     return BRepPrimAPI_MakeRevol(_face([polygon.Wire()]), axis).Shape()
-
-
-def _plate(body: Plate) -> "TopoDS_Shape":
-    rings = [_hull(body.ends, body.low), *(_ring(hole, body.low) for hole in body.holes)]
-    return _prism(_face(rings), (0.0, body.high - body.low, 0.0))
 
 
 def _hull(ends: tuple[Circle, Circle], y: float) -> "TopoDS_Wire":

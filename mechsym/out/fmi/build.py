@@ -3,7 +3,6 @@
 The token is made from the sources: the same model gives the same token and, without binaries, the same file.
 """
 
-import importlib.metadata
 import importlib.util
 import platform
 import sys
@@ -15,14 +14,24 @@ from importlib import resources
 from io import BytesIO
 from pathlib import Path
 
+import casadi as ca
+import numpy as np
+from scipy.interpolate import PPoly
+
+import mechsym
+from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.files import write_bytes
+from mechsym.hinge.balance import balance
+from mechsym.hinge.guide import Guide, closing, path, setting_of, with_setting
+from mechsym.hinge.torque import Hinge
+from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.native import compiler
 from mechsym.native.compiler import forecast
 from mechsym.native.integrators import dop853_numbers
-from mechsym.out.block import Block
+from mechsym.out.block import Block, Curve, Port
 from mechsym.out.fmi.describe import build_description, description, identifier
-from mechsym.out.text.language_c import model
+from mechsym.out.text.language_c import array, curve_tables, model
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
 
@@ -77,17 +86,21 @@ def fmu(
     for name in platforms:
         if name not in PLATFORMS:
             raise BadInput(f"--platforms {name!r} is not known; allowed are {', '.join(PLATFORMS)}")
+    room = resources.files("mechsym.out")
     if not code:
-        core = (resources.files("mechsym.out") / "c" / "core.h").read_text(encoding="utf-8")
+        core = (room / "c" / "core.h").read_text(encoding="utf-8")
         code = {"core.h": core, "model.h": model(block), "method.h": dop853_numbers() + "\n"}
-    sources = _sources(version, code)
+    main = [f"fmi{version}.c"]
+    sources = {main[0]: (room / "fmi" / main[0]).read_text(encoding="utf-8"), **code}
+    for header in sorted(p.name for p in (room / "fmi" / "headers").iterdir()):
+        if header.startswith(f"fmi{version}"):
+            sources[header] = (room / "fmi" / "headers" / header).read_text(encoding="utf-8")
     token = "{" + str(uuid.uuid5(_NAMESPACE, "\n".join(f"{k}\n{v}" for k, v in sources.items()))) + "}"
     prefix = f"#ifndef FMI2_FUNCTION_PREFIX\n#define FMI2_FUNCTION_PREFIX {identifier(block.name)}_\n#endif\n"
     # FMI 3.0 leaves the prefix to who links statically; tools that build a library from sources count on that
     sources["identity.h"] = f'#define TOKEN "{token}"\n' + (prefix if version == 2 else "")
     files: dict[str, str | bytes] = {f"sources/{name}": text for name, text in sources.items()}
-    main = [f"fmi{version}.c"]
-    tool = f"mechsym {importlib.metadata.version('mechsym')}"
+    tool = f"mechsym {mechsym.__version__}"
     files["modelDescription.xml"] = description(block, version, token, main, tool)
     if version == 3:
         files["sources/buildDescription.xml"] = build_description(block, main)
@@ -101,15 +114,6 @@ def fmu(
 def write(unit: Unit, path: Path) -> Path:
     """Write an FMU to a file, under a temporary name first."""
     return write_bytes(path, unit.data)
-
-
-def _sources(version: int, code: Mapping[str, str]) -> dict[str, str]:
-    room = resources.files("mechsym.out")
-    texts = {f"fmi{version}.c": (room / "fmi" / f"fmi{version}.c").read_text(encoding="utf-8"), **code}
-    for header in sorted(p.name for p in (room / "fmi" / "headers").iterdir()):
-        if header.startswith(f"fmi{version}"):
-            texts[header] = (room / "fmi" / "headers" / header).read_text(encoding="utf-8")
-    return texts
 
 
 def _binaries(
@@ -162,3 +166,87 @@ def _packed(files: Mapping[str, str | bytes]) -> bytes:
             entry.external_attr = 0o644 << 16
             archive.writestr(entry, files[name])
     return buffer.getvalue()
+
+
+_GAIN, _RATE = 0.7, 0.1  # share of the error taken away in a period; largest change by the design's setting
+_TURNS = 20.0  # of the run that the file proposes
+
+
+def controller(name: str, wanted: Hinge, guide: Guide, load: Load) -> tuple[Block, dict[str, str]]:
+    """The ports of the controller of a guide, and the C that is its own: file name to text.
+
+    Raises BadInput: the load is a table, or the gas of the spring exchanges heat: a pascal gives no function of the
+    angle then.
+    """
+    if guide.spring.state:
+        raise BadInput("the pressure controller takes springs whose force follows from the closing alone")
+    (letter, unit), set_to = guide.spring.setting, float(setting_of(guide.spring))
+    # inertia, energy of the spring for each unit of its setting, and the work that is missing by design
+    missing = periodic.antiderivative(balance(wanted, guide.parameters.balance).rest)
+    curves = {"inertia": wanted.inertia, "unit": _unit_energy(wanted, guide), "design": missing}
+    made = Block(
+        name=f"{name}-controller", about=f"sets the spring of {name} once in a period, from crank angle and speed",
+        states=(), parameters=_parameters(letter, unit, set_to, load), switches=(), kinks=(), stops=(),
+        inputs=(
+            Port(name="phi", unit="rad", about="crank angle, that of the machine"),
+            Port(name="phid", unit="rad/s", start=wanted.omega, about="speed of the crank"),
+        ),
+        outputs=(
+            Port(name=letter, unit=unit, start=set_to, about="setting of the spring"),
+            Port(name=f"{letter}_error", unit=unit, about="by how much the last period was off the design"),
+            Port(name="periods", unit="-", about="periods that are over"),
+        ),
+        curves=tuple(Curve(name=name, state=0, poly=poly) for name, poly in curves.items()),
+        t_end=_TURNS * 2 * np.pi / wanted.omega, rates=ca.Function("rates", [], []),
+        observed=ca.Function("observed", [], []),
+    )  # fmt: skip
+    core = (resources.files("mechsym.out") / "c" / "controller.h").read_text(encoding="utf-8")
+    return made, {"model.h": _model(made, wanted), "core.h": core, "method.h": "\n"}
+
+
+def _parameters(letter: str, unit: str, set_to: float, load: Load) -> tuple[Port, ...]:
+    match load:
+        case ConstantLoad(torque=float(torque)):
+            speed, power = 1.0, 0.0
+        case PropellerLoad(torque=float(torque), speed=float(speed)):
+            power = 2.0
+        case _:
+            raise BadInput("the pressure controller takes a constant load or a propeller; set load.law")
+    return (
+        Port(name=f"{letter}_design", unit=unit, start=set_to, about="setting that the guide was cut for"),
+        Port(name=f"{letter}_start", unit=unit, start=set_to, about="setting before the first period is over"),
+        Port(name="gain", unit="-", start=_GAIN, about="share of the error that is taken away in a period"),
+        Port(name="rate", unit="-", start=_RATE, about="largest change in a period, by the setting of the design"),
+        Port(name="load_torque", unit="N*m", start=torque, about="torque of the load at load_speed"),
+        Port(name="load_speed", unit="rad/s", start=speed, about="speed of reference of the load"),
+        Port(name="load_power", unit="-", start=power, about="power of the speed with which the load grows"),
+    )
+
+
+def _unit_energy(wanted: Hinge, guide: Guide) -> PPoly:
+    """Energy of the spring by its setting over the crank angle [J/Pa], [J/N] of a coil."""
+    ratio, rho, at = guide.parameters.shaft_ratio, path(guide), setting_of(guide.spring)
+    low, high = (with_setting(guide.spring, share * at) for share in (1.0, 2.0))
+
+    def energy(phi: np.ndarray) -> np.ndarray:
+        theta = rho.x[0] + (ratio * phi - rho.x[0]) % (rho.x[-1] - rho.x[0])
+        z = closing(guide, rho(theta))
+        # the energy is linear in the setting
+        return np.asarray((high.energy(z) - low.energy(z)) / at)
+
+    return periodic.fit(energy, (*rho.x / ratio, *(rho.x + rho.x[-1]) / ratio), wanted.period, 1e-10)
+
+
+def _model(made: Block, wanted: Hinge) -> str:
+    sizes = {"NU": len(made.inputs), "NP": len(made.parameters), "NY": len(made.outputs)}
+    return "\n".join(
+        [
+            f"/* {made.name}: {made.about} */",
+            "enum { " + ", ".join(f"{k} = {v}" for k, v in sizes.items()) + " };",
+            f"static const double PERIOD = {wanted.period!r};",
+            array("start_p", [port.start for port in made.parameters]),
+            curve_tables(made.curves),
+            "struct stop { const char *name; };",
+            'static const struct stop stops[] = {{""}};',
+        ]
+    )

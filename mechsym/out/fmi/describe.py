@@ -25,17 +25,14 @@ def variables(block: Block) -> list[Variable]:
     """All variables in the order of their references."""
     rows = [(Port(name="time", unit="s"), "time", -1)]
     rows += [(s, "state", -1) for s in block.states]
-    rows += [(_rate(s), "rate", 1 + i) for i, s in enumerate(block.states)]
+    for i, s in enumerate(block.states):
+        unit = f"{s.unit[:-2]}/s^2" if s.unit.endswith("/s") else f"{s.unit}/s"
+        rows.append((Port(name=f"der({s.name})", unit=unit), "rate", 1 + i))
     rows += [(port, "input", -1) for port in block.inputs]
     rows += [(port, "parameter", -1) for port in block.parameters]
     rows += [(port, "output", -1) for port in block.outputs]
     rows += [(port, "indicator", -1) for port in _indicators(block)]
     return [Variable(reference=i, port=port, kind=kind, of=of) for i, (port, kind, of) in enumerate(rows)]
-
-
-def _rate(port: Port) -> Port:
-    unit = f"{port.unit[:-2]}/s^2" if port.unit.endswith("/s") else f"{port.unit}/s"
-    return Port(name=f"der({port.name})", unit=unit)
 
 
 def _indicators(block: Block) -> list[Port]:
@@ -64,21 +61,20 @@ def description(block: Block, version: int, token: str, sources: list[str], tool
 
 
 def _smooth(block: Block) -> str:
-    """What has no states is a controller, which has no derivatives."""
-    return "true" if block.states else "false"
+    return "true" if block.states else "false"  # what has no states is a controller, which has no derivatives
 
 
-def _units(root: xml.Element, rows: list[Variable]) -> None:
+def _boxed(root: xml.Element, block: Block, rows: list[Variable]) -> xml.Element:
+    """Units, logs and experiment of a description; the box of its variables behind them."""
     box = xml.SubElement(root, "UnitDefinitions")
     for unit in sorted({v.port.unit for v in rows} - {"-", ""}):
         powers = dict(zip(("kg", "m", "s", "K"), dimension(unit.replace("(", "").replace("*rad)", "/rad)").strip(")")),
                           strict=True))  # fmt: skip
         powers["rad"] = int(unit in ("rad", "rad/s", "rad/s^2"))
         xml.SubElement(xml.SubElement(box, "Unit", name=unit), "BaseUnit", {k: str(v) for k, v in powers.items() if v})
-
-
-def _experiment(root: xml.Element, block: Block) -> None:
+    xml.SubElement(xml.SubElement(root, "LogCategories"), "Category", name="logStatusError")
     xml.SubElement(root, "DefaultExperiment", startTime="0", stopTime=repr(block.t_end), tolerance="1e-10")
+    return xml.SubElement(root, "ModelVariables")
 
 
 _FLAGS_2 = {
@@ -105,11 +101,7 @@ def _second(block: Block, token: str, sources: list[str]) -> xml.Element:
         files = xml.SubElement(xml.SubElement(root, kind, can | more), "SourceFiles")
         for name in sources:
             xml.SubElement(files, "File", name=name)
-    _units(root, rows)
-    logs = xml.SubElement(root, "LogCategories")
-    xml.SubElement(logs, "Category", name="logStatusError")
-    _experiment(root, block)
-    box = xml.SubElement(root, "ModelVariables")
+    box = _boxed(root, block, rows)
     for v in rows:
         head = {"name": v.port.name, "valueReference": str(v.reference)} | _about(v) | _FLAGS_2[v.kind]
         real = xml.SubElement(xml.SubElement(box, "ScalarVariable", head), "Real", _unit(v) | _start(v))
@@ -166,11 +158,7 @@ def _third(block: Block, token: str, sources: list[str]) -> xml.Element:
     if block.states:
         xml.SubElement(root, "ModelExchange", can)
     xml.SubElement(root, "CoSimulation", can | {"canHandleVariableCommunicationStepSize": "true"})
-    _units(root, rows)
-    logs = xml.SubElement(root, "LogCategories")
-    xml.SubElement(logs, "Category", name="logStatusError")
-    _experiment(root, block)
-    box = xml.SubElement(root, "ModelVariables")
+    box = _boxed(root, block, rows)
     for v in rows:
         head = {"name": v.port.name, "valueReference": str(v.reference)} | _about(v) | _FLAGS_3[v.kind]
         more = {"derivative": str(v.of)} if v.of >= 0 else {}

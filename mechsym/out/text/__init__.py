@@ -1,5 +1,5 @@
 """Programs as text for others, all from the one tape: a dialect is a table of operators and a few patterns.
 
-dialects.py  the tables, and statements of a tape in a dialect        language_c.py   a block as C
+dialects.py  statements of a tape in a dialect: patterns, operators (dialects.csv)   language_c.py   a block as C
 files.py     whole files in every language
 """

@@ -1,25 +1,76 @@
-"""How each language writes an operator, a statement and a number.
+"""What is written, the functions of a mechanism or of a block, and how each language writes a number and a statement.
 
-Statements of a tape in a dialect: each value has one name and is written once.
+Statements of a tape in a dialect: each value has one name and is written once. `dialects.csv` has a column a language:
+its patterns for a statement (name, value) and a comment, its infinity, then an operator a row, places for operands;
+an empty field: the language has no word for it.
 """
 
+import csv
 import math
 from collections.abc import Callable, Mapping
+from importlib import resources
+
+import casadi as ca
 
 from mechsym.errors import BadInput
-from mechsym.native.tape import Tape
+from mechsym.mechanisms.record import bind, generated, listing
+from mechsym.native.tape import Tape, read
+from mechsym.out.block import Block
 from mechsym.quantities import record
 
-_COMMON = {
-    "add": "{0} + {1}", "sub": "{0} - {1}", "mul": "{0} * {1}", "div": "{0} / {1}", "neg": "-{0}", "inv": "1.0 / {0}",
-    "sq": "{0} * {0}", "twice": "{0} + {0}",
-}  # fmt: skip
-_CALLED = ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh", "acosh",
-           "atanh", "floor", "ceil", "log1p", "expm1", "erf")  # fmt: skip
+
+@record
+class Written:
+    """Functions of one array v each, to be written in any language."""
+
+    name: str
+    about: str
+    tapes: Mapping[str, Tape]  #: by the name of the function
+    inputs: Mapping[str, tuple[str, ...]]  #: names of the entries of v, by function
+    outputs: Mapping[str, tuple[str, ...]]
+    units: Mapping[str, str]  #: by name of an input or output
+    block: Block | None = None  #: curves, starts and events of a machine
 
 
-def _calls(prefix: str = "", **other: str) -> dict[str, str]:
-    return {name: f"{prefix}{other.get(name, name)}({{0}})" for name in _CALLED}
+def of_mechanism(name: str) -> Written:
+    """The functions of a derived mechanism: coordinates, velocities, inputs and parameters are arguments.
+
+    Raises BadInput: no such mechanism, or one that is put together from data.
+    """
+    mechanism = bind(name, {p: ca.SX.sym(p) for p in generated(name).PARAMETERS})
+    known = listing(name)
+    units = known["coordinates"] | known["parameters"] | known["inputs"] | known["outputs"]
+    groups = {group: f for group, f in mechanism.functions.items() if f.numel_out()}
+    return Written(
+        name=known["name"],
+        about=known["about"],
+        tapes={g: read(f) for g, f in groups.items()},
+        inputs={g: tuple(f.name_in()) for g, f in groups.items()},
+        outputs={g: read(f).outputs for g, f in groups.items()},
+        units=units,
+    )
+
+
+def of_block(block: Block) -> Written:
+    """The functions of a block: rates of the states, and its outputs."""
+    names = ["time", *(p.name for p in (*block.states, *block.inputs, *block.parameters))]
+    names += [f"{c.name}_{what}" for c in block.curves for what in ("value", "slope")]
+    names += [f"switch_{i + 1}" for i in range(len(block.switches))]
+    ports = (*block.states, *block.inputs, *block.parameters, *block.outputs)
+    return Written(
+        name=block.name, about=block.about, tapes={"rates": read(block.rates), "observed": read(block.observed)},
+        inputs={"rates": tuple(names), "observed": tuple(names)},
+        outputs={"rates": tuple(f"der_{s.name}" for s in block.states),
+                 "observed": tuple(p.name for p in block.outputs)},
+        units={p.name: p.unit for p in ports}, block=block,
+    )  # fmt: skip
+
+
+def told(written: Written, function: str) -> list[str]:
+    """What stands in v and y of a function, with units, one line each."""
+    sides = {"v": written.inputs[function], "y": written.outputs[function]}
+    rows = {side: [f"{n} [{written.units.get(n, 'SI')}]" for n in names] for side, names in sides.items()}
+    return [f"{side}: {', '.join(names)}" for side, names in rows.items()]
 
 
 @record
@@ -33,72 +84,14 @@ class Dialect:
     comment: str
 
 
-C99 = Dialect(
-    name="c", statement="    const double {0} = {1};", infinity="INFINITY", comment="/* {} */",
-    operators=_COMMON | _calls() | {
-        "fabs": "fabs({0})", "pow": "pow({0}, {1})", "atan2": "atan2({0}, {1})", "hypot": "hypot({0}, {1})",
-        "fmin": "fmin({0}, {1})", "fmax": "fmax({0}, {1})", "fmod": "fmod({0}, {1})", "copysign": "copysign({0}, {1})",
-        "lt": "({0} < {1} ? 1.0 : 0.0)", "le": "({0} <= {1} ? 1.0 : 0.0)", "eq": "({0} == {1} ? 1.0 : 0.0)",
-        "ne": "({0} != {1} ? 1.0 : 0.0)", "not": "({0} == 0.0 ? 1.0 : 0.0)",
-        "and": "({0} != 0.0 && {1} != 0.0 ? 1.0 : 0.0)", "or": "({0} != 0.0 || {1} != 0.0 ? 1.0 : 0.0)",
-        "if_else_zero": "({0} != 0.0 ? {1} : 0.0)", "sign": "(({0} > 0.0) - ({0} < 0.0))",
-    },
-)  # fmt: skip
+def _dialect(name: str) -> Dialect:
+    text = (resources.files("mechsym.out.text") / "dialects.csv").read_text(encoding="utf-8")
+    words = {row["operator"]: row[name] for row in csv.DictReader(text.splitlines()) if row[name]}
+    statement, infinity, comment = (words.pop(what) for what in ("statement", "infinity", "comment"))
+    return Dialect(name=name, operators=words, statement=statement, infinity=infinity, comment=comment)
 
-JULIA = Dialect(
-    name="julia", statement="    {0} = {1}", infinity="Inf", comment="# {}",
-    operators=_COMMON | _calls() | {
-        "fabs": "abs({0})", "pow": "{0}^{1}", "atan2": "atan({0}, {1})", "hypot": "hypot({0}, {1})",
-        "fmin": "min({0}, {1})", "fmax": "max({0}, {1})", "fmod": "rem({0}, {1})", "copysign": "copysign({0}, {1})",
-        "lt": "ifelse({0} < {1}, 1.0, 0.0)", "le": "ifelse({0} <= {1}, 1.0, 0.0)",
-        "eq": "ifelse({0} == {1}, 1.0, 0.0)", "ne": "ifelse({0} != {1}, 1.0, 0.0)", 
-        "not": "ifelse({0} == 0.0, 1.0, 0.0)",
-        "and": "ifelse(({0} != 0.0) & ({1} != 0.0), 1.0, 0.0)", "or": "ifelse(({0} != 0.0) | ({1} != 0.0), 1.0, 0.0)",
-        "if_else_zero": "ifelse({0} != 0.0, {1}, 0.0)", "sign": "sign({0})",
-    },
-)  # fmt: skip
 
-MATLAB = Dialect(
-    name="matlab", statement="    {0} = {1};", infinity="Inf", comment="% {}",
-    operators=_COMMON | _calls() | {
-        "fabs": "abs({0})", "pow": "{0} ^ {1}", "atan2": "atan2({0}, {1})", "hypot": "hypot({0}, {1})",
-        "fmin": "min({0}, {1})", "fmax": "max({0}, {1})", "fmod": "rem({0}, {1})",
-        "lt": "double({0} < {1})", "le": "double({0} <= {1})", "eq": "double({0} == {1})", "ne": "double({0} ~= {1})",
-        "not": "double({0} == 0.0)", "and": "double({0} ~= 0.0 && {1} ~= 0.0)",
-        "or": "double({0} ~= 0.0 || {1} ~= 0.0)", "if_else_zero": "pick({0}, {1})", "sign": "sign({0})",
-    },
-)  # fmt: skip
-
-JAX = Dialect(
-    name="jax", statement="    {0} = {1}", infinity="jnp.inf", comment="# {}",
-    operators=_COMMON | _calls("jnp.", asin="arcsin", acos="arccos", atan="arctan", asinh="arcsinh", acosh="arccosh",
-                               atanh="arctanh") | {
-        "erf": "jax.scipy.special.erf({0})",
-        "fabs": "jnp.abs({0})", "pow": "jnp.power({0}, {1})", "atan2": "jnp.arctan2({0}, {1})",
-        "hypot": "jnp.hypot({0}, {1})", "fmin": "jnp.fmin({0}, {1})", "fmax": "jnp.fmax({0}, {1})",
-        "fmod": "jnp.fmod({0}, {1})", "copysign": "jnp.copysign({0}, {1})",
-        "lt": "jnp.where({0} < {1}, 1.0, 0.0)", "le": "jnp.where({0} <= {1}, 1.0, 0.0)",
-        "eq": "jnp.where({0} == {1}, 1.0, 0.0)", "ne": "jnp.where({0} != {1}, 1.0, 0.0)",
-        "not": "jnp.where({0} == 0.0, 1.0, 0.0)",
-        "and": "jnp.where(({0} != 0.0) & ({1} != 0.0), 1.0, 0.0)",
-        "or": "jnp.where(({0} != 0.0) | ({1} != 0.0), 1.0, 0.0)",
-        "if_else_zero": "jnp.where({0} != 0.0, {1}, 0.0)", "sign": "jnp.sign({0})",
-    },
-)  # fmt: skip
-
-MODELICA = Dialect(
-    name="modelica", statement="  {0} := {1};", infinity="Modelica.Constants.inf", comment="// {}",
-    operators=_COMMON | {name: f"{name}({{0}})" for name in _CALLED if name not in ("asinh", "acosh", "atanh", "log1p",
-                                                                                    "expm1", "erf")} | {
-        "fabs": "abs({0})", "pow": "{0} ^ {1}", "atan2": "atan2({0}, {1})", "hypot": "sqrt({0} * {0} + {1} * {1})",
-        "fmin": "min({0}, {1})", "fmax": "max({0}, {1})", "fmod": "rem({0}, {1})",
-        "lt": "(if {0} < {1} then 1.0 else 0.0)", "le": "(if {0} <= {1} then 1.0 else 0.0)",
-        "not": "(if abs({0}) > 0.0 then 0.0 else 1.0)",
-        "and": "(if abs({0}) > 0.0 and abs({1}) > 0.0 then 1.0 else 0.0)",
-        "or": "(if abs({0}) > 0.0 or abs({1}) > 0.0 then 1.0 else 0.0)",
-        "if_else_zero": "(if abs({0}) > 0.0 then {1} else 0.0)", "sign": "sign({0})",
-    },
-)  # fmt: skip
+C99, JULIA, MATLAB, JAX, MODELICA = (_dialect(name) for name in ("c", "julia", "matlab", "jax", "modelica"))
 
 
 def number(dialect: Dialect, value: float) -> str:

@@ -12,8 +12,7 @@ from mechsym.native.integrators import dop853_numbers
 from mechsym.native.tape import Tape, read
 from mechsym.out.block import Block, Curve
 from mechsym.out.fmi.describe import identifier, variables
-from mechsym.out.text.dialects import C99, number, statements
-from mechsym.out.text.programs import Written, told
+from mechsym.out.text.dialects import C99, Written, number, statements, told
 
 
 def function(tape: Tape, name: str, kind: str = "static void") -> str:
@@ -97,42 +96,36 @@ def _kinks(block: Block) -> str:
 
 def _stops(block: Block) -> str:
     x, sense = [s.name for s in block.states], {"falling": -1, "rising": 1, "either": 0}
-    rows = [f'{{{x.index(s.of)}, {sense[s.direction]}, {number(C99, s.level)}, "{s.name}"}}' for s in block.stops] or [
-        '{0, 0, 0.0, ""}'
-    ]
+    rows = [f'{{{x.index(s.of)}, {sense[s.direction]}, {number(C99, s.level)}, "{s.name}"}}' for s in block.stops]
+    text = ", ".join(rows) or '{0, 0, 0.0, ""}'
     head = "struct stop { int state, sense; double level; const char *name; };"
-    return f"{head}\nstatic const struct stop stops[] = {{{', '.join(rows)}}};"
+    return f"{head}\nstatic const struct stop stops[] = {{{text}}};"
 
 
 def files(written: Written) -> dict[str, str]:
     """NAME.h and NAME.c."""
     name = identifier(written.name)
-    make = _mechanism if written.block is None else _machine
-    header, source = make(written, name)
+    if written.block is None:
+        header, source = list[str](), ["#include <math.h>"]
+        for group, tape in written.tapes.items():
+            header += [f"/* {line} */" for line in told(written, group)]
+            header += [f"void {name}_{group}(const double *v, double *y);"]
+            source.append(function(tape, f"{name}_{group}", "void"))
+    else:
+        header, source = _machine(written.block, name)
     guard = f"{name.upper()}_H"
     head = f"/* {written.name}: {written.about} SI units, angles in rad. */\n#ifndef {guard}\n#define {guard}\n"
-    header = f"{_OPEN}{header}\n{_CLOSE}"  # the same functions from C++
-    return {f"{name}.h": f"{head}{header}\n#endif\n", f"{name}.c": f'#include "{name}.h"\n{source}'}
+    body = "\n".join([f"{head}{_OPEN}", *header, _CLOSE, "#endif", ""])  # the same functions from C++
+    return {f"{name}.h": body, f"{name}.c": "\n".join([f'#include "{name}.h"', *source])}
 
 
-_OPEN = '#include <stddef.h>\n#ifdef __cplusplus\nextern "C" {\n#endif\n'
+_OPEN = '#include <stddef.h>\n#ifdef __cplusplus\nextern "C" {\n#endif'
 _CLOSE = "#ifdef __cplusplus\n}\n#endif"
 
 
-def _mechanism(written: Written, name: str) -> tuple[str, str]:
-    header, source = [], ["#include <math.h>"]
-    for group, tape in written.tapes.items():
-        header += [f"/* {line} */" for line in told(written, group)]
-        header += [f"void {name}_{group}(const double *v, double *y);"]
-        source.append(function(tape, f"{name}_{group}", "void"))
-    return "\n".join(header), "\n".join(source)
-
-
-def _machine(written: Written, name: str) -> tuple[str, str]:
-    assert written.block is not None
+def _machine(block: Block, name: str) -> tuple[list[str], list[str]]:
     places = [
-        f"    {name}_{identifier(v.port.name)} = {v.reference}, /* {v.port.unit}, {v.kind} */"
-        for v in variables(written.block)
+        f"    {name}_{identifier(v.port.name)} = {v.reference}, /* {v.port.unit}, {v.kind} */" for v in variables(block)
     ]
     header = [
         "/* places of the values that can be got; states, inputs and parameters can be set */",
@@ -149,7 +142,7 @@ def _machine(written: Written, name: str) -> tuple[str, str]:
         "    const unsigned *by, size_t count_by, const double *so_much, double *change);",
     ]
     core = (resources.files("mechsym.out") / "c" / "core.h").read_text(encoding="utf-8")
-    return "\n".join(header), "\n".join([model(written.block), dop853_numbers(), core, _calls(name)])
+    return header, [model(block), dop853_numbers(), core, _calls(name)]
 
 
 def _calls(name: str) -> str:

@@ -1,10 +1,9 @@
 """A page that simulates: the C of the FMU as WebAssembly inside one HTML file, without a server.
 
-build.py   C to WebAssembly, and the page        page.c     what the page calls
-page.html  sliders and curves    live.py    the page inside a report
+build.py   C to WebAssembly, the page, the page inside a report        page.c     what the page calls
+page.html  sliders and curves
 """
 
-from mechsym.out.web.build import page
-from mechsym.out.web.live import LiveRun, with_live
+from mechsym.out.web.build import LiveRun, page, with_live
 
 __all__ = ["LiveRun", "page", "with_live"]

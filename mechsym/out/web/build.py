@@ -2,6 +2,7 @@
 
 import base64
 import errno
+import html
 import importlib.util
 import json
 import math
@@ -11,15 +12,18 @@ from collections.abc import Callable, Sequence
 from importlib import resources
 from pathlib import Path
 
-from mechsym.errors import MissingExtra
+from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import Json
+from mechsym.jobs.problem import Ready
 from mechsym.mechanisms.turning import rules
 from mechsym.native.compiler import NoCompiler, call, forecast
 from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block, Port
 from mechsym.out.fmi.describe import variables
+from mechsym.out.laws import block_of
 from mechsym.out.text.language_c import model
 from mechsym.page import page as template
+from mechsym.quantities import record
 from mechsym.quantities.display import chosen
 from mechsym.quantities.results import part, quantity, result
 from mechsym.style import DARK, GRID, QUIET, SERIES, axis_unit
@@ -35,6 +39,7 @@ _SLIDERS = {
     "p0": (0.9, 1.1), "F0": (0.8, 1.2), "load_torque": (0.5, 1.5), "drive_1": (0.5, 2.0), "k1": (0.5, 2.0),
     "gas_scale": (0.5, 1.2),
 }  # fmt: skip
+_LETTER = (0.8, 1.25)
 
 
 @result
@@ -74,13 +79,9 @@ def webassembly(block: Block) -> bytes:
     if importlib.util.find_spec("ziglang") is None:
         raise MissingExtra("a page that simulates needs the extra web: pip install 'mechsym[web]'")
     room = resources.files("mechsym.out")
-    sources = {
-        "model.h": model(block),
-        "method.h": dop853_numbers() + "\n",
-        "core.h": (room / "c" / "core.h").read_text(encoding="utf-8"),
-        "math.h": (room / "web" / "math.h").read_text(encoding="utf-8"),
-        "page.c": (room / "web" / "page.c").read_text(encoding="utf-8"),
-    }
+    texts = (("core.h", "c"), ("math.h", "web"), ("page.c", "web"))
+    sources = {"model.h": model(block), "method.h": dop853_numbers() + "\n"}
+    sources |= {name: (room / folder / name).read_text(encoding="utf-8") for name, folder in texts}
     forecast(sum(map(len, sources.values())))
     with tempfile.TemporaryDirectory() as folder:
         for name, content in sources.items():
@@ -101,17 +102,32 @@ def webassembly(block: Block) -> bytes:
 
 def _data(block: Block) -> Json:
     rows = variables(block)
-    speed = _shaft(block)
+    # the speed that people ask for: of the shaft whose standstill ends a run, else of the first coordinate
+    ends = [stop.of for stop in block.stops if stop.name == "stall"]
+    speed = next((s for s in block.states if s.name in ends), block.states[len(block.states) // 2])
+    letters = [p for p in block.parameters if not p.about and p.name not in _SLIDERS]  # of the declaration itself
     sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
+    sliders += [_slider(p, *_LETTER) for p in letters if p.start]
     if speed.start:  # an elastic shaft starts without twist
         alike = [s.name for s in block.states if s.unit == speed.unit and s.start == speed.start]
         sliders.append(_slider(speed, 0.9, 1.1) | {"about": "speed at the start", "sets": alike})
+    # how numbers are shown, in the units that the user chose: by SI unit the factor on a value, and its unit
+    sizes = {"s": 0.0, "m": 0.0}
+    for port in (*block.states, *block.parameters, *block.outputs):
+        sizes[port.unit] = max(sizes.get(port.unit, 0.0), abs(port.start))
+    # crank angle after which all curves begin again: a measured four-stroke cycle has two turns and no kinks
+    curves = (abs((c.poly.x[-1] - c.poly.x[0]) / c.ratio) for c in block.curves if c.periodic)
+    period = max([2 * math.pi, *(k.period for k in block.kinks), *map(float, curves)])
+
+    def palette(of: Callable[[str], str]) -> Json:
+        return {"quiet": of(QUIET), "grid": of(GRID), "series": [of(colour) for colour in SERIES]}
+
     return {
         "name": block.name,
         "about": block.about,
         "references": {v.port.name: v.reference for v in rows},
         "units": {v.port.name: v.port.unit for v in rows},
-        "shown": _shown(block),
+        "shown": {unit: axis_unit(unit, size) for unit, size in sizes.items()},
         "chosen": chosen(),
         "angle": speed.name[:-1],
         "speed": speed.name,
@@ -119,52 +135,24 @@ def _data(block: Block) -> Json:
         "sliders": sliders,
         "fields": [{"name": p.name, "unit": p.unit, "start": p.start, "about": p.about} for p in block.parameters],
         "acting": _acting(block),
-        "palette": {"light": _palette(lambda colour: colour), "dark": _palette(DARK.__getitem__)},
+        "palette": {"light": palette(lambda colour: colour), "dark": palette(DARK.__getitem__)},
         "gas": [p.name for p in block.parameters if p.name.startswith("gas") and p.name.endswith("_scale")],
-        "period": _period(block),
+        "period": period,
         # twenty turns from that speed, or the time of the run it was made from [s]
         "t_end": 20 * 2 * 3.141592653589793 / speed.start if speed.start else block.t_end,
     }
-
-
-def _shaft(block: Block) -> Port:
-    """The speed that people ask for: of the shaft whose standstill ends a run, else of the first coordinate."""
-    ends = [stop.of for stop in block.stops if stop.name == "stall"]
-    return next((s for s in block.states if s.name in ends), block.states[len(block.states) // 2])
-
-
-def _period(block: Block) -> float:
-    """Crank angle after which all curves begin again [rad]: a measured four-stroke cycle has two turns and no kinks."""
-    curves = (abs((c.poly.x[-1] - c.poly.x[0]) / c.ratio) for c in block.curves if c.periodic)
-    return max([2 * math.pi, *(k.period for k in block.kinks), *map(float, curves)])
 
 
 def _acting(block: Block) -> list[dict[str, str]]:
     """What acts on the machine, for people: a part's name, and the unit of the input that it acts on."""
     units = {port.name: port.unit for port in block.inputs}
     parts = {p.name: p.name.partition("_on_") for p in block.outputs if "_on_" in p.name}
-    named = [part for part, _, _ in parts.values()]
-    return [
-        {
-            "name": name,
-            "label": (name if named.count(part) > 1 else part).replace("_", " "),
-            "unit": units.get(on, "N*m"),
-        }
-        for name, (part, _, on) in parts.items()
-    ]
-
-
-def _palette(of: Callable[[str], str]) -> Json:
-    return {"quiet": of(QUIET), "grid": of(GRID), "series": [of(colour) for colour in SERIES]}
-
-
-def _shown(block: Block) -> dict[str, tuple[float, str]]:
-    """How numbers are shown, in the units that the user chose: by SI unit the factor on a value, and its unit."""
-    ports = (*block.states, *block.parameters, *block.outputs, Port(name="s", unit="s"), Port(name="rho", unit="m"))
-    sizes: dict[str, float] = {}
-    for port in ports:
-        sizes[port.unit] = max(sizes.get(port.unit, 0.0), abs(port.start))
-    return {unit: axis_unit(unit, size) for unit, size in sizes.items()}
+    named = [who for who, _, _ in parts.values()]
+    rows = []
+    for name, (who, _, on) in parts.items():
+        label = (name if named.count(who) > 1 else who).replace("_", " ")
+        rows.append({"name": name, "label": label, "unit": units.get(on, "N*m")})
+    return rows
 
 
 def _slider(port: Port, low: float, high: float) -> Json:
@@ -173,3 +161,35 @@ def _slider(port: Port, low: float, high: float) -> Json:
         "name": port.name, "unit": port.unit, "start": port.start, "low": ends[0], "high": ends[1],
         "about": port.about or port.name, "sets": [port.name],
     }  # fmt: skip
+
+
+_END = "</body>"
+# as high as what it shows, which changes with the width of the page
+_FIT = "const b=this.contentDocument.body;new ResizeObserver(()=>{this.style.height=b.scrollHeight+48+'px'}).observe(b)"
+
+
+@record
+class LiveRun:
+    """A run that a report is to carry."""
+
+    name: str
+    about: str
+    ready: Callable[[], Ready]  #: makes it ready, or refuses
+
+
+def with_live(text: str, runs: Sequence[LiveRun]) -> str:
+    """The text of a report with a section for each run at its end."""
+    head, end, tail = text.rpartition(_END)
+    return "".join([head, *map(section, runs), end, tail])
+
+
+def section(run: LiveRun) -> str:
+    """A section in which a machine simulates; where it cannot, what is missing."""
+    name = html.escape(run.name)
+    title = f'<h2 id="live-{name}">Try it: {name} simulates here</h2>'
+    try:
+        made = page(block_of(run.name, run.about, run.ready()))
+    except (MissingExtra, BadInput) as missing:
+        return f'{title}<p class="note">Not in this report: {html.escape(str(missing))}</p>\n'
+    frame = f'<iframe title="{name} simulates" srcdoc="{html.escape(made)}"'
+    return f'{title}{frame} style="width:100%;height:56rem;border:0" onload="{_FIT}"></iframe>\n'

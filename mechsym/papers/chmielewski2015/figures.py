@@ -7,19 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mechsym.cases import load
-from mechsym.papers.chmielewski2015.computed import (
-    CASE,
-    CLAIMED_SPEED,
-    CLAIMED_TIME,
-    EXACT,
-    FINEST,
-    PRINTED,
-    TELLING_STEP,
-    fixed,
-    piston,
-    rigid_speed_with_piston,
-    run,
-)
+from mechsym.papers.chmielewski2015 import rows as study
 from mechsym.style import BLUE, GREEN, GREY, INK, RED, legend, panels
 
 _SLOW = 14.0  # from then on a turn is too short to be seen among 100 s [s]
@@ -35,15 +23,15 @@ _FIGURES = (
 
 def figures() -> dict[str, Figure]:
     """All figures with curves, `figure_5` to `figure_11`, and `speeds`: the printed claim beside all runs."""
-    result = run(EXACT, FINEST[1], FINEST[0])
-    columns = {**result.columns, **piston()}
+    result = study.run(study.EXACT, study.FINEST[1], study.FINEST[0])
+    columns = {**result.columns, **study.piston()}
     drawn = {"figure_5": _torque()}
     drawn |= {f"figure_{n}": _both_spans(n, result.t, columns[key], label) for n, key, label in _FIGURES}
     return drawn | {"speeds": _speeds()}
 
 
 def _torque() -> Figure:
-    drive = load(CASE).need("drive")
+    drive = load(study.CASE).need("drive")
     figure, axes = panels(10, 3, 1, 2)
     for axis, end in zip(axes, (10.0, 100.0), strict=True):
         axis.step([0, drive.time, end], [0, drive.torque, drive.torque], where="post", color=BLUE)
@@ -77,18 +65,18 @@ def _band(axis: Axes, t: np.ndarray, y: np.ndarray, width: float = 0.25, **optio
 
 def _speeds() -> Figure:
     figure, (axis,) = panels(8, 4.6)
-    exact, printed = (run(model, FINEST[1], FINEST[0]) for model in (EXACT, PRINTED))
-    t, y = fixed(PRINTED, TELLING_STEP, 4)
+    exact, printed = (study.run(model, study.FINEST[1], study.FINEST[0]) for model in (study.EXACT, study.PRINTED))
+    t, y = study.fixed(study.PRINTED, study.TELLING_STEP, 4)
     for times, speed, color, label in (
         (exact.t, exact.columns["phi0d"], BLUE, "exact equations, converged"),
         (printed.t, printed.columns["phi0d"], GREEN, "(6) with (11) as printed, converged"),
-        (t, y[:, 2], RED, f"as printed, Runge-Kutta 4 with a fixed step of {1e3 * TELLING_STEP:g} ms"),
+        (t, y[:, 2], RED, f"as printed, Runge-Kutta 4 with a study.fixed step of {1e3 * study.TELLING_STEP:g} ms"),
     ):
         axis.plot(*_mean(times, speed), color=color, linewidth=1.4, label=label)
     _band(axis, t, y[:, 2], color=RED, alpha=0.15, linewidth=0, label="the same, momentary speed")
     end = float(exact.t[-1])
-    axis.plot([1, end], [0, rigid_speed_with_piston(end)], "--", color=GREY, label="rigid shaft, hand check")
-    axis.plot([CLAIMED_TIME, end], [CLAIMED_SPEED] * 2, color=INK, linewidth=2, label="printed: 194 rad/s")
+    axis.plot([1, end], [0, study.rigid_speed_with_piston(end)], "--", color=GREY, label="rigid shaft, hand check")
+    axis.plot([study.CLAIMED_TIME, end], [study.CLAIMED_SPEED] * 2, color=INK, linewidth=2, label="printed: 194 rad/s")
     axis.set(xlabel="t [s]", ylabel="mean crank speed over a second [rad/s]", xlim=(0, end))
     legend(axis)
     return figure

@@ -9,25 +9,18 @@ from mechsym.audit.hosts.sources import Decided
 from mechsym.audit.read.algebra import FLOATS
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import complete
-from mechsym.papers.nunes2017 import errata
-from mechsym.papers.nunes2017 import sizing as nunes2017_sizing
-from mechsym.papers.nunes2017.chapter4 import Peaks, chapter4
+from mechsym.papers.nunes2017 import errata, sizing
+from mechsym.papers.nunes2017.chapter4 import chapter4
+from mechsym.papers.nunes2017.numbers import TIMINGS
 from mechsym.papers.rows import Row
 from mechsym.quantities import dimension
 from mechsym.sizing.rules import crankshaft, piston
-from mechsym.sizing.rules import piston as bolt
-from mechsym.sizing.rules.piston import tdc_gap
-
-
-def peaks() -> Peaks:
-    """Peaks of the thesis's march."""
-    return chapter4().peaks
 
 
 @cache
 def items() -> dict[str, Row]:
     """Rows of the reproduction of chapter 4, by item."""
-    return {row.item: row for row in nunes2017_sizing.rows()}
+    return {row.item: row for row in sizing.rows()}
 
 
 def computed(item: str) -> float:
@@ -47,12 +40,6 @@ def against(claimed: float, correct: float, note: str, within: float = 5e-3) -> 
     return Decided(supported=abs(error) <= within, note=note, rel_error=error)
 
 
-# table 3.1: speed [rpm], and its two columns as headed [deg]
-_SPEED = (1200, 2400, 3600, 4800, 6000, 7600, 9200)
-_DURATION = (352, 348, 350, 349, 346, 349, 347)
-_START = (32, 41, 39, 44, 44, 51, 56)
-
-
 def displacement() -> Decided:
     """Bore and stroke against the displacement of the text."""
     volume = math.pi * 0.060**2 / 4 * 0.104
@@ -65,7 +52,8 @@ def displacement() -> Decided:
 
 def combustion_columns() -> Decided:
     """Lines through the columns of table 3.1: they are (3.2) and (3.1) the other way round."""
-    lines = [np.polyfit(_SPEED, column, 1) for column in (_DURATION, _START)]
+    speed, *columns = TIMINGS.T
+    lines = [np.polyfit(speed, column, 1) for column in columns]
     shift = (lines[0][0] + 0.0004) * 8000
     return Decided(
         supported=False,
@@ -142,7 +130,7 @@ def crossover() -> Decided:
 def net_pressure() -> Decided:
     """Absolute pressure as net pressure. Returns decided: with the atmosphere on the piston's back."""
     costs = errata.back_pressure()
-    surplus, force = costs["surplus_force"], peaks().F
+    surplus, force = costs["surplus_force"], chapter4().peaks.F
     note = (
         f"the atmosphere behind the piston takes {surplus:.1f} N; the largest torques are "
         f"{costs['torque_max slider-crank']:.2f} and {costs['torque_max hypocycloid']:.2f} N m for 276.26 and 243.58; "
@@ -159,11 +147,12 @@ _F_PRINTED = 27410.0
 def piston_area() -> Decided:
     """The area of table 3.2 is ten times too large against the bore's; what chapter 4 made of it."""
     area = math.pi * _B**2 / 4
-    drawn = 1 + _STROKES * 1e-3 / tdc_gap(_V_C, _AREA_PRINTED)
+    gaps = [1e3 * piston.tdc_gap(_V_C, a) for a in (_AREA_PRINTED, area)]
+    drawn = 1 + _STROKES / gaps[0]
     cylinder, rod_as_made = "length of the cylinder [mm]", "length of the rod [mm]"
     note = (
         f"the bore gives {area:.7f} m^2, a tenth; chapter 3 was computed with the right area, chapter 4 with the "
-        f"printed one: heads {tdc_gap(_V_C, _AREA_PRINTED) * 1e3:.1f} mm apart for {tdc_gap(_V_C, area) * 1e3:.1f} mm, "
+        f"printed one: heads {gaps[0]:.1f} mm apart for {gaps[1]:.1f} mm, "
         f"compression ratio {drawn:.0f} as drawn for 10, cylinder {computed(cylinder):.1f} mm long for "
         f"{right(cylinder):.1f} mm, rod {computed(rod_as_made):.1f} mm for {right(rod_as_made):.1f} mm"
     )
@@ -192,7 +181,7 @@ def head_for_heat() -> Decided:
 
 def rod_diameter() -> Decided:
     """The diameter by (4.5) with the stress of the text."""
-    force = peaks().F
+    force = chapter4().peaks.F
     text, used = (piston.rod_diameter(force, stress) * 1e3 for stress in (60e6, 75e6 / 1.5))
     note = (
         f"60 MPa give {text:.2f} mm; {used:.2f} mm follow from 75/1.5 = 50 MPa, the fatigue strength over the factor "
@@ -231,13 +220,13 @@ def cylinder_length() -> Decided:
 
 def bolts() -> Decided:
     """The stress in the core of five M10 bolts. Returns decided: above the range of the rule."""
-    pressure = peaks().p
-    root = bolt.root_diameter(10)
-    stress = bolt.bolt_stress(pressure, _B, 5, root) / 1e6
-    threads = [bolt.thread_for(bolt.core_diameter(pressure, _B, 5, s)) for s in (70e6, 35e6)]
+    pressure, root = chapter4().peaks.p, piston.root_diameter(10)
+    stress = piston.bolt_stress(pressure, _B, 5, root) / 1e6
+    cores = [piston.core_diameter(pressure, _B, 5, s) for s in (70e6, 35e6)]
+    threads = [piston.thread_for(core) for core in cores]
     return Decided(
         supported=stress <= 70,
-        note=f"(4.18) gives the core, at least {bolt.core_diameter(pressure, _B, 5, 70e6) * 1e3:.2f} mm; M10 has "
+        note=f"(4.18) gives the core, at least {cores[0] * 1e3:.2f} mm; M10 has "
         f"{root * 1e3:.2f} mm and {stress:.0f} MPa in it for the 35 to 70 MPa of the rule, M{threads[0]} to "
         f"M{threads[1]} keep it; the other rule needs 0.75 of the flange of 10 mm, 7.5 mm, not 9 mm",
         rel_error=stress / 70 - 1,
@@ -246,7 +235,7 @@ def bolts() -> Decided:
 
 def crankpin_force() -> Decided:
     """The force of section 4.5 against the largest of chapter 3."""
-    force = peaks().F
+    force = chapter4().peaks.F
     bearing, pin = right("load of a main bearing [N]"), right("diameter of the crankpin [mm]")
     note = (
         f"two digits exchanged: chapter 3 and section 4.8 have {force:.0f} N; the main bearing gets {bearing:.0f} N "
@@ -257,7 +246,7 @@ def crankpin_force() -> Decided:
 
 def web_stress() -> Decided:
     """The stress by (4.34) with the right force and the width of (4.33): for a disc of 65 mm only."""
-    force = peaks().F
+    force = chapter4().peaks.F
     disc, lean = (crankshaft.web_stress(force / 2, 0.043, 0.034, 0.015, w) / 1e6 for w in (0.065, 0.04082))
     note = (
         f"118.074 MPa take F = 27410 N and the disc of 65 mm; {disc:.1f} MPa with 27140 N, {lean:.1f} MPa with the "
@@ -269,7 +258,7 @@ def web_stress() -> Decided:
 
 def output_shaft() -> Decided:
     """The diameter by (4.35), and the stress of the shaft as chosen."""
-    torque = peaks().T
+    torque = chapter4().peaks.T
     one, both = (crankshaft.shaft_diameter(t, _ULTIMATE / 1.5) * 1e3 for t in (torque, 2 * torque))
     stress = crankshaft.torsion_stress(torque, 0.008) / 1e6
     would = math.pi * 0.00782**3 / 16 * _ULTIMATE / 1.5

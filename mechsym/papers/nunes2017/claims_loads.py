@@ -10,20 +10,18 @@ from mechsym.cycle.kinds.printed import marched
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.size import check_printed
 from mechsym.papers.nunes2017 import chapter4 as printed
-from mechsym.papers.nunes2017 import errata as nunes2017_errata
-from mechsym.papers.nunes2017.chapter4 import GEOMETRY
-from mechsym.papers.nunes2017.claims import against, computed, peaks, right
+from mechsym.papers.nunes2017 import errata
+from mechsym.papers.nunes2017.claims import against, computed, right
 from mechsym.quantities import RPM, dimension
 from mechsym.sizing.loads import journal_load_massless, tooth_load_printed
 from mechsym.sizing.rules import bearings, gears
-from mechsym.sizing.rules import gears as agma
 
 _PRESSURE_ANGLE = np.radians(25)
 
 
 def moving_mass() -> Decided:
     """The mass of the thesis's own parts on the cylinder axis, and what it changes at 8000 rpm."""
-    figures = nunes2017_errata.reciprocating_mass()
+    figures = errata.reciprocating_mass()
     mass = figures["mass_kg"]
 
     def change(name: str) -> str:
@@ -191,7 +189,7 @@ def dynamic_constant() -> Decided:
 def mesh_speed_effect(verdict: Decision) -> str:
     """What the pinion's half speed costs in K_v and in the width of the pinion."""
     half, true = (float(printed.dynamic_printed(member, 8000, _FEET)) for member in (1, 2))
-    speed = float(agma.mesh_speed(printed.D_PINION, 8000 * RPM))
+    speed = float(gears.mesh_speed(printed.D_PINION, 8000 * RPM))
     return (
         f"at 8000 rpm the teeth meet with {speed:.2f} m/s and not with {speed / 2:.2f} m/s, K_v is {true:.4f} for "
         f"{half:.4f}; the pinion of table 4.12 needs {_pinion_contact():.2f} mm in contact for the 39 mm chosen"
@@ -201,19 +199,15 @@ def mesh_speed_effect(verdict: Decision) -> str:
 def dynamic_members() -> Decided:
     """K_v of the mesh."""
     mesh = right("K_v, pinion, 8000 rpm")
-    return against(
-        1.1073, mesh, f"both mesh with the same speed, that of the planet against its carrier: {mesh:.4f} for both"
-    )
+    note = f"both mesh with the same speed, that of the planet against its carrier: {mesh:.4f} for both"
+    return against(1.1073, mesh, note)
 
 
 def elastic_coefficient() -> Decided:
     """Z_E of steel on steel."""
     pascal = float(gears.elastic_coefficient(200e9, 0.3, 200e9, 0.3))
-    return against(
-        1.8703e5,
-        pascal / 1e3,
-        f"{pascal:.5g} Pa^0.5, {pascal / 1e3:.2f} (N/mm^2)^0.5: the unit is wrong; the face widths use the right one",
-    )
+    note = f"{pascal:.5g} Pa^0.5, {pascal / 1e3:.2f} (N/mm^2)^0.5: the unit is wrong; the face widths use the right one"
+    return against(1.8703e5, pascal / 1e3, note)
 
 
 def ring_contact() -> Decided:
@@ -230,7 +224,7 @@ def ring_contact() -> Decided:
 
 def face_width() -> Decided:
     """The widths of the chosen pair with one mesh, and with the geometry of the internal pair."""
-    own = peaks()
+    own = printed.chapter4().peaks
     pinion, ring, contact = (1e3 * b for b in printed.widths_corrected(_SHIFT, 26, own.rpm, own.tooth))
     fits = max(pinion, ring, contact) <= _CHOSEN
     return Decided(
@@ -257,8 +251,8 @@ def maraging() -> Decided:
 
 def _pinion_contact() -> float:
     """Face width of the chosen pinion in contact, as table 4.12 but with the speed of the mesh [mm]."""
-    own = peaks()
+    own = printed.chapter4().peaks
     load = 0.5 * np.max(own.tooth * printed.dynamic_printed(2, own.rpm, _FEET))
-    factors = agma.LoadFactors(K_m=printed.load_distribution_printed(1))
-    I = float(GEOMETRY[_SHIFT, 26][0])
-    return 1e3 * float(agma.face_width_contact(load, printed.D_PINION, I, 187030.0, 1300e6, factors))
+    factors = gears.LoadFactors(K_m=printed.load_distribution_printed(1))
+    I = float(printed.GEOMETRY[_SHIFT, 26][0])
+    return 1e3 * float(gears.face_width_contact(load, printed.D_PINION, I, 187030.0, 1300e6, factors))

@@ -13,7 +13,7 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber, piston_force
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.closed.performance import Performance
-from mechsym.cycle.compare import crossovers
+from mechsym.cycle.columns import crossovers
 from mechsym.cycle.engine import over_speeds
 from mechsym.cycle.kinds.printed import March, marched
 from mechsym.jobs.cycle import engine, speed_range

@@ -16,7 +16,7 @@ from mechsym.cycle.chamber import chamber as make_chamber
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.kinds.printed import March, crank_torque, marched
 from mechsym.jobs.cycle import engine
-from mechsym.papers.nunes2017.numbers import over_printed_speeds
+from mechsym.papers.nunes2017.numbers import MODELS, curves_of
 from mechsym.papers.page import turn_axis
 from mechsym.quantities import RPM
 from mechsym.style import BLUE, GREEN, ORANGE, RED, legend, panels
@@ -118,7 +118,7 @@ def _over_cycle(number: str, degrees: np.ndarray, curves: np.ndarray, label: str
 
 
 def _maps() -> dict[str, Figure]:
-    curves = over_printed_speeds()
+    curves = curves_of(MODELS["printed"])
     short, own = curves["slider_crank_74"], curves["hypocycloid"]
     drawn: dict[str, Figure] = {}
     for k, (key, label) in enumerate(_PERFORMANCE):

@@ -10,7 +10,7 @@ import numpy as np
 
 from mechsym.cases import Case, load
 from mechsym.cycle.chamber import Chamber, chamber, travel
-from mechsym.cycle.compare import crossovers
+from mechsym.cycle.columns import crossovers
 from mechsym.cycle.engine import columns, over_speeds
 from mechsym.cycle.kinds.spark_ignition import otto_efficiency
 from mechsym.jobs.cycle import engine, speed_range
@@ -36,17 +36,12 @@ def items(table: str) -> list[Item]:
     """Numbers of `numbers.csv`: over the `speeds`; where the torque curves cross, `crossover`; `differences`, section
     5.2 and fig. 5.18: magnitude of (hypocycloid/slider crank - 1) in percent, rod of 90 mm."""
     text = (resources.files("mechsym.papers.nunes2017") / "numbers.csv").read_text(encoding="utf-8")
-    lines = [line for line in csv.DictReader(text.splitlines()) if line["table"] == table]
-    names = ("item", "published", "engine", "quantity", "slip", "meant")
-    return [
-        Item(**{name: line[name] for name in names}, at=_place(line["at"]), about=float(line["about"] or 0))
-        for line in lines
-    ]
-
-
-def _place(text: str) -> float | str:
-    value = number(text)
-    return text if value is None else value
+    items = []
+    for line in csv.DictReader(text.splitlines()):
+        if line.pop("table") == table:
+            at, about = number(line["at"]), float(line["about"] or 0)
+            items.append(Item(**line | {"at": line["at"] if at is None else at, "about": about}))
+    return items
 
 
 def verdict(item: Item, computed: float) -> tuple[str, str]:
@@ -94,15 +89,6 @@ MODELS: dict[str, Mapping[str, str]] = {
 Curves = Mapping[str, np.ndarray]
 
 
-def over_printed_speeds() -> dict[str, Curves]:
-    """Performance of the three engines over the speeds by the thesis's own march.
-
-    Returns curves: `slider_crank`, `slider_crank_74` (rod of 74 mm) and `hypocycloid` to their quantities over the
-    speeds.
-    """
-    return curves_of(MODELS["printed"])
-
-
 def value(item: Item, curves: Mapping[str, Curves]) -> float:
     """What a published number is on the curves of a model, by engine; in the unit of the print [-]."""
     speed, y = curves[item.engine]["speed_rpm"], curves[item.engine][item.quantity]
@@ -118,17 +104,14 @@ def curves_of(changes: Mapping[str, str]) -> dict[str, Curves]:
     for name, (case, own) in ENGINES.items():
         loaded: Case = load(case, {**own, **changes})
         table = columns(over_speeds(engine(loaded), speed_range(loaded.need("speeds"))))
-        flat = {k: v for k, v in table.items() if k not in ("fractions", "loads")}
-        curves[name] = (
-            flat
-            | dict(table["fractions"])
-            | dict(table["loads"])
-            | {
-                "efficiency_percent": 100 * table["efficiency"],
-                "power_hp": 1.34102209 * table["power_kw"],  # eq. (2.47)
-                "power_to_weight": table["power_kw"] / 13.4066,  # section 5.1.2, engine of 13406.6 g
-            }
-        )
+        curves[name] = {
+            **{k: v for k, v in table.items() if k not in ("fractions", "loads")},
+            **table["fractions"],
+            **table["loads"],
+            "efficiency_percent": 100 * table["efficiency"],
+            "power_hp": 1.34102209 * table["power_kw"],  # eq. (2.47)
+            "power_to_weight": table["power_kw"] / 13.4066,  # section 5.1.2, engine of 13406.6 g
+        }
     return curves
 
 
@@ -150,7 +133,7 @@ def difference(item: Item, curves: Mapping[str, Curves]) -> float:
 _TOP_SPEED = 8000 * RPM
 _G = 9.81
 # table 3.1, columns exchanged as the values demand: speed [rpm], start and duration of combustion [deg]
-_TIMINGS = np.array([
+TIMINGS = np.array([
     (1200, 352, 32), (2400, 348, 41), (3600, 350, 39), (4800, 349, 44), (6000, 346, 44), (7600, 349, 51),
     (9200, 347, 56),
 ], float)  # fmt: skip
@@ -176,7 +159,7 @@ def _of_chamber(evaluate: Callable[[Chamber], float]) -> Fact:
 
 
 def _line(column: int, power: int) -> Fact:
-    return lambda _: float(np.polyfit(_TIMINGS[:, 0], _TIMINGS[:, column], 1)[1 - power])
+    return lambda _: float(np.polyfit(TIMINGS[:, 0], TIMINGS[:, column], 1)[1 - power])
 
 
 def _ratio(cases: Mapping[str, Case]) -> float:

@@ -120,16 +120,14 @@ def _breathing() -> Row:
 
 
 def _friction() -> Row:
-    lost = [1 - _efficiency(name) for name in ("nunes-slider-crank", _CASE)]
+    lost = []
+    for name in ("nunes-slider-crank", _CASE):
+        losses = forces(load(name)).losses
+        assert losses is not None and losses.mechanical_efficiency is not None
+        lost.append(1 - losses.mechanical_efficiency)
     item = "section 6.2: loss by friction of the hypocycloid mechanism by that of the slider crank [-]"
     note = "coefficients of friction and rings assumed, the same for both"
     return claim(item, "one of the greatest advantages", lost[1] / lost[0], lost[1] < lost[0], note)
-
-
-def _efficiency(name: str) -> float:
-    losses = forces(load(name)).losses
-    assert losses is not None and losses.mechanical_efficiency is not None
-    return losses.mechanical_efficiency
 
 
 def _flywheel() -> Row:
@@ -141,14 +139,13 @@ def _flywheel() -> Row:
 
 def _belt() -> Row:
     figures = _figures()
+    largest, mean = (float(figures[name][0]) for name in ("torque_max", "torque_avg"))
     item = "section 4.7: largest torque that the belt carries from one shaft to the other [N*m]"
     note = (
-        f"that of one crank, in the mean {float(figures['torque_avg'][0]) / 2:.1f} N*m; no pulley, tension or belt is "
-        "printed, so its pull is not computable"
+        f"that of one crank, in the mean {mean / 2:.1f} N*m; no pulley, tension or belt is printed, so its pull is not "
+        "computable"
     )
-    return row(
-        item, "no study was done regarding the appropriate belt", float(figures["torque_max"][0]), NOT_COMPUTABLE, note
-    )
+    return row(item, "no study was done regarding the appropriate belt", largest, NOT_COMPUTABLE, note)
 
 
 def _left() -> list[Row]:
@@ -213,16 +210,15 @@ def _losses() -> list[Row]:
         for rpm, a, b in zip(own["speed_rpm"], own[_FRICTION], rival[_FRICTION], strict=True)
     }
     told = ", ".join(f"{value:+.1f} % at {rpm} rpm" for rpm, value in change.items())
+    item = (
+        "section 6: friction mean pressure of the hypocycloid engine at {} rpm against the slider crank's, change [%]"
+    )
+    note = (
+        f"{told}: no side force on the piston, but the teeth slide under the whole load of the gas; coefficients "
+        "and rings assumed, the same for both"
+    )
     return [
-        claim(
-            f"section 6: friction mean pressure of the hypocycloid engine at {rpm} rpm against the slider crank's, "
-            "change [%]",
-            "significantly reduced",
-            change[rpm],
-            change[rpm] < 0,
-            f"{told}: no side force on the piston, but the teeth slide under the whole load of the gas; coefficients "
-            "and rings assumed, the same for both",
-        )
+        claim(item.format(rpm) + "change [%]", "significantly reduced", change[rpm], change[rpm] < 0, note)
         for rpm in (4000, 8000)
     ]
 
@@ -255,16 +251,14 @@ def _rod() -> Row:
     return claim(item, "longer rods which don't affect the kinematics", ratio, abs(ratio - 1) < 1e-5, note)
 
 
-def _at_4000(name: str) -> float:
-    """A figure of the hypocycloid engine as the thesis has it."""
-    table = swept("hypocycloid-speeds")
+def _at_4000(name: str, engine: str = "hypocycloid") -> float:
+    """A figure of one of the thesis's engines."""
+    table = swept(f"{engine}-speeds")
     return float(table[name][np.argmin(np.abs(table["speed_rpm"] - 4000))])
 
 
 def _impact() -> Row:
-    at = swept("slider-crank-speeds")
-    rival = float(at["power_kw"][np.argmin(np.abs(at["speed_rpm"] - 4000))])
-    mechanism = abs(_at_4000("power_kw") - rival)
+    mechanism = abs(_at_4000("power_kw") - _at_4000("power_kw", "slider-crank"))
     others = {name: float(np.ptp(swept(name)["power_kw"])) for name in ("bore-to-stroke", "compression", "boost")}
     told = ", ".join(f"{name} {value:.2f}" for name, value in others.items())
     item = (
@@ -275,13 +269,8 @@ def _impact() -> Row:
         f"{mechanism:.2f} kW at 4000 rpm; over the ranges of the study: {told} kW. What the mechanism decides is load, "
         "size and life of its gears"
     )
-    return claim(
-        item,
-        "the most impact on the engine performance",
-        mechanism / others["compression"],
-        mechanism > min(others.values()),
-        note,
-    )
+    share, holds = mechanism / others["compression"], mechanism > min(others.values())
+    return claim(item, "the most impact on the engine performance", share, holds, note)
 
 
 def _load(engine: Sequence[Row]) -> Row:

@@ -16,19 +16,8 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber, travel
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
-from mechsym.papers.nunes2017 import outlook, sizing
-from mechsym.papers.nunes2017.numbers import (
-    ENGINES,
-    FACTS,
-    MODELS,
-    at_crossover,
-    curves_of,
-    difference,
-    item_row,
-    items,
-    over_printed_speeds,
-    value,
-)
+from mechsym.papers.nunes2017 import numbers, outlook, sizing
+from mechsym.papers.nunes2017.numbers import ENGINES, FACTS, MODELS, curves_of, item_row, items, value
 from mechsym.papers.rows import NOT_COMPUTABLE, Row, claim, row
 from mechsym.quantities import record
 
@@ -44,7 +33,9 @@ def engine_rows() -> list[Row]:
     """The published numbers of chapters 2, 3 and 5, and those that no cycle is needed for."""
     models = {name: curves_of(changes) for name, changes in MODELS.items()}
     rows = []
-    for table, evaluate in (("speeds", value), ("crossover", at_crossover), ("differences", difference)):
+    for table, evaluate in (
+        ("speeds", value), ("crossover", numbers.at_crossover), ("differences", numbers.difference),
+    ):  # fmt: skip
         for item in items(table):
             rows.append(item_row(item, {name: evaluate(item, curves) for name, curves in models.items()}))
     cases = {name: load(case, changes) for name, (case, changes) in ENGINES.items()}
@@ -53,7 +44,7 @@ def engine_rows() -> list[Row]:
 
 def _statements() -> list[Row]:
     # what the text says of its curves in words or with "about", beside the thesis's own march
-    curves = over_printed_speeds()
+    curves = curves_of(MODELS["printed"])
     rows = []
     for item in items("beginnings"):
         computed = value(item, curves)
@@ -99,14 +90,13 @@ class Sentence:
     left: str = ""  #: Why nothing decides it, or part of it
 
 
-def sentences() -> tuple[Sentence, ...]:
-    """The sentences of `chapter6.toml` in the order of the text."""
+def _sentences() -> tuple[Sentence, ...]:
     text = (resources.files("mechsym.papers.nunes2017") / "chapter6.toml").read_text(encoding="utf-8")
-    told = tomllib.loads(text)["sentence"]
-    return tuple(Sentence(**{**one, "decided": tuple(one.get("decided", ()))}) for one in told)
+    listed = tomllib.loads(text)["sentence"]
+    return tuple(Sentence(**{**one, "decided": tuple(one.get("decided", ()))}) for one in listed)
 
 
-SENTENCES = sentences()
+SENTENCES = _sentences()  # of `chapter6.toml`, in the order of the text
 
 
 def undecided(others: Sequence[Row]) -> list[Row]:

@@ -209,15 +209,12 @@ def _rest(thesis: Chapter4) -> list[Row]:
     # bearings as in table 4.16 [kg]
     parts |= {"HK 2516": (0.025, 4), "6013 M": (0.440, 4), "628": (0.017, 4), "HN 1516": (0.014, 8)}
     unit = "g.mm, not g.mm/s2"
+    output, support = (masses.unbalance([one]) for one in ((of.output_set, -0.00381), (of.support_set, -0.00406)))
     return [
         _entry("mass of a shaft [g]", "90.8", masses.cylinder_mass(density, part.shaft, part.shaft_length) * 1e3),
         _sum("unbalance of the moving parts [g.mm]", "2783", masses.unbalance(moving) * 1e6, unit),
-        _sum("balance of the output shaft set [g.mm]", "-2781",
-             masses.unbalance([(of.output_set, -0.00381)]) * 1e6,
-               unit),
-        _sum("balance of the support shaft set [g.mm]", "2783",
-             -masses.unbalance([(of.support_set, -0.00406)]) * 1e6,
-               unit),
+        _sum("balance of the output shaft set [g.mm]", "-2781", output * 1e6, unit),
+        _sum("balance of the support shaft set [g.mm]", "2783", -support * 1e6, unit),
         _entry("dynamic rating of two HK 2516 [kN]", "30.2", 2 * rating / 1e3,
                "ratings added; ISO 281: i^(7/9)", "", bearings.set_rating(rating, 2, "drawn-cup") / 1e3),
         _entry("load of a 6013 M [N]", "13570", thesis.peaks.F / 2),

@@ -6,6 +6,8 @@ The source prints no data. What follows from geometry needs none: four rod journ
 import numpy as np
 
 from mechsym import mechanisms
+from mechsym.audit.hosts.sources import Decided
+from mechsym.audit.verdict import Decision
 from mechsym.cases import load
 from mechsym.mechanisms import constraints
 from mechsym.mechanisms.closing import Clearances, Stiffnesses, redundant_force
@@ -115,3 +117,42 @@ def _radial_force(closing: Stiffnesses, play: float) -> float:
     rule = Clearances(k_a=closing.k_a, k_b=closing.k_b, k_c=closing.k_c, gap_c=play, radius_error=_ERROR)
     angles = np.linspace(0, 2 * np.pi, 73)
     return max(float(redundant_force(rule, 0.0, 0.0, float(np.sin(a)), float(np.cos(a)))) for a in angles)
+
+
+_TURN = np.linspace(0, 2 * np.pi, 361)
+
+
+def root_effect(verdict: Decision) -> str:
+    """What the printed root gives for equal masses."""
+    # two journals on each axis carry half the sum each
+    along, across = inertia_resultant(_TURN)
+    printed, right = np.sqrt(2 * ((along / 2) ** 2 + (across / 2) ** 2)), np.hypot(along, across)
+    return f"with equal masses the printed root gives {np.mean(printed / right):.3f} of the resultant 4 m r omega^2"
+
+
+def constant_size() -> Decided:
+    """The size of the resultant over a turn."""
+    size = np.hypot(*inertia_resultant(_TURN))
+    change = float(np.ptp(size) / np.mean(size))
+    supported = change < 1e-12
+    size_of_change = "less than 1e-12" if supported else f"{change:.2g}"
+    return Decided(supported=supported, note=f"it changes by {size_of_change} of itself over a turn", rel_error=change)
+
+
+def along_the_rod() -> Decided:
+    """The share of the resultant that is across a rod."""
+    along, across = inertia_resultant(_TURN)
+    share = float(np.max(np.abs(across) / np.hypot(along, across)))
+    return Decided(
+        supported=share < 1e-9,
+        note=f"by the paper's own (5) it turns with the crank: {100 * share:.0f} % of it is across a rod at some angle",
+    )
+
+
+def no_side_force() -> Decided:
+    """Who carries the force across the cylinder."""
+    return Decided(
+        supported=True,
+        note="the guides of the sliders take X_a and X_b instead of the cylinders; their size needs a closing rule, "
+        "since the rigid mechanism is overconstrained by one",
+    )

@@ -9,7 +9,7 @@ from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Decision
 from mechsym.machine.record import gas_of
-from mechsym.papers.zotov2024 import computed
+from mechsym.papers.zotov2024 import rows as computed
 
 _TURN = np.linspace(0, 2 * np.pi, 721)
 _CYCLE = "with the cycle of the built-in cases"

@@ -7,15 +7,7 @@ from mechsym.hinge import guide
 from mechsym.hinge.guide import with_setting
 from mechsym.machine.record import gas_of
 from mechsym.papers.page import turn_axis
-from mechsym.papers.zotov2024.computed import (
-    PRESSURES,
-    Engines,
-    best_pressure,
-    distances,
-    engines,
-    guides,
-    printed_torque,
-)
+from mechsym.papers.zotov2024.rows import PRESSURES, Engines, best_pressure, distances, engines, guides, printed_torque
 from mechsym.style import BLUE, GREEN, GREY, INK, RED, legend, panels
 
 _PHI = np.linspace(0, 2 * np.pi, 1441)
@@ -57,13 +49,11 @@ def _guides() -> Figure:
     cut = {m.label: m.guide for m in guides() if m.start == "as_printed"}
     about = {"a": "89 rpm, H = 1 m", "b": "142 rpm, H = 1 m", "c": "89 rpm, H = 0.4 m", "d": "142 rpm, H = 0.4 m"}
     figure, axes = panels(9, 8.6, 2, 2)
-    theta = np.linspace(0, 2 * np.pi, 1441)
     for axis, (letter, words) in zip(axes, about.items(), strict=True):
         for number, p0, (color, line) in zip("123", (3, 5, 8), _LINES, strict=True):
             rho = distances(cut[letter + number])
-            axis.plot(
-                rho * np.cos(theta), rho * np.sin(theta), color=color, linestyle=line, label=f"{number}: p0 = {p0} MPa"
-            )
+            x, y = rho * np.cos(_PHI), rho * np.sin(_PHI)
+            axis.plot(x, y, color=color, linestyle=line, label=f"{number}: p0 = {p0} MPa")
         axis.plot(0, 0, "+", color=INK)
         axis.set_aspect("equal")
         axis.set_title(f"Fig. 5 {letter}: {words}, stated cycle", fontsize=10)

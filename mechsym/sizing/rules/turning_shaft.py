@@ -115,8 +115,7 @@ class Shaft:
     pin: float = quantity("m", above=0, about="crankpin")
     pin_bore: float = quantity("m", low=0, about="its bore")
     pin_half: float = quantity("m", above=0, about="half its length")
-    #: Thickness of the web [m]
-    web: float = quantity("m", above=0, about="web")
+    web: float = quantity("m", above=0, about="web")  #: Thickness of the web [m]
     #: Shaft from the web through the inner journal: diameter and where it ends [m]
     seat: float = quantity("m", above=0, about="shaft at the inner journal")
     seat_end: float = quantity("m", above=0, about="end of the seat")

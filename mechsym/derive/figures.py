@@ -1,0 +1,88 @@
+"""The drawing of a mechanism that draws nothing itself: links through their joints, marks of the ground, slides, gears.
+
+line, circle    as declared by hand (drawing.py), placed by the derived code
+rail            the frame beside a slide, as far as it moves; points: the slide, and one ahead of it
+trace           the path of a watched point
+"""
+
+from collections.abc import Iterable
+from typing import Any
+
+from sympy import Expr, Integer, Rational, cos, sin, sqrt
+
+from mechsym.derive.linkage import Joint, Link, LinkLine, LinkPoint
+
+Declaration = Any  # the declaration, whose closing imports this module
+_HATCH = [(14, -16), (10, -20), (7, -16), (3, -20), (0, -16), (-4, -20), (-7, -16), (-11, -20), (-14, -16), (14, -16)]
+_GROUND = [[(0, 0), (-9, -16), (9, -16), (0, 0)], _HATCH]  # tenths of a mark, about the pin
+
+
+def draw(m: Declaration) -> None:
+    """Name where pins are, and draw what the declaration leaves undrawn."""
+    m.pins = {pin.name: m.point_names((pin.first,))[0] for pin in m.link_joints if pin.kind == "pin"}
+    drawn = bool(m.shapes)
+    for point in m.watched.values():
+        m._shape("trace", "trace", (point,))
+    if drawn:
+        return
+    mark = _mark(m)
+    for joint in m.link_joints if mark != 0 else ():
+        _DRAWN[joint.kind](m, joint, mark)
+    for link in m.links:
+        _link(m, link)
+
+
+def _mark(m: Declaration) -> Expr:
+    """Size of a mark: a fifteenth of the root mean square of the lengths of all links [m]."""
+    points = {(p.u, p.v) for joint in m.link_joints for p in (joint.first, joint.second)}
+    square = sum((x**2 for point in points for x in point), Integer(0))
+    return sqrt(square * Rational(1, len(points))) / 15 if square != 0 else Integer(0)
+
+
+def _link(m: Declaration, link: Link) -> None:
+    """A link as a line, or a polygon, through what its joints hold and what is watched of it."""
+    sides = [joint.side(link) for joint in m.link_joints if link in (joint.first.link, joint.second.link)]
+    watched = (p for p in m.watched.values() if isinstance(p, LinkPoint) and p.link is link)
+    points = [link.at(p.u, p.v) for p in (*sides, *watched)]
+    where = list({(str(p.u), str(p.v)): p for p in points}.values())
+    if len(where) > 1:
+        m.draw_line(*where, *(where[:1] if len(where) > 2 else ()), role="crank" if link.given else "rod")
+    elif link.mass != 0 and where and (link.centre[0], link.centre[1]) != (where[0].u, where[0].v):
+        m.draw_line(where[0], link.at(*link.centre), role="piston")
+
+
+def _pin(m: Declaration, joint: Joint, mark: Expr) -> None:
+    for point in (joint.first, joint.second):
+        for corners in _GROUND if point.link is m.frame else ():
+            places = [(point.u + mark * Rational(x, 10), point.v + mark * Rational(y, 10)) for x, y in corners]
+            m.draw_line(*places, role="frame")
+
+
+def _slide(m: Declaration, joint: Joint, mark: Expr) -> None:
+    """A block on a line, with a rail where the line stands still."""
+    line, point = (joint.first, joint.second) if isinstance(joint.first, LinkLine) else (joint.second, joint.first)
+    if point.link is m.frame and isinstance(point, LinkLine):
+        line, point = point, line
+    angle = line.link.angle + line.tilt
+    along, across = (mark * cos(angle), mark * sin(angle)), (-mark * sin(angle), mark * cos(angle))
+    x, y = point.link.out((point.u, point.v))
+    if line.link is m.frame:
+        m._shape("rail", "frame", ((x, y), (x + along[0], y + along[1])))
+    else:
+        m.draw_line(line.link.at(line.u, line.v), (x, y), role="rod")
+    m.draw_line(*_corners((x, y), along, across), role="piston")
+
+
+def _corners(middle: tuple[Expr, Expr], along: tuple[Expr, Expr], across: tuple[Expr, Expr]) -> Iterable[object]:
+    (x, y), (ax, ay), (bx, by) = middle, along, across
+    for i, j in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1)):
+        k, n = i * Rational(3, 2), j * Rational(4, 5)
+        yield x + k * ax + n * bx, y + k * ay + n * by
+
+
+def _gear(m: Declaration, joint: Joint, mark: Expr) -> None:
+    for point, radius in zip((joint.first, joint.second), joint.radii, strict=True):
+        m.draw_circle(point, radius, role="frame" if point.link is m.frame else "planet")
+
+
+_DRAWN = {"pin": _pin, "slider": _slide, "slot": _slide, "gear": _gear}
