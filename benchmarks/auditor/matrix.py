@@ -108,7 +108,7 @@ formula is passed when it is called exact, a truncation, or right under a conven
 
 def section(found: Mapping[str, Any]) -> str:
     """How far the auditor can be trusted, as Markdown."""
-    misses = [f"- `{line}`" for name in _SPOILED for line in found[name]["not repaired"]]
+    misses = [f"- `{line}`" for name in _spoiled(found) for line in found[name]["not repaired"]]
     spoiled = "Spoiled formulas that did not come back (theory.quantity [slip]: spoiled -> what was said):"
     parts = ["## How far the auditor can be trusted", _TRUST, "\n".join(lines(found)), spoiled, "\n".join(misses)]
     return "\n\n".join(parts) + "\n"
@@ -126,7 +126,7 @@ def lines(found: Mapping[str, Any]) -> list[str]:
     trap = (
         f"- traps, right for one sign or on one branch: {traps.get('exact', 0)} of {sum(traps.values())} called exact"
     )
-    rates = (_rates(k, found[k]) for k in _SPOILED)
+    rates = (_rates(k, found[k]) for k in _spoiled(found))
     shown = ["", *public.INTRODUCTION, "", *public.lines(found["public"])] if "public" in found else []
     return [*head, *body, "", trap, *rates, *shown]
 
@@ -136,7 +136,10 @@ _ROWS = {
     "constant speed": "textbook formulas at constant speed", "one slip": "spoiled once", "two slips": "spoiled twice",
     "literature": "spoiled by a person's list",
 }  # fmt: skip
-_SPOILED = ("one slip", "two slips", "literature")
+
+
+def _spoiled(found: Mapping[str, Any]) -> list[str]:
+    return [k for k in ("one slip", "two slips", "literature") if k in found]
 
 
 def _rates(name: str, found: Mapping[str, Any]) -> str:

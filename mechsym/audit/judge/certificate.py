@@ -11,7 +11,6 @@ import ast
 import re
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import combinations
 
 import sympy
 from sympy import Expr, Integer, Symbol
@@ -22,6 +21,8 @@ from mechsym.audit.judge.coq import (
     bases,
     coq_text,
     is_half,
+    lowered,
+    not_zero,
     power_text,
     prime_factors,
     rational,
@@ -32,7 +33,6 @@ from mechsym.audit.read.tree import Node, function_of, value_of
 from mechsym.errors import BadInput
 
 _MOST = 1500  # operations, beyond which ring takes minutes
-_CANCELLED = 4  # letters of a divisor, of which all products are tried
 _MULTIPLE = 8  # of an angle
 _UNOPENED = ("exp", "log", "acos", "atan")
 _SIGNS: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
@@ -77,7 +77,7 @@ def _part(own: Script, tree: Node, authors: bool) -> CoqTerm:
         return CoqTerm(text=text, value=left.value - right.value)
     if isinstance(tree.op, ast.Mult):
         return CoqTerm(text=text, value=left.value * right.value)
-    _not_zero(own, right.value)
+    not_zero(own, right.value)
     return CoqTerm(text=text, value=left.value / right.value)
 
 
@@ -145,7 +145,7 @@ def _power(own: Script, base: CoqTerm, power: CoqTerm) -> CoqTerm:
         base = _function(own, "sqrt", base)
     whole = Fraction(exponent.numerator)
     if whole < 0:
-        _not_zero(own, base.value)
+        not_zero(own, base.value)
     return CoqTerm(text=power_text(base.text, whole, str), value=base.value ** int(whole))
 
 
@@ -196,19 +196,6 @@ def _powers_of(own: Script, base: Expr, exponent: Expr) -> Expr:
     return value
 
 
-def _not_zero(own: Script, value: Expr) -> None:
-    above = sympy.factor(sympy.fraction(sympy.together(value))[0])
-    factors = bases(above)
-    for factor in factors:
-        if not factor.is_positive:
-            own.suppose(f"{coq_text(factor)} <> 0")
-    # `field` asks for divisors less what cancels
-    sums = sympy.Mul(*(f for f in factors if f.is_Add))
-    plain = [f for f in factors if f.is_Symbol][:_CANCELLED]
-    for count in range(1, len(plain) + 1) if sums != 1 else ():
-        own.divisors.update((sympy.Mul(*some) * sums, None) for some in combinations(plain, count))
-
-
 def _function(own: Script, function: str, argument: CoqTerm) -> CoqTerm:
     text = f"({function} {argument.text})"
     if text not in own.functions:
@@ -219,7 +206,7 @@ def _function(own: Script, function: str, argument: CoqTerm) -> CoqTerm:
 def _evaluated(own: Script, function: str, argument: CoqTerm, text: str) -> CoqTerm:
     if function == "tan":
         sine, cosine = (_function(own, f, argument) for f in ("sin", "cos"))
-        _not_zero(own, cosine.value)
+        not_zero(own, cosine.value)
         whole = CoqTerm(text=f"({sine.text} / {cosine.text})", value=sine.value / cosine.value)
         own.prove(text, whole.text, f"unfold tan; {own.rewritten}; reflexivity")
         return whole
@@ -302,7 +289,7 @@ def _root(own: Script, argument: CoqTerm, text: str) -> CoqTerm:
     above, below = sympy.fraction(sympy.together(argument.value))
     if not below.is_positive:
         raise BadInput("a root of a fraction of either sign has no certificate")
-    content, factors = sympy.factor_list(_lowered(own, sympy.expand(above * below)))
+    content, factors = sympy.factor_list(lowered(own, sympy.expand(above * below)))
     outside, inside, whole = Integer(1), Integer(1), Integer(1)
     if content > 0:
         factors = [*factors, *((Integer(p), k) for p, k in sympy.factorint(content).items())]
@@ -336,15 +323,6 @@ def _root_letter(own: Script, square: Expr) -> Expr:
         own.relations.append(letter**2 - square)
         own.functions[key] = CoqTerm(text=str(letter), value=letter)
     return own.functions[key].value
-
-
-def _lowered(own: Script, polynomial: Expr) -> Expr:
-    # c^2 as 1 - s^2
-    for relation in own.relations:
-        cosine = max(relation.free_symbols, key=lambda k: int(str(k)[1:]) if str(k)[0] == "c" else -1)
-        if str(cosine)[0] == "c" and relation.has(cosine**2):
-            polynomial = sympy.rem(polynomial, relation, cosine)
-    return sympy.expand(polynomial)
 
 
 def _lemma(own: Script, name: str, one: CoqTerm, other: CoqTerm) -> str:

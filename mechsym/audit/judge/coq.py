@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import field
 from fractions import Fraction
+from itertools import combinations
 from typing import TypeGuard
 
 import sympy
@@ -182,3 +183,29 @@ def coq_text(e: Expr) -> str:
 
 def _is_below(e: Expr) -> bool:
     return isinstance(e, Pow) and bool(e.exp.is_Integer and e.exp < 0)
+
+
+_CANCELLED = 4  # letters of a divisor, of which all products are tried
+
+
+def not_zero(own: Script, value: Expr) -> None:
+    """Suppose that a divisor is not zero, factor by factor."""
+    above = sympy.factor(sympy.fraction(sympy.together(value))[0])
+    factors = bases(above)
+    for factor in factors:
+        if not factor.is_positive:
+            own.suppose(f"{coq_text(factor)} <> 0")
+    # `field` asks for divisors less what cancels
+    sums = sympy.Mul(*(f for f in factors if f.is_Add))
+    plain = [f for f in factors if f.is_Symbol][:_CANCELLED]
+    for count in range(1, len(plain) + 1) if sums != 1 else ():
+        own.divisors.update((sympy.Mul(*some) * sums, None) for some in combinations(plain, count))
+
+
+def lowered(own: Script, polynomial: Expr) -> Expr:
+    """A polynomial with c^2 as 1 - s^2."""
+    for relation in own.relations:
+        cosine = max(relation.free_symbols, key=lambda k: int(str(k)[1:]) if str(k)[0] == "c" else -1)
+        if str(cosine)[0] == "c" and relation.has(cosine**2):
+            polynomial = sympy.rem(polynomial, relation, cosine)
+    return sympy.expand(polynomial)

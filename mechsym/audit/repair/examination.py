@@ -200,7 +200,7 @@ def fingerprint(exam: Examination, tree: Node) -> bytes:
 
 
 def simplicity(edit: Edit, tree: Node) -> tuple[float, int]:
-    """The shortest description of a slip first, then the shortest formula."""
+    """The shortest description of a slip first, then the shortest formula [bits], [-]."""
     return BITS[edit.kind], len(to_python(tree))
 
 

@@ -238,7 +238,7 @@ Run = list[tuple[bool, Node]]  # terms or factors, each with whether it is added
 
 
 @record
-class Form:
+class Regrouped:
     """A part in one of its equal forms."""
 
     place: Spot
@@ -255,10 +255,10 @@ class Form:
         return _joined([*before, *_parts(new, family, first), *after], family)
 
 
-def forms(tree: Node, wide: bool) -> Iterator[Form]:
+def forms(tree: Node, wide: bool) -> Iterator[Regrouped]:
     """Every part of a formula as it is printed, and runs of sums and products with brackets moved about."""
     for place in places(tree):
-        yield Form(place=place, node=place.node, where=_where(place))
+        yield Regrouped(place=place, node=place.node, where=_where(place))
         for family, top in ((_SUM, is_term(place)), (_PRODUCT, is_product(place) or is_term(place))):
             if not is_operation(place.node, *family) or not top:
                 continue
@@ -267,7 +267,7 @@ def forms(tree: Node, wide: bool) -> Iterator[Form]:
                 yield from _regrouped(place, parts, family, wide)
 
 
-def _regrouped(place: Spot, parts: Run, family: tuple[type[ast.operator], ...], wide: bool) -> Iterator[Form]:
+def _regrouped(place: Spot, parts: Run, family: tuple[type[ast.operator], ...], wide: bool) -> Iterator[Regrouped]:
     for start in range(len(parts)):
         for end in range(start + 2, len(parts) + 1 if wide else min(start + 3, len(parts) + 1)):
             first = parts[start][0]
@@ -278,7 +278,7 @@ def _regrouped(place: Spot, parts: Run, family: tuple[type[ast.operator], ...], 
                 plus = inside[cut][0]
                 last = _joined([(sign == plus, part) for sign, part in inside[cut:]], family)
                 node = binary(family[not plus], _joined(inside[:cut], family), last)
-                yield Form(place=place, node=node, where=frozenset(words), around=around)
+                yield Regrouped(place=place, node=node, where=frozenset(words), around=around)
 
 
 def _where(place: Spot) -> frozenset[str]:
@@ -302,7 +302,7 @@ def _where(place: Spot) -> frozenset[str]:
     return frozenset(k for k, holds in words.items() if holds)
 
 
-def rewritten(form: Form, words: Words, wide: bool = False) -> Iterator[tuple[str, Node]]:
+def rewritten(form: Regrouped, words: Words, wide: bool = False) -> Iterator[tuple[str, Node]]:
     """What may have been meant by a part: the kind of the slip, and what stands at the place of the form without it."""
     for rule in _BY_HEAD[_head(form.node)]:
         widely = "wide" in rule.where
