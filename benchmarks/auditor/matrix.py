@@ -117,7 +117,8 @@ def section(found: Mapping[str, Any]) -> str:
 def lines(found: Mapping[str, Any]) -> list[str]:
     """The confusion matrix and the rates, as Markdown."""
     traps = found["verdicts"]["traps"]
-    rows = {k: v for k, v in found["verdicts"].items() if k != "traps"} | {k: found[k]["verdicts"] for k in _SPOILED}
+    rows = {k: v for k, v in found["verdicts"].items() if k != "traps"}
+    rows |= {k: found[k]["verdicts"] for k in _spoiled(found)}
     head = [f"| what was asked | n | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 2) + "|"]
     body = [
         f"| {_ROWS[name]} | {sum(row.values())} | {' | '.join(str(row.get(v, 0)) for v in VERDICTS)} |"

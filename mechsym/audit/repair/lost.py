@@ -248,8 +248,8 @@ def insertions(
 ) -> Iterator[Edit]:
     """Terms and factors, made of words, with which a part of the formula is what it is required to be.
 
-    solve: shape (words + 1, states), exponents of words from logarithms [-]; with it all parts are looked at together, and
-    only what a few words of the basis make is believed.
+    solve: shape (words + 1, states), exponents of words from logarithms [-]; with it all parts are looked at together,
+    and only what a few words of the basis make is believed.
     """
     # what is put back must not be more than what stands there, or any formula could be mended
     most = sum(not children(p.node) for p in places(tree))
