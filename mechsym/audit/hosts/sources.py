@@ -7,6 +7,8 @@ from typing import Protocol
 
 import numpy as np
 
+from mechsym import budget
+from mechsym.audit.hosts.formula import SECONDS
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.asked import question_of as question_asked
 from mechsym.audit.judge.certificate import script
@@ -110,7 +112,9 @@ def question_of(entry: Printed) -> Question:
 
 def rows(sources: Iterable[Audited], done: Callable[[], object] = lambda: None) -> list[Row]:
     """One row for each entry of the sources, in the order of the text."""
-    answers = []
+    answers, sources = [], list(sources)
+    count = sum(len(source.entries) for source in sources)
+    budget.require(f"{count} formulas of sources", SECONDS * count, 0.0, "name one --source")
     for source in sources:
         for entry in source.entries:
             answers.append(row(source.stem, entry))
