@@ -53,6 +53,7 @@ def _make(app):
     logging.getLogger().setLevel(logging.WARNING)  # the theme's colours ask for the talk of every library
     pages.make(HERE / "made")
     python_pages.make(HERE / "made")
+    pages.clear(HERE / "made")
     findings.make(HERE)
     gallery.make(HERE / "made" / "gallery")
     walks.make(HERE / "made" / "walks")

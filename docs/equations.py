@@ -1,6 +1,7 @@
 """Equations of the site where they already stand: in docstrings, in derivations, in records of theories; typed once.
 
-```{formula} hinge/torque.py:torque     the formulas of a docstring, with letters, source and validity
+```{formula} hinge:torque              the formulas of a docstring, with letters, source and validity
+```{formula} hinge: The linear spring   the same of a module, by the words with which it begins
 ```{derived} crosshead                  equations of a derivation, `:show:` names what stands on their left
 ```{theory} knife_cam                   definitions of a theory of the auditor
 ```{recorded} zotov-89/hinge            what a command printed, as tests/recorded keeps it; `:lines: 12`
@@ -15,6 +16,7 @@ import json
 import re
 import tomllib
 from pathlib import Path
+from typing import NamedTuple
 
 from docutils import nodes
 from docutils.parsers.rst import Directive, directives
@@ -40,27 +42,71 @@ def mathml(latex: str, display: str = "block") -> str:
     return made
 
 
+class Place(NamedTuple):
+    """A docstring of the package, from the words on that were asked for."""
+
+    file: Path
+    node: ast.AST
+    doc: str
+
+    @property
+    def title(self) -> str:
+        """Its first sentence."""
+        return " ".join(self.doc.partition("\n\n")[0].split())
+
+    @property
+    def name(self) -> str:
+        """Where it stands, as Python names it."""
+        parts = self.file.relative_to(ROOT / "mechsym").with_suffix("").parts
+        own = () if isinstance(self.node, ast.Module) else (self.node.name,)
+        return ".".join(("mechsym", *parts, *own)).replace(".__init__", "")
+
+
+def apart(latex: str) -> list[str]:
+    """Formulas of one line that a space sets apart, each by itself, so that a narrow page can break between them."""
+    if "&" in latex or r"\begin" in latex:
+        return [latex]
+    pieces, depth = [""], 0
+    for token in re.split(r"(\\qquad\b|\\[a-zA-Z]+|\\.|[{}])", latex):
+        depth += (token == "{") - (token == "}")
+        if token == r"\qquad" and depth == 0 and r"\left" not in pieces[-1].split(r"\right")[-1]:
+            pieces.append("")
+        else:
+            pieces[-1] += token
+    return [piece.strip().removesuffix(",") for piece in pieces if piece.strip(" ,\n")]
+
+
 @functools.cache
-def _tree(path: Path) -> ast.Module:
-    return ast.parse(path.read_text(encoding="utf-8"))
+def _docstrings(room: str) -> tuple[Place, ...]:
+    """All docstrings of a room that have a formula."""
+    files = sorted((ROOT / "mechsym" / room).rglob("*.py")) or [ROOT / "mechsym" / f"{room}.py"]
+    told = []
+    for file in files:
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        for node in (tree, *(n for n in tree.body if isinstance(n, (ast.FunctionDef, ast.ClassDef)))):
+            doc = ast.get_docstring(node) or ""
+            told += [Place(file, node, doc)] if "math" in doc else []
+    return tuple(told)
 
 
-def docstring(place: str) -> str:
-    """Of a function or class `hinge/torque.py:torque`, or of a module `hinge/torque.py`."""
-    file, _, name = place.partition(":")
-    tree = _tree(ROOT / "mechsym" / file)
-    if not name:
-        return ast.get_docstring(tree) or ""
-    for node in tree.body:
-        if getattr(node, "name", None) == name:
-            return ast.get_docstring(node) or ""
-    raise ValueError(f"{file} has no {name}")
+def placed(words: str) -> Place:
+    """`hinge:torque` is a function of a room, `hinge: The linear spring` what a module says with these words."""
+    room, _, wanted = words.partition(":")
+    fit = []
+    for place in _docstrings(room):
+        if wanted == getattr(place.node, "name", None):
+            fit.append(place)
+        elif wanted.startswith(" ") and isinstance(place.node, ast.Module):
+            flat = re.search(r"(?:\A|\n\n)" + r"\s+".join(map(re.escape, wanted.split())), place.doc)
+            fit += [place._replace(doc=place.doc[flat.start() :].strip())] if flat else []
+    if len(fit) != 1:
+        raise ValueError(f"{words}: {len(fit)} places say it: {[place.name for place in fit]}")
+    return fit[0]
 
 
-def signature(place: str) -> str:
+def signature(place: Place) -> str:
     """Names of a function with their units, as its annotations say them: `rho [m], drho [m/rad]`."""
-    file, _, name = place.partition(":")
-    function = next((n for n in _tree(ROOT / "mechsym" / file).body if getattr(n, "name", "") == name), None)
+    function = place.node
     if not isinstance(function, ast.FunctionDef):
         return ""
     told = [(a.arg, _unit(a.annotation)) for a in (*function.args.args, *function.args.kwonlyargs)]
@@ -99,27 +145,27 @@ def parts(doc: str) -> list[tuple[str, str]]:
 class Formula(Directive):
     """The formulas of a docstring; below them, to unfold, what the docstring says besides."""
 
-    required_arguments = 1
+    required_arguments, optional_arguments, final_argument_whitespace = 1, 0, True
     option_spec = {"only": directives.nonnegative_int}
 
     def run(self):
-        place = self.arguments[0]
-        told = parts(docstring(place))
-        maths = [text for kind, text in told if kind == "math"]
-        maths = maths or re.findall(r":math:`([^`]+)`", docstring(place))
-        if not maths:
-            raise self.error(f"{place} has no formula")
+        try:
+            place = placed(self.arguments[0])
+        except ValueError as error:
+            raise self.error(str(error)) from None
+        told = parts(place.doc)
+        maths = [text for kind, text in told if kind == "math"] or re.findall(r":math:`([^`]+)`", place.doc)
         maths = [maths[self.options["only"]]] if "only" in self.options else maths
-        title = docstring(place).partition("\n\n")[0].replace("\n", " ")
-        caption = nodes.paragraph("", "", nodes.strong("", title.rstrip(".")), classes=["caption-of-formula"])
-        shown = "".join(_SCROLL.format(mathml(text)) for text in maths)
+        caption = nodes.strong("", place.title.rstrip("."))
+        rows = ("".join(_SCROLL.format(mathml(piece)) for piece in apart(text)) for text in maths)
+        shown = "".join(f'<div class="row">{row}</div>' for row in rows)
         words = "\n\n".join(text.strip() for kind, text in told if kind == "text").partition("\n\n")[2]
         units = signature(place)
         units = f"<p class='units'>{html.escape(units)}</p>" if units else ""
-        code = f"<code>mechsym.{place.replace('/', '.').replace('.py:', '.').removesuffix('.py')}</code>"
-        told = f"{units}{_paragraphs(words)}<p>{code}</p>"
+        told = f"{units}{_paragraphs(words)}<p><code>{place.name}</code></p>"
         more = f"<details><summary>letters, units, validity, source</summary>{told}</details>"
-        return [caption, nodes.raw("", f'<div class="formula">{shown}{more}</div>', format="html")]
+        body = nodes.raw("", f'<div class="derived">{shown}{more}</div>', format="html")
+        return [nodes.paragraph("", "", caption, classes=["caption-of-formula"]), body]
 
 
 def _paragraphs(text: str) -> str:
@@ -158,7 +204,7 @@ class Derived(Directive):
             chosen = [w.strip() for w in self.options["show"].split(";")]
             rows = [row for w in chosen for row in rows if _shown(row, w)]
         body = "".join(_SCROLL.format(f'<math display="block">{row["mathml"]}</math>') for row in rows)
-        return [nodes.raw("", f'<div class="formula">{body}</div>', format="html")]
+        return [nodes.raw("", f'<div class="derived">{body}</div>', format="html")]
 
 
 def _shown(row: dict, wanted: str) -> bool:
@@ -182,7 +228,7 @@ def definitions(text: str) -> str:
     shown = [
         _SCROLL.format(f"{formula(name)} = {formula(said)}") for name, said in rows.items() if isinstance(said, str)
     ]
-    return f'<div class="formula">{"".join(shown)}</div>'
+    return f'<div class="derived">{"".join(shown)}</div>'
 
 
 class Recorded(Directive):

@@ -23,7 +23,8 @@ def make(folder: Path) -> None:
     """Write the pages of all scripts and the page that shows them."""
     folder.mkdir(parents=True, exist_ok=True)
     package = digest_of_package()
-    cards = [_card(f"../cases/{file.stem}.html", file.stem) for file in sorted((folder.parent / "cases").glob("*.svg"))]
+    drawings = sorted((folder.parent / "cases").glob("*.svg"))
+    cards = [_card(f"../cases/{file.stem}.html", file.stem, "", "drawing") for file in drawings]
     for script in sorted(SCRIPTS.glob("*.py")):
         text = script.read_text(encoding="utf-8")
         title = told(text)[0]
@@ -40,17 +41,17 @@ def make(folder: Path) -> None:
            f"```{{raw}} html\n<style>{_STYLE}</style><div class='gallery'>\n{links}\n</div>\n```\n")  # fmt: skip
 
 
-def _card(link: str, stem: str, title: str = "") -> str:
+def _card(link: str, stem: str, title: str, kind: str = "curves") -> str:
     """A picture that opens its page; Sphinx puts it where it puts those of pages."""
     words = title or stem.replace("-", " ")
-    image = f'<img src="../../_images/{stem}.svg" alt="{words}" loading="lazy">'
+    image = f'<img class="{kind}" src="../../_images/{stem}.svg" alt="{words}" loading="lazy">'
     return f'<a class="card" href="{link}">{image}<b>{words}</b></a>'
 
 
 _STYLE = (
     ".gallery{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(21rem,100%),1fr));gap:1rem}"
     ".gallery .card{display:block;border:1px solid #8884;border-radius:.4rem;padding:.6rem;text-decoration:none}"
-    ".gallery img{width:100%;aspect-ratio:4/3;object-fit:contain;background:#fff}"
+    ".gallery img{width:100%;aspect-ratio:4/3;object-fit:contain}.gallery .curves{background:#fff}"
     ".gallery b{font-weight:500}"
 )
 

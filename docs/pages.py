@@ -49,6 +49,7 @@ SHOWN = {
     "rodless": "balandin", "crankshaft_flywheel": "chmielewski",
 }  # fmt: skip
 EXAMPLE_FILES = Path(__file__).parents[1] / "examples" / "mechanisms"
+WRITTEN: set[Path] = set()  # pages of this build
 _SHOWN = 24  # lines of what a command prints
 _MEANINGS = 4  # of one word, in different results
 
@@ -67,17 +68,43 @@ def make(folder: Path) -> None:
 
 def write(path: Path, text: str) -> None:
     """Write a page that has changed; what has not is left alone, so that Sphinx does."""
+    WRITTEN.add(path)
     if not path.exists() or path.read_text(encoding="utf-8") != text:
         path.write_text(text, encoding="utf-8")
+
+
+def clear(folder: Path) -> None:
+    """Take away pages that an earlier build wrote and this one did not."""
+    for part in (folder, *(folder / name for name in ("commands", "cases", "python"))):
+        for path in part.glob("*.md"):
+            if path not in WRITTEN and path.name != "findings.md":
+                path.unlink()
 
 
 def block(text: str) -> str:
     return f"````text\n{text}\n````\n"
 
 
+_SHARED = """What all of them share:
+
+- CASE is the name of a built-in case or a path to a TOML file; `--set KEY=VALUE` replaces one of its values, with a
+  unit if you like, as often as you like: `--set spring.p0="9.5 MPa"`.
+- Ranges and lists are written alike everywhere: `80,85 rpm`, `a..b:n` for n points, `a:b:step`; one unit behind the
+  last number, or one behind each.
+- `--budget "10 min, 2 GB"` is the limit of time and memory where a command has it: what is forecast to take more does
+  not begin.
+- `--json` prints one JSON value to standard output and nothing else there; numbers are SI unless the key names another
+  unit, and never NaN. `--units "mm, bar, kN, deg"` sets text, tables and reports.
+- `--out` names a folder; its files appear together or not at all. Progress goes to standard error, and only on a
+  terminal.
+- `--strict` ends with 3 where there are doubts; [exit statuses](../../stability.md) are the same for all.
+"""
+
+
 def commands() -> str:
     """All commands by what they are for."""
-    parts = ["# Commands\n\nEach has its help, an example with what it printed, and the fields of its `--json`.\n"]
+    head = "# Commands\n\nEach has its help, an example with what it printed, and the fields of its `--json`.\n"
+    parts = [head, _SHARED]
     for title, names in GROUPS.items():
         parts.append(f"## {title}\n\n| command | does |\n|---|---|")
         parts += [f"| [{name}]({name}.md) | {load(place).get_short_help_str(120)} |" for name, place in names.items()]

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from mechsym import cases, jobs
 from mechsym.files import Json
-from mechsym.hinge.drawing import elastic_hinge
+from mechsym.hinge.plots import elastic_hinge
 from mechsym.jobs.machine import mechanism_of
 from mechsym.mechanisms.drawing import Shapes, declared
 from mechsym.mechanisms.record import listing

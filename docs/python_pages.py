@@ -13,14 +13,14 @@ import mechsym
 
 ROOMS = (
     "cases jobs hinge codesign machine cycle forces torsion simulate mechanisms derive sizing optimise sweep report "
-    "papers audit out convert native periodic quantities proof page style plausible"
+    "papers audit convert native quantities page style plausible"
 ).split()
 _ROOT = Path(mechsym.__file__).parent
 _UNIT = re.compile(r"typing\.Annotated\[([^\[\],]+), '([^']+)'\]")  # of a number in a signature
 _PLACE = re.compile(r"<([\w.]+)[^>]*>")
 # what people get wrong, in the order in which they meet it: folders of the program whose messages belong together
 TOPICS = {
-    "Case files and values": ("cases", "quantities", "files.py", "inputs.py", "tables.py", "trust.py"),
+    "Case files and values": ("cases", "quantities", "files"),
     "Options and commands": ("cli", "jobs", "report", "budget.py"),
     "Mechanisms of your own": ("derive", "mechanisms"),
     "Engines and gas": ("cycle", "machine", "sizing", "forces"),
@@ -65,10 +65,13 @@ def _title(name: str) -> str:
 def room(name: str) -> str:
     """What a module exports, with signatures and docstrings."""
     module = importlib.import_module(f"mechsym.{name}")
-    parts = [f"# mechsym.{name}\n\n{block(inspect.getdoc(module) or '')}\n"]
+    parts = [f"# mechsym.{name}\n\n{escaped(_title(name))}\n"]
     for public in _names(name):
         value = getattr(module, public)
-        said = markdown(inspect.getdoc(value) or "") if callable(value) else block(repr(value)[:600])
+        doc = inspect.getdoc(value) or ""
+        if not getattr(value, "__module__", "mechsym").startswith("mechsym"):  # sympy's, with examples of its own
+            doc = f"{doc.partition(chr(10))[0]} As sympy has it."
+        said = markdown(doc) if callable(value) else block(repr(value)[:600])
         parts.append(f"## {name}.{public}\n\n```python\n{public}{_signature(value)}\n```\n\n{said}")
     return "\n".join(parts) + "\n"
 
@@ -116,7 +119,9 @@ def messages() -> str:
     )
     parts = [head]
     for topic, places in TOPICS.items():
-        said = sorted({one for place in places for one in _said(place)})
+        said = sorted(
+            {one for place in places for one in _said(place)}, key=lambda one: one[0].lstrip(". :'[]-").lower()
+        )
         parts.append(f"## {topic}\n\n{table(('message', 'way out'), said)}")
     return "\n".join(parts)
 
@@ -135,7 +140,7 @@ def _said(place: str) -> list[tuple[str, str]]:
                 words = [_words(one) for one in node.args]
                 text, _, way = words[0].partition("; ")
                 way = "; ".join(filter(None, [way, *words[1:]]))
-                if len(text.replace(".", "").strip()) > 8:
+                if len(re.findall(r"[a-z]{2,}", text)) >= 3:
                     found.append((text, way))
     return found
 

@@ -8,6 +8,7 @@ import runpy
 import shlex
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -79,12 +80,36 @@ def test_the_numbers_of_the_readme_are_those_of_its_commands():
 
 def test_every_public_name_is_told_with_its_units(pages):
     python = importlib.import_module("python_pages")
-    assert {*mechsym_package.__all__} - {*python.ROOMS} == {"errors", "files"}  # one name each, for messages and files
+    left = {*mechsym_package.__all__} - {*python.ROOMS}
+    assert [n for room in left for n in getattr(importlib.import_module(f"mechsym.{room}"), "__all__", ())] == []
     for room in python.ROOMS:
         text, module = python.room(room), importlib.import_module(f"mechsym.{room}")
         names = [n for n in getattr(module, "__all__", ()) if type(getattr(module, n)).__name__ != "module"]
         assert [name for name in names if f"## {room}.{name}\n" not in text] == [], room
     assert "[rad/s]" in python.room("machine") and "```{math}" in python.room("hinge")
+
+
+def test_what_the_theory_shows_is_there(pages):
+    """Formulas in docstrings, equations of derivations, kept answers: each once, wherever its file stands."""
+    shown = [(p.stem, *m) for p in (DOCS / "theory").glob("*.md")
+             for m in re.findall(r"^```\{(\w+)\} (.+)$", p.read_text(encoding="utf-8"), re.M)]  # fmt: skip
+    assert len({page for page, *_ in shown}) >= 15
+    for page, kind, name in shown:
+        if kind == "formula":
+            place = equations().placed(name)
+            assert all(equations().mathml(text) for what, text in equations().parts(place.doc) if what == "math"), page
+        elif kind == "recorded":
+            assert equations().recorded(name), page
+    assert sum(kind == "formula" for _, kind, _ in shown) > 80
+
+
+def test_extras_are_those_of_the_package():
+    extras = tomllib.loads((DOCS.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"][
+        "optional-dependencies"
+    ]
+    told = re.findall(r"^\| `(\w+)` \| ", (DOCS / "start.md").read_text(encoding="utf-8").split("## Extras")[1], re.M)
+    assert {*told} == {*extras} - {"heyoka", "bench", "all", "check", "dev"}
+    assert f"mechsym-{mechsym_package.__version__}-py3" in (DOCS / "start.md").read_text(encoding="utf-8")
 
 
 def test_every_key_is_told(pages):

@@ -222,6 +222,16 @@ def _identify(case: CaseFacts) -> list[str]:
     return _missing(case, "parameters")
 
 
+def _prove(case: CaseFacts) -> list[str]:
+    if case.roles is not None and mechanisms.lists(case.mechanism):
+        return [f"{case.mechanism} is put together from lists, and prove takes mechanisms with one value a letter"]
+    if case.held:
+        return [f"{case.mechanism} has loops that close by constraint; prove encloses those that close in closed form"]
+    if acting := [f"[{name}]" for name in ("cycle", "torque", "spring") if case.has(name)]:
+        return [f"{', '.join(acting)} acts by no smooth closed form that can be enclosed; leave it out"]
+    return _simulate(case)
+
+
 def _reads_report(case: CaseFacts) -> set[str]:
     parts = (COMMANDS[name] for name in ("cycle", "hinge", "forces", "size", "simulate"))
     return {"report"}.union(*(part.reads(case) for part in parts if not part.lacks(case)))
@@ -263,6 +273,7 @@ COMMANDS: Mapping[str, Command] = {
         reads=lambda case: facts.cycle(case) | {"optimise"},
     ),
     "page": Command(asks=_export, reads=facts.page),
+    "prove": Command(asks=_prove, reads=facts.run),
     "report": Command(asks=lambda case: [], reads=_reads_report),
     "simulate": Command(asks=_simulate, reads=facts.simulate),
     "size": Command(asks=_size, reads=facts.size),

@@ -95,7 +95,7 @@ def _over_time(report: "DrivenNumbers") -> str:
 
 
 def _text(report: Json, found: "Forces", said: set[str]) -> str:
-    from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+    from mechsym.forces.result import ComparedFriction, ComparedMechanism
     from mechsym.forces.shown import borne
     from mechsym.papers.sources import sources
 

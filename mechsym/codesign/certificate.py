@@ -170,11 +170,12 @@ def _work_in_balls(point: Point, phi: np.ndarray) -> list[Any]:
     if point.inertia_formula is None:
         raise BadInput("the torque is no formula of the angle")
     pieces = [(a, b, read(f)) for a, b, f in point.formulas]
-    start, turn = pieces[0][0], 2 * arb.pi()
-    order = np.argsort(np.where(phi < pieces[-1][1], phi, phi - 2 * math.pi))
+    start, last = pieces[0][0], pieces[-1][1]
+    turn = 2 * arb.pi() * round(point.period / (2 * math.pi))
+    order = np.argsort(np.where(phi < last, phi, phi - point.period))
     # an angle behind the last piece is one before; its double is another by a rounding, which the torque there covers
-    angles = [float(phi[n]) if phi[n] < pieces[-1][1] else float(phi[n] - 2 * math.pi) for n in order]
-    *given, whole = integrals(pieces, [*angles, pieces[-1][1]])
+    angles = [float(phi[n] if phi[n] < last else phi[n] - point.period) for n in order]
+    *given, whole = integrals(pieces, [*angles, last])
     inertia, works = read(point.inertia_formula), [arb(0)] * len(phi)
     for n, angle, done in zip(order, angles, given, strict=True):
         at = arb(angle, 4e-15 * abs(angle))

@@ -4,6 +4,7 @@ import ast
 import csv
 import dataclasses
 import io
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -13,18 +14,17 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign.points import Function, Point
-from mechsym.codesign.settings import CoDesignSettings
+from mechsym.codesign.points import CoDesignSettings, Function, Point
 from mechsym.codesign.task import Hardware
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.pressure import unfired, unfired_kinks
 from mechsym.errors import BadInput, shown
+from mechsym.files.inputs import read_text
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
-from mechsym.inputs import read_text
-from mechsym.machine.record import Machine, lever, only_gas
+from mechsym.machine.record import Machine, acting, lever, only_gas
 from mechsym.quantities import parse, quantity, record
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Array, Inertia, NewtonMetre, Pascal, Pure, Radian, RadPerSecond
@@ -39,7 +39,7 @@ def point(machine: Machine, load: Pascal, law: str = "propeller", weight: Pure =
     weight: share of the time at this point.
     """
     torques, wanted = engine_torques(machine), torque(machine)
-    found = dataclasses.replace(_point(wanted, torques, load, law, weight), **_formulas(machine))
+    found = dataclasses.replace(_point(wanted, torques, load, law, weight), **_formulas(machine, torques.period))
     gas = only_gas(machine)
     # of a torque alone no turn without combustion is known, and what takes work has none to lose
     if gas is None or wanted.load_torque <= 0:
@@ -55,20 +55,29 @@ def point(machine: Machine, load: Pascal, law: str = "propeller", weight: Pure =
     )
 
 
-def _formulas(machine: Machine) -> dict[str, Any]:
+def _formulas(machine: Machine, period: float) -> dict[str, Any]:
     """Torque and inertia as formulas of the angle, where gas by formulas and weight are all that acts."""
-    gas = only_gas(machine)
-    if gas is None or machine.forces or not gas.pressure.formulas:
+    forces = acting(machine)
+    if not forces or not all(force.formulas for force in forces):
         return {}
     dynamics, (q,) = machine.mechanism.functions["dynamics"], machine.mechanism.coordinates
-    letters = {name: ca.SX(0) for name in dynamics.name_in()}
-    phi = letters[q] = ca.SX.sym("phi")
-
-    def torque_of(pressure: Callable[[Any], Any]) -> Any:
-        force = (pressure(phi) - gas.p_back) * gas.chamber.area
-        return dynamics(**letters | {machine.gas_input: force})["generalized_force"]
-
-    pieces = ((a, b, ca.Function("torque", [phi], [torque_of(law)])) for a, b, law in gas.pressure.formulas)
+    phi = ca.SX.sym("phi")
+    letters = {name: ca.SX(0) for name in dynamics.name_in()} | {q: phi}
+    start = forces[0].formulas[0][0]
+    start -= period * math.ceil(start / period)
+    end = start + period
+    laws = [(f.input, a + k * own, b + k * own, law, k * own) for f in forces
+            for own in (f.formulas[-1][1] - f.formulas[0][0],)
+            for a, b, law in f.formulas for k in range(-2, round(period / own) + 3)]  # fmt: skip
+    edges = sorted({start, end, *(a for _, a, *_ in laws if start + 1e-12 < a < end - 1e-12)})
+    pieces = []
+    for a, b in itertools.pairwise(edges):
+        pushed = dict[str, Any]()
+        for name, low, high, law, shift in laws:
+            if low < (a + b) / 2 < high:
+                pushed[name] = pushed.get(name, 0) + law(phi - shift)
+        torque_there = dynamics(**letters | pushed)["generalized_force"]
+        pieces.append((a, b, ca.Function("torque", [phi], [torque_there])))
     inertia = ca.Function("inertia", [phi], [dynamics(**letters)["mass_matrix"]])
     return {"formulas": tuple(pieces), "inertia_formula": inertia}
 

@@ -19,7 +19,7 @@ from numpy.polynomial import Chebyshev
 
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Chamber, Motion, check_motion, motion_over, with_bottom
-from mechsym.cycle.pressure import Pressure, peak
+from mechsym.cycle.pressure import Pieces, Pressure, peak
 from mechsym.errors import BadInput
 from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.record import Mechanism, bind
@@ -50,7 +50,7 @@ def piston_motion(
         raise BadInput(f"mechanism {name} has {len(mechanism.coordinates)} coordinates; a cycle needs one crank angle")
     found = Motion(
         name=name,
-        function=_travel(mechanism, symbols, role.travel, parameters),
+        function=from_top(slopes(mechanism, role.travel, symbols), parameters),
         parameters=dict(parameters),
         masses=role.masses,
         loads=_loads(mechanism, symbols, role, parameters) if role.loads else None,
@@ -153,12 +153,6 @@ def from_top(found: ca.Function, parameters: Mapping[str, float] | None = None) 
     return ca.Function("travel", [phi, *given], [x - start, first, second])
 
 
-def _travel(
-    mechanism: Mechanism, symbols: Mapping[str, ca.SX], name: str, parameters: Mapping[str, float]
-) -> ca.Function:
-    return from_top(slopes(mechanism, name, symbols), parameters)
-
-
 def _loads(
     mechanism: Mechanism, symbols: Mapping[str, ca.SX], role: PistonRole, parameters: Mapping[str, float]
 ) -> ca.Function:
@@ -203,6 +197,14 @@ class Gas(Shown):
         phi: angle from firing dead centre. Returns F: force, shape of phi.
         """
         return (self.pressure.absolute(phi) - self.p_back) * self.chamber.area
+
+    def formulas(self, start: Radian = 0.0) -> Pieces:
+        """The same for a CasADi symbol, from angle to angle, of a piston that fires at a start; none without."""
+        area = self.chamber.area
+        return tuple(
+            (a + start, b + start, lambda phi, law=law: (law(phi - start) - self.p_back) * area)
+            for a, b, law in self.pressure.formulas
+        )
 
 
 def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:

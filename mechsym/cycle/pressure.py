@@ -18,7 +18,7 @@ from nothing (0.4 to 1.5 bar in the built-in cycle); heat loss would take some, 
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import scipy
@@ -32,6 +32,9 @@ ATMOSPHERE = 101325.0
 # Gauss panels of two degrees with eight nodes: a polytrope is integrated to round-off
 _PANEL = math.pi / 90
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+
+#: From and to an angle [rad], and a formula of it for numbers and CasADi symbols
+Pieces: TypeAlias = tuple[tuple[float, float, Callable[[Any], Any]], ...]
 
 
 @result
@@ -54,7 +57,7 @@ class Pressure:
     doubts: tuple[str, ...] = ()  #: What looks physically implausible, one sentence each; empty if nothing does
     #: Formulas by which it is made, from angle to angle of a period [rad], each a callable of a CasADi symbol; empty
     #: where a table or an integration makes it
-    formulas: tuple[tuple[float, float, Callable[[Any], Any]], ...] = ()
+    formulas: Pieces = ()
 
 
 def periodic(function: Callable[[Scalar], Scalar], period: Radian, start: Radian = 0.0) -> Callable[[Scalar], Scalar]:

@@ -332,7 +332,7 @@ class SpatialDeclaration(Declaration):
 
     # drawing
 
-    def _point_names(self, points: tuple[object, ...]) -> list[list[str]]:
+    def point_names(self, points: tuple[object, ...]) -> list[list[str]]:
         """Names of the points of a shape as it is seen from one side, and in space."""
         names = []
         for point in points:

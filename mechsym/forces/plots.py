@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.forces.balance import BalancedEngine, amplitudes
-from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
-from mechsym.forces.loads import polar, radial, tangential
-from mechsym.forces.result import Forces
-from mechsym.forces.shaking import Harmonics
+from mechsym.forces.loads import Harmonics, polar, radial, tangential
+from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces
 from mechsym.forces.textbook import NORMAL_95, IndicatedPressure
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import Radian

@@ -99,7 +99,10 @@ def _with_gas(case: Case, mechanism: Mechanism) -> Machine:
     if not others and first.start == 0.0:
         return _bare(case, mechanism, gas=first.gas, gas_input=first.input)
     names = [f"gas_{p.name}" if others else "gas" for p in acting]
-    forces = tuple(AngleForce(name=n, input=p.input, value=p.force) for n, p in zip(names, acting, strict=True))
+    forces = tuple(
+        AngleForce(name=n, input=p.input, value=p.force, formulas=p.gas.formulas(p.start))
+        for n, p in zip(names, acting, strict=True)
+    )
     several = tuple(firing_of(p.gas, p.input, p.start) for p in acting) if burns else ()
     period, kinks = common_period(acting), kinks_of(acting)
     by = {"period": period, "kinks": kinks, "several": several}

@@ -3,12 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import TypeAlias
 
 import casadi as ca
 import numpy as np
 
 from mechsym import cases
 from mechsym.cases import Case
+from mechsym.cases.needs import require
 from mechsym.cases.numbers import usual
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import balance
@@ -18,17 +20,15 @@ from mechsym.jobs.machine import machine
 from mechsym.jobs.problem import problem_of
 from mechsym.machine.record import acting, shaft_torque
 from mechsym.mechanisms.own import is_file
-from mechsym.mechanisms.record import Mechanism, bind, evaluate, generated, listing, velocities
+from mechsym.mechanisms.record import bind, evaluate, generated, listing, velocities
 from mechsym.proof.enclosure import EnclosureMethod
 from mechsym.proof.motion import MOST, Passed, balls_of, digits, enclose, half_widths, method_for, task_of
 from mechsym.proof.outputs import ProvenRounding, of_guides, of_mechanism, rounding, units_of, widened
-from mechsym.quantities import record
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.problem import Problem, Steps
 
 _SHARE = 0.01  # of a parameter's value, to both sides
-_SHARE_OF_GUIDES = 0.001  # beyond it balls do not see that the kernel's Newton steps come to an end
 GUIDES = "hinge"  #: What stands for the limits of guides among the names of mechanisms
 _FASTER = 1.1  # highest speed by that of operation
 _TURN = np.arange(1440) * 4 * np.pi / 1440
@@ -36,14 +36,8 @@ _TURN = np.arange(1440) * 4 * np.pi / 1440
 Ranges = dict[str, tuple[float, float]]
 
 
-@record
-class Extremes:
-    """What a machine reaches in operation."""
-
-    speed: tuple[float, float]  #: [rad/s]
-    acceleration: float  #: Of the shaft [rad/s^2]
-    force: tuple[float, float]  #: On a piston [N]
-    torque: float  #: On the shaft [N*m]
+#: Speeds of a shaft [rad/s], its acceleration at most [rad/s^2], forces on a piston [N], torque at most [N*m]
+Extremes: TypeAlias = tuple[tuple[float, float], float, tuple[float, float], float]
 
 
 def usual_case(mechanism: str) -> str:
@@ -87,8 +81,8 @@ def of_guides_at(case: Case, samples: int, progress: Callable[[int], object] = l
     wanted = balance(torque(machine(case)), choices.balance)
     sections = case.need("spring"), choices, case.need("rollers"), case.need("limits")
     kernel = design_kernel(wanted, *sections, ("guide.rho0",))
-    words = f"numbers of {case.name} +-{100 * _SHARE_OF_GUIDES:g} %, its torque around the turn"
-    return rounding(GUIDES, of_guides(kernel, _SHARE_OF_GUIDES), {}, samples, words, progress)
+    words = f"numbers of {case.name} +-{100 * _SHARE:g} %, its torque around the turn"
+    return rounding(GUIDES, of_guides(kernel, _SHARE), {}, samples, words, progress)
 
 
 def ranges_of(mechanism: str, case: Case) -> Ranges:
@@ -102,16 +96,16 @@ def ranges_of(mechanism: str, case: Case) -> Ranges:
         if value is None:
             raise BadInput(f"{case.file}: no value for {letter}; name a case of this mechanism with --case")
         values[letter] = float(value)
-    extremes = extremes_of(case)
+    speed, acceleration, force, torque = extremes_of(case)
     length = 2 * max((abs(v) for letter, v in values.items() if known["parameters"][letter] == "m"), default=1.0)
     ranges: Ranges = {letter: widened(v, _SHARE) for letter, v in values.items()}
     for q, unit in known["coordinates"].items():
         by = 1.0 if unit == "rad" else length
         ranges[q] = (-np.pi, np.pi) if unit == "rad" else (-length, length)
-        ranges[f"{q}d"] = (by * extremes.speed[0], by * extremes.speed[1])
-        ranges[f"{q}dd"] = (-by * extremes.acceleration, by * extremes.acceleration)
+        ranges[f"{q}d"] = (by * speed[0], by * speed[1])
+        ranges[f"{q}dd"] = (-by * acceleration, by * acceleration)
     for name, unit in known["inputs"].items():
-        ranges[name] = extremes.force if unit == "N" else (-extremes.torque, extremes.torque)
+        ranges[name] = force if unit == "N" else (-torque, torque)
     return ranges
 
 
@@ -124,8 +118,7 @@ def extremes_of(case: Case) -> Extremes:
     forces = np.concatenate([np.zeros(1), *(f.value(_TURN) for f in acting(engine))])
     (q,) = engine.mechanism.coordinates
     inertia = float(evaluate(engine.mechanism, "dynamics", **{q: _TURN})["mass_matrix"].min())
-    force = float(forces.min()), float(forces.max())
-    return Extremes(speed=(0.0, _FASTER * engine.omega), acceleration=torque / inertia, force=force, torque=torque)
+    return (0.0, _FASTER * engine.omega), torque / inertia, (float(forces.min()), float(forces.max())), torque
 
 
 def _of_run(case: Case) -> Extremes:
@@ -134,12 +127,9 @@ def _of_run(case: Case) -> Extremes:
     result = simulate(problem, Settings(check="none"))
     speeds = np.array([result.columns[name] for name in velocities(problem.mechanism)])
     values = [v for part in problem.parts if isinstance(part.value, Steps) for v in part.value.values]
-    return Extremes(
-        speed=(float(speeds.min()), float(speeds.max())),
-        acceleration=float(np.abs(np.diff(speeds) / np.diff(result.t)).max()),
-        force=(min(0.0, *values), max(0.0, *values)),
-        torque=max(0.0, *np.abs(values).tolist()),
-    )
+    acceleration = float(np.abs(np.diff(speeds) / np.diff(result.t)).max())
+    force = min(0.0, *values), max(0.0, *values)
+    return (float(speeds.min()), float(speeds.max())), acceleration, force, max(0.0, *np.abs(values).tolist())
 
 
 @result
@@ -180,11 +170,19 @@ def motion_of(
     statement is about [s]. Raises BadInput: it cannot be enclosed; the message names the force, or the digits that it
     would need.
     """
+    require(case, "prove")
     problem = problem_of(case)
     symbols = {name: ca.SX.sym(name) for name in problem.mechanism.parameters}
     open_ = bind(case.mechanism, symbols)
     values = {name: float(v) for name, v in problem.mechanism.parameters.items()}
-    _require_same(case, problem, bind(case.mechanism, values))
+    # refuse a run whose mechanism is more than its declaration: a flywheel, the torque of a hinge
+    plain = bind(case.mechanism, values)
+    if plain.inputs != problem.mechanism.inputs:
+        raise BadInput(f"{case.file}: [drive] or [spring] adds an input to {plain.name}; it cannot be enclosed with it")
+    at = [0.3 + 0.1 * k for k in range(plain.functions["dynamics"].n_in())]
+    pairs = zip(*(m.functions["dynamics"].call(at) for m in (plain, problem.mechanism)), strict=True)
+    if any(np.abs(np.asarray(a - b)).max() > 0 for a, b in pairs):
+        raise BadInput(f"{case.file}: a section adds inertia to {plain.name}; put it into the parameters to enclose it")
     task = task_of(problem, open_, values)
     until = t_end or problem.t_end
     needed = digits(task, until, _WIDTH)
@@ -197,16 +195,6 @@ def motion_of(
     passed = enclose(task, method, Fraction(repr(float(until))), out, progress)
     states = (*problem.mechanism.coordinates, *velocities(problem.mechanism))
     return _told(case, problem, states, passed, (method, needed), window)
-
-
-def _require_same(case: Case, problem: Problem, plain: Mechanism) -> None:
-    """Refuse a run whose mechanism is more than its declaration: a flywheel, the torque of a hinge."""
-    if plain.inputs != problem.mechanism.inputs:
-        raise BadInput(f"{case.file}: [drive] or [spring] adds an input to {plain.name}; it cannot be enclosed with it")
-    at = [0.3 + 0.1 * k for k in range(plain.functions["dynamics"].n_in())]
-    pairs = zip(*(m.functions["dynamics"].call(at) for m in (plain, problem.mechanism)), strict=True)
-    if any(np.abs(np.asarray(a - b)).max() > 0 for a, b in pairs):
-        raise BadInput(f"{case.file}: a section adds inertia to {plain.name}; put it into the parameters to enclose it")
 
 
 def _told(

@@ -12,6 +12,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cycle.gas import Gas
+from mechsym.cycle.pressure import Pieces
 from mechsym.errors import BadInput
 from mechsym.machine.loads import ConstantLoad, Load
 from mechsym.mechanisms.arrays import along
@@ -34,6 +35,7 @@ class AngleForce:
     value: Callable[[np.ndarray], np.ndarray]  #: phi, ndarray (n,), to values (n,) in the unit of the input
     #: The same for one float, where there is a fast way; without it a polynomial is fitted to round-off
     point: Callable[[float], float] | None = None
+    formulas: Pieces = ()  #: The same over a period for a CasADi symbol; none where a table or an integration makes it
 
 
 @record
@@ -93,7 +95,7 @@ def acting(machine: Machine) -> tuple[AngleForce, ...]:
     """All forces over the angle, the gas first."""
     if machine.gas is None or not machine.gas_input:
         return machine.forces
-    gas = AngleForce(name="gas", input=machine.gas_input, role="drive", value=machine.gas.force)
+    gas = AngleForce(name="gas", input=machine.gas_input, value=machine.gas.force, formulas=machine.gas.formulas())
     return (gas, *machine.forces)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of, sketched
+from mechsym.mechanisms.drawn_parts import Circle, Line, Point, Shapes, extent_of, seen, sketched
 from mechsym.mechanisms.own import is_file, packaged
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism, listing
@@ -79,12 +79,13 @@ def declared(
 
     def shapes(angle: float) -> Shapes:
         at = places(angle)
-        pins = (Circle(role="joint", centre=(at[x], at[y]), radius=radius) for x, y in joints)
-        return (*still, *(_shape(shape, at) for shape in shaped), *pins)
+        pins = (Circle(role="joint", centre=(at[x], at[y]), radius=radius, space=_inner(at, (x,))) for x, y in joints)
+        return (*still, *(_shape(shape, at) for shape in shaped), *pins, *axes)
 
     start = places(0.0)
     if len({(start[x], start[y]) for shape in said["shapes"] for x, y in shape["points"]}) < 2:
         return None  # a point has no extent
+    axes = _axes([_inner(start, (x,))[0] for s in said["shapes"] if "space" in s for x, _ in s["points"]])
     way = [places(angle) for angle in np.linspace(0.0, 2 * math.pi, _WAY)] if len(shaped) < len(said["shapes"]) else []
     still = [line for shape in said["shapes"] if shape["kind"] in _PATHS for line in _path(shape, way)]
     radius = _PIN * max((math.dist((start[a], start[b]), (start[c], start[d])) for a, b in joints for c, d in joints),
@@ -113,11 +114,28 @@ def _joints(found: Sequence[Json]) -> list[tuple[str, str]]:
     return list(dict.fromkeys((x, y) for link in links for x, y in link["points"]))
 
 
+def _inner(found: Mapping[str, float], names: Sequence[str]) -> tuple[tuple[float, float, float], ...]:
+    """Places in space by the names of their first coordinates as they are seen; none of what is drawn in the plane."""
+    inner = [[f"draw_in_{axis}{name.removeprefix('draw_x')}" for axis in "xyz"] for name in names]
+    return tuple((found[x], found[y], found[z]) for x, y, z in inner if x in found)
+
+
+def _axes(places: Sequence[tuple[float, float, float]]) -> Shapes:
+    """The axes of the frame, a quarter of the mechanism long."""
+    if not places:
+        return ()
+    length = max(max(p[k] for p in places) - min(p[k] for p in places) for k in range(3)) / 4
+    ends = ((length, 0.0, 0.0), (0.0, length, 0.0), (0.0, 0.0, length))
+    return tuple(Line(role="frame", points=((0.0, 0.0), seen(e)), space=((0.0, 0.0, 0.0), e)) for e in ends)
+
+
 def _shape(said: Json, found: Mapping[str, float]) -> Line | Circle:
     points: list[Point] = [(found[x], found[y]) for x, y in said["points"]]
+    space = _inner(found, [x for x, _ in said["points"]])
     if said["kind"] == "circle":
-        return Circle(role=said["role"], centre=points[0], radius=found[said["radius"]])
+        return Circle(role=said["role"], centre=points[0], radius=found[said["radius"]], space=space)
     if said["kind"] == "box":
         (x, y), a, b = points[0], found[said["width"]] / 2, found[said["height"]] / 2
         points = [(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]
-    return Line(role=said["role"], points=tuple(points))
+        space = ()
+    return Line(role=said["role"], points=tuple(points), space=space)

@@ -23,6 +23,7 @@ class Line:
 
     role: str
     points: tuple[Point, ...]  #: Corners [m]
+    space: tuple[tuple[float, float, float], ...] = ()  #: The same in space, where it is drawn there [m]
 
 
 @record
@@ -32,13 +33,27 @@ class Circle:
     role: str
     centre: Point  #: Middle [m]
     radius: float  #: Radius [m]
+    space: tuple[tuple[float, float, float], ...] = ()  #: Its middle in space, where it is drawn there [m]
 
 
 Shapes = tuple[Line | Circle, ...]
 
 
+def seen(place: tuple[float, float, float]) -> Point:
+    """A place in space [m] as drawings show it: from the front, from the right and from above, 30 degrees each."""
+    x, y, z = place
+    c, s = math.sqrt(3) / 2, 0.5
+    return c * x + s * y, s * (c * y - s * x) + c * z
+
+
 def extent_of(drawn: Callable[[float], Shapes]) -> tuple[float, float, float, float]:
     """Box that holds a drawing at every crank angle [rad] where it is: x_min, x_max, y_min, y_max [m]."""
+    inner = np.array([p for k in range(24) for shape in drawn(math.pi * k / 12) for p in shape.space])
+    if len(inner):
+        middle = (np.nanmin(inner, axis=0) + np.nanmax(inner, axis=0)) / 2
+        far = float(np.nanmax(np.linalg.norm(inner - middle, axis=1)))  # whichever way it is turned
+        x, y = seen((float(middle[0]), float(middle[1]), float(middle[2])))
+        return x - far, x + far, y - far, y + far
     (left, low), (right, high) = (end(_corners(drawn), axis=0).tolist() for end in (np.nanmin, np.nanmax))
     return left, right, low, high
 

@@ -238,4 +238,5 @@ def _kinematics(mechanism: Mechanism, q: ca.SX, phi: ca.SX, pose: ca.SX) -> ca.F
         results |= {name: value, f"d{name}_d{driver}": first, f"d2{name}_d{driver}2": ca.jtimes(first, q, T)}
     results |= {"inertia": inertia, f"dinertia_d{driver}": ca.jtimes(inertia, q, T)}
     at_pose = ca.Function("kinematics", [q], list(results.values()))
-    return ca.Function("kinematics", [phi], list(at_pose.call([pose])), [driver], list(results))
+    options = {"allow_duplicate_io_names": True}  # the coordinate may be asked for as an output
+    return ca.Function("kinematics", [phi], list(at_pose.call([pose])), [driver], list(results), options)

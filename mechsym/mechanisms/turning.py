@@ -57,16 +57,19 @@ def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames
     paths = np.array([[v for shape in frame for v in places(shape)] for frame in all_frames])
     moves = (paths != paths[0]).any(axis=0)
     shapes, start = [], 0
-    for shape in all_frames[0]:
+    for number, shape in enumerate(all_frames[0]):
         at = slice(start, start := start + len(places(shape)))
         radius = round(scale * shape.radius, 1) if isinstance(shape, Circle) else 0
         closed = isinstance(shape, Circle) or shape.points[0] == shape.points[-1]
         moving = paths[:, at].tolist() if moves[at].any() else []
         shapes.append({"role": shape.role, "r": radius, "closed": closed, "at": places(shape), "moves": moving})
+        if shape.space:
+            rows = [[round(scale * v, 1) for p in frame[number].space for v in p] for frame in all_frames]
+            shapes[-1]["space"] = rows if moving else rows[:1]
     size = [1000.0, round(scale * (high - low + 2 * pad), 1)]
     origin = [round(scale * (pad - left), 1), round(scale * (high + pad), 1)]
-    return {"name": name, "size": size, "scale": scale, "origin": origin, "turns": turns, "count": frames,
-            "shapes": shapes}  # fmt: skip
+    facts = {"name": name, "size": size, "scale": scale, "origin": origin, "turns": turns, "count": frames}
+    return facts | {"shapes": shapes} | ({"space": True} if any("space" in shape for shape in shapes) else {})
 
 
 ARROW = 200  # length of the largest force of the gas, of a scene that is 1000 wide

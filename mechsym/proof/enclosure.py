@@ -29,7 +29,7 @@ from mechsym.proof.balls import COMPLEX, UP, Ball, acb, arb, arb_mat, ctx, evalu
 from mechsym.proof.taylor import TaylorMotion, coefficient
 from mechsym.quantities import record
 
-_REACH = 0.03  # R: how far in the norm around p the equations are bounded [-]
+_REACH = 0.03  # R at most: how far in the norm around p the equations are bounded [-]
 _LADDER = (1.2, 1.0, 1 / 1.2)  # radii of the disc that a step tries, by that of the last
 _SHORTEST = 1e-9  # step, and radius of a disc [s]
 _LOW = 64  # bits for what is only a bound
@@ -90,7 +90,7 @@ class Enclosure:
 
     def __init__(self, motion: TaylorMotion, method: EnclosureMethod, weights: np.ndarray) -> None:
         """weights: w, the size of each state in the norm [SI]."""
-        self.motion, self.method, self.w, self.rho = motion, method, weights, method.longest
+        self.motion, self.method, self.w, self.rho, self.reach = motion, method, weights, method.longest, _REACH
         self.n = motion.states
 
     def steps(self, start: Set, until: Fraction) -> Iterator[Step]:
@@ -106,16 +106,22 @@ class Enclosure:
         self.motion.expand(start.x, self.method.order, self.method.order_of_W)
         W, A_W = self._derivative()
         size = self.norm(magnitudes(start.B) @ start.c)
-        h = 0.0
+        h, self.reach = 0.0, min(_REACH, 2 * self.reach)
         while not h > 0:
             h, rho, bounds = max((self._length(W, share * self.rho) for share in _LADDER), key=lambda found: found[0])
-            self.rho = rho if h > 0 else self.rho / 2
-            if self.rho < _SHORTEST:
+            if h > 0:
+                self.rho = rho
+                break
+            if all(map(math.isfinite, self._bounded(0.0, 0.0))):
+                self.rho /= 2
+            else:
+                self.reach /= 2
+            if min(self.rho, self.reach) < _SHORTEST:
                 raise BadInput(f"at {float(start.t):g} s the equations cannot be enclosed on any disc of times")
         length = min(Fraction(math.ldexp(math.floor(math.ldexp(h, 40)), -40)), most)
         while True:
             noise, reach = self._noise(length, bounds, size, W, A_W)
-            if reach <= _REACH:
+            if reach <= self.reach:
                 return self._next(start, length, W, noise, reach)
             length /= 2
             if length < _SHORTEST:
@@ -154,7 +160,7 @@ class Enclosure:
         with ctx.workprec(_LOW):
             for p, w in zip(self.motion.x, self.w, strict=True):
                 radii = (
-                    sum(upper(c) * t**k for k, c in enumerate(p) if k) * UP + _REACH * w for t in (real, imaginary)
+                    sum(upper(c) * t**k for k, c in enumerate(p) if k) * UP + self.reach * w for t in (real, imaginary)
                 )
                 inputs.append(acb(arb(p[0], next(radii)), arb(0, next(radii))))
             values = [upper(v) for v in evaluate(self.motion.tape, COMPLEX, [*inputs, *self.motion.held])]
@@ -187,7 +193,7 @@ class Enclosure:
         d = (_at(left, h) + F * ratio**order / (1 - ratio)) * UP
         D = (_at(A_W, h) + K * W_size * ratio**self.method.order_of_W / (1 - ratio)) * UP
         reach = (size + h * d) * growth * UP
-        share = reach / _REACH
+        share = reach / self.reach
         within = sum(self.matrix_norm(magnitudes(matrix)) * h**k for k, matrix in enumerate(W)) * UP
         V = h * (D + L * within * share / (1 - share)) * UP if share < 1 else math.inf
         return (h * d + size * V) * growth * UP, reach

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
@@ -25,6 +26,7 @@ Box: TypeAlias = tuple[tuple[float, float], ...]
 _PIECES = (64, 16)  # of a turn: where one angle turns, and where several do
 _DEEPEST = 12  # how often a piece is halved before it is told as singular
 _SEED = 20260
+_NEAR = 9.5  # bound by the largest error seen, above which a box is halved
 _PER_SAMPLE = 1e-4  # of each function [s]
 
 
@@ -36,7 +38,7 @@ class Subject:
     function: ca.Function
     exact: Exact | None = None  #: The same for balls, from another text than the tape; None takes the tape
     boxes: tuple[Box, ...]
-    along: tuple[int, ...] = ()  #: Inputs along which a box may be halved and which say where it is
+    along: tuple[int, ...] = ()  #: Inputs along which a box is halved and which say where it is; none takes the widest
     places: tuple[str, ...] = ()  #: Of the boxes, where no input says it
     outputs: tuple[str, ...] = ()  #: Their names, where the function has others
 
@@ -102,18 +104,13 @@ def of_guides(kernel: DesignKernel, share: float) -> tuple[Subject, ...]:
     """The limits of guides: shares around the turn, and the margins, with all numbers +- a share [-]."""
     around, ends = kernel.functions
     lanes: Box = tuple(widened(v, share) for v in kernel.lanes.values())
-    pairs = [
-        pair
-        for pair in itertools.pairwise(range(len(kernel.angles)))
-        if kernel.angles[pair[0]] < kernel.angles[pair[1]]
-    ]
-    stages = [tuple((min(column), max(column)) for column in kernel.stages[list(pair)].T.tolist()) for pair in pairs]
     shares = compiled(around, "strict").batch(*kernel.stages.T, *kernel.lanes.values())
     peaks = tuple(widened(float(row.max()), share) for row in shares)
     return (
         Subject(
-            name="around_the_turn", function=around, boxes=tuple((*stage, *lanes) for stage in stages),
-            places=tuple(f"angle of the guide = {kernel.angles[a]:.4g}..{kernel.angles[b]:.4g}" for a, b in pairs),
+            name="around_the_turn", function=around,
+            boxes=tuple((*zip(stage, stage, strict=True), *lanes) for stage in kernel.stages.tolist()),
+            places=tuple(f"angle of the guide = {angle:.4g}" for angle in kernel.angles),
             outputs=kernel.around,
         ),
         Subject(
@@ -162,26 +159,25 @@ def prove(
     units: of outputs by name; code: what is held against the bound, in place of the strict build of the function.
     """
     tape = prepared(subject.function, "strict")
-    rows = [_bounded(tape, box, subject.along) for box in subject.boxes]
     exact = subject.exact or (lambda *values: evaluate(tape, VALUES | _MORE, values))
     points, which = points_in(subject.boxes, samples, _SEED)
     off, sizes = errors(code or compiled(subject.function, "strict").batch, exact, points, progress)
-    names = dict(zip(subject.boxes, subject.places, strict=False))
+    goals = [min(_NEAR * row.max(), sys.float_info.max) or sys.float_info.max for row in off]
+    rows = [_bounded(tape, box, subject.along, goals) for box in subject.boxes]
 
-    def place(box: Box) -> str:
-        return names.get(box) or ", ".join(
-            f"{tape.inputs[k]} = {box[k][0]:.4g}..{box[k][1]:.4g}" for k in subject.along
-        )
+    def place(which: int, box: Box) -> str:
+        ends = (f"{tape.inputs[k]} = {box[k][0]:.4g}..{box[k][1]:.4g}" for k in subject.along)
+        return subject.places[which] if subject.places else ", ".join(ends)
 
     proven = []
     for i, name in enumerate(subject.outputs or tape.outputs):
-        pieces = [piece for row in rows for piece in row[i]]
-        finite = [(value.error, box) for box, value in pieces if math.isfinite(value.error)]
-        singular = [box for box, value in pieces if not math.isfinite(value.error)]
+        pieces = [(place(k, box), box, value) for k, row in enumerate(rows) for box, value in row[i]]
+        finite = [(value.error, where) for where, _, value in pieces if math.isfinite(value.error)]
+        singular = {box: where for where, box, value in pieces if not math.isfinite(value.error)}
         inside = np.array([not any(_within(point, box) for box in singular) for point in points.T])
         seen = float(off[i][inside].max(initial=0.0))
-        absolute, where = max(finite, key=lambda found: found[0], default=(None, ()))
-        least = (float(value.ball.abs_lower()) for _, value in pieces if value.ball.is_finite())
+        absolute, where = max(finite, key=lambda row: row[0], default=(None, ""))
+        least = (float(value.ball.abs_lower()) for *_, value in pieces if value.ball.is_finite())
         size = max((float(sizes[i][inside].max(initial=0.0)), *least))
         proven.append(
             ProvenOutput(
@@ -189,10 +185,10 @@ def prove(
                 unit=units.get(name, ""),
                 absolute=absolute,
                 relative=None if absolute is None else absolute / size if size else 0.0,
-                where=place(where) if absolute else "",
+                where=where if absolute else "",
                 seen=seen,
                 factor=absolute / seen if absolute is not None and seen else None,
-                singular=tuple(dict.fromkeys(map(place, singular))),
+                singular=tuple(dict.fromkeys(singular.values())),
             )
         )
     return tuple(proven)
@@ -206,19 +202,20 @@ _MORE: dict[str, Callable[..., Ball]] = {
 }  # fmt: skip
 
 
-def _bounded(tape: Tape, box: Box, along: Sequence[int], depth: int = 0) -> list[list[tuple[Box, Rounded]]]:
-    """For each output the parts of a box with what holds there; what has no bound is halved some times."""
-    values = bounds(tape, box, centred=not along)
-    if depth == _DEEPEST or not along or all(math.isfinite(v.error) for v in values):
+def _bounded(
+    tape: Tape, box: Box, along: Sequence[int], goals: Sequence[float], depth: int = 0
+) -> list[list[tuple[Box, Rounded]]]:
+    """For each output the parts of a box with what holds there; a box is halved until no bound is above its goal."""
+    values, widest = bounds(tape, box, along)
+    if depth == _DEEPEST or all(v.error <= goal for v, goal in zip(values, goals, strict=True)):
         return [[(box, v)] for v in values]
-    i = max(along, key=lambda k: box[k][1] - box[k][0])
-    middle = (box[i][0] + box[i][1]) / 2
+    middle = (box[widest][0] + box[widest][1]) / 2
     halves = (
-        _bounded(tape, (*box[:i], end, *box[i + 1 :]), along, depth + 1)
-        for end in ((box[i][0], middle), (middle, box[i][1]))
+        _bounded(tape, (*box[:widest], end, *box[widest + 1 :]), along, goals, depth + 1)
+        for end in ((box[widest][0], middle), (middle, box[widest][1]))
     )
     parts = [a + b for a, b in zip(*halves, strict=True)]
-    return [[(box, v)] if math.isfinite(v.error) else p for v, p in zip(values, parts, strict=True)]
+    return [[(box, v)] if v.error <= goal else p for v, goal, p in zip(values, goals, parts, strict=True)]
 
 
 def _within(point: np.ndarray, box: Box) -> bool:

@@ -78,10 +78,11 @@ def half_ulp(size: float, ulps: float = 0.5) -> float:
     return ulps * max(math.ldexp(1.0, math.frexp(size)[1] - 53), 5e-324) if size else 0.0
 
 
-def bounds(tape: Tape, box: Sequence[tuple[float, float]], centred: bool = False) -> list[Rounded]:
-    """The outputs over a box of inputs [SI]: balls of their values and bounds of what they may be off.
+def bounds(tape: Tape, box: Sequence[tuple[float, float]], along: Sequence[int] = ()) -> tuple[list[Rounded], int]:
+    """The outputs over a box of inputs [SI]: balls of their values and bounds of what they may be off; and the input
+    that the box is best halved by.
 
-    centred: whether values are enclosed by the mean value too, which is tight where many inputs have a width.
+    along: inputs whose width decides; without them, where many have one, values are enclosed by the mean value too.
     """
     unknown = sorted({op for op, _ in tape.nodes} - KNOWN)
     if unknown:
@@ -89,15 +90,15 @@ def bounds(tape: Tape, box: Sequence[tuple[float, float]], centred: bool = False
     with ctx.workprec(_BITS):
         inputs = [arb(low).union(arb(high)) if low != high else arb(low) for low, high in box]
         values: list[Rounded] = []
-        middles = _Middles(inputs) if centred else None
+        middles = None if along else _Middles(inputs)
         for node in tape.nodes:
             op, args = node
-            values.append(
-                _leaf(node, inputs) if op in ("input", "constant") else _node(op, [values[a] for a in args], centred)
-            )
+            leaf = op in ("input", "constant")
+            values.append(_leaf(node, inputs) if leaf else _node(op, [values[a] for a in args], always=not along))
             if middles:
                 values[-1] = middles.narrowed(node, values[-1])
-        return [_backwards(tape, values, r) if 0 < values[r].error < math.inf else values[r] for r in tape.results]
+        bounded = [_backwards(tape, values, r) if 0 < values[r].error < math.inf else values[r] for r in tape.results]
+        return bounded, middles.widest() if middles else max(along, key=lambda k: box[k][1] - box[k][0])
 
 
 def _leaf(node: Node, inputs: Sequence[Ball]) -> Rounded:
@@ -173,9 +174,18 @@ class _Middles:
     """The same program at the middle of its box, and its derivatives by the inputs over the box."""
 
     def __init__(self, inputs: Sequence[Ball]) -> None:
-        self.inputs = inputs
+        self.inputs, self.widths = inputs, [ball - ball.mid() for ball in inputs]
         self.values: list[Ball] = []
         self.slopes: list[dict[int, Ball]] = []
+
+    def widest(self) -> int:
+        """The input whose width moves the values of all nodes most, each by its size."""
+        moved = dict.fromkeys(range(len(self.inputs)), 0.0)
+        for value, slopes in zip(self.values, self.slopes, strict=True):
+            for j, by in slopes.items():
+                share = upper(by) * float(self.inputs[j].rad()) / (upper(value) or 1.0)
+                moved[j] += min(share, 1.0) if share == share else 0.0
+        return max(moved, key=lambda j: moved[j])
 
     def narrowed(self, node: Node, value: Rounded) -> Rounded:
         """A value in the ball that holds by the mean value too."""
@@ -194,9 +204,10 @@ class _Middles:
         slopes: dict[int, Ball] = {}
         for a, slope in zip(args, value.slopes, strict=True):
             for j, by in self.slopes[a].items():
-                slopes[j] = slopes.get(j, _ZERO) + slope * by
+                moved = by if slope is _ONE else slope * by
+                slopes[j] = slopes[j] + moved if j in slopes else moved
         self.slopes.append(slopes)
-        ball = sum((by * (self.inputs[j] - self.inputs[j].mid()) for j, by in slopes.items()), self.values[-1])
+        ball = sum((by * self.widths[j] for j, by in slopes.items()), self.values[-1])
         if not ball.is_finite():
             return value
         return Rounded(ball=ball.intersection(value.ball), error=value.error, own=value.own, slopes=value.slopes)

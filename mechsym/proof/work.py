@@ -59,14 +59,14 @@ def integrals(pieces: Sequence[Piece], angles: Sequence[float]) -> list[Ball]:
     try:
         with ctx.workprec(_BITS):
             for start, end, tape in pieces:
-                a, width = start, _FIRST
+                a, width = start, _WIDEST if _is_polynomial(tape) else _FIRST
                 while a < end:
                     b = min(a + width, end, *(w for w in wanted if w > a))
                     while wanted and wanted[0] <= a:
                         found.append(total)
                         wanted.pop(0)
                     try:
-                        total += _over(tape, a, b, plain=a == start)
+                        total += _over(tape, a, b, plain=width == _FIRST)
                     except (ValueError, ZeroDivisionError) as error:  # of a series that has no inverse
                         raise BadInput(f"a law cannot be enclosed at {a:.4g} rad ({error})") from error
                     a, width = b, min(width * _GROWTH, _WIDEST)
@@ -76,6 +76,11 @@ def integrals(pieces: Sequence[Piece], angles: Sequence[float]) -> list[Ball]:
     if not all(ball.is_finite() for ball in found):
         raise BadInput("a law that is not finite everywhere cannot be enclosed")
     return found
+
+
+def _is_polynomial(tape: Tape) -> bool:
+    """Whether no power or root of a law has a branch."""
+    return not {"pow", "sqrt", "log", "fmax", "fmin"} & {op for op, _ in tape.nodes}
 
 
 def _over(tape: Tape, a: float, b: float, plain: bool) -> Ball:

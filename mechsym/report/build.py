@@ -4,10 +4,10 @@ import hashlib
 from collections.abc import Callable, Mapping, Sequence
 
 import mechsym
-from mechsym import cases, inputs
+from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.provenance import SourcedValue, sourced
-from mechsym.files import Json
+from mechsym.files import Json, inputs
 from mechsym.jobs.export import turning, with_gas
 from mechsym.jobs.measured import MeasuredDiagram
 from mechsym.mechanisms.plan import plan_of

@@ -83,7 +83,9 @@ class Result:
     end: str  #: What ended it: `t_end`, `turns`, the event's name, or `failure`
     event: Event | None
     energy: Energy
-    #: Largest difference of a speed to the run at the tighter tolerance, relative to its peak; None unchecked [-]
+    #: Largest difference of a speed to the run at a hundredth of the tolerance, relative to its peak; None unchecked.
+    #: An error grows as the tolerance to the power p/(p+1), p >= 1 the order, so that run is off by a tenth of this
+    #: one's error at most, and the error by at most 10/9 of this [-]
     tolerance_difference: float | None
     steps: int
     wall_s: float  #: Time that the run took, without the check [s]

@@ -29,7 +29,12 @@ _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
 def picture(result: Sweep) -> Figure | None:
     """The main results of a sweep, see `mechsym.sweep.main_results`; None for a single point, or gaps only."""
-    shown = _worth_drawing(result)
+    # main results, without those that stay the same or are round-off; all when none is left
+    found = main_results(result)
+    sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
+    lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
+    chosen = found if result.show or not lively else lively
+    shown = dict(list(chosen.items())[:_MOST])
     if not shown or len(result.points) == 1:
         return None
     if result.sobol and indices(result):
@@ -45,15 +50,6 @@ def picture(result: Sweep) -> Figure | None:
         pair = (min(long), max(long)) if wide else (first, second[0])
         return (_maps if wide else _lines)(result, shown, pair)
     return _lines(result, shown, (first, None))
-
-
-def _worth_drawing(result: Sweep) -> dict[str, np.ndarray]:
-    """Main results, without those that stay the same or are round-off; all when none is left."""
-    found = main_results(result)
-    sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
-    lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
-    chosen = found if result.show or not lively else lively
-    return dict(list(chosen.items())[:_MOST])
 
 
 def _words(result: Sweep, axes: list[int]) -> bool:

@@ -36,6 +36,7 @@ def words(command, case, folder):
         "compare": [case], "flywheel": ["--ripple", "2%"], "guide": ["--sheet", f"{folder}/g.svg"],
         "export": ["--to", "c", "--out", f"{folder}/text"], "fmu": ["--platforms", "none", "--out", f"{folder}/f.fmu"],
         "page": ["--out", f"{folder}/p.html"], "report": ["--out", f"{folder}/r.html"], "app": ["--check"],
+        "prove": ["--t-end", "0.001"],
         "identify": ["--trace", f"{folder}/no-such.csv", "--free", "x"],
     }  # fmt: skip
     if command == "eval":
@@ -76,7 +77,7 @@ def test_every_command_that_takes_a_case_is_listed():
         arguments = cli.mechsym.get_command(click.Context(cli.mechsym), name).params
         named = {a.name for a in arguments if isinstance(a, click.Argument)} & {"case", "case_name", "cases", "case_a"}
         takes |= {name} if named else set()
-    assert takes - OTHERS | {"eval", "export"} == set(COMMANDS)  # these two take a mechanism, too
+    assert takes - OTHERS | {"eval", "export", "prove"} == set(COMMANDS)  # these take a mechanism, too
     assert set(check_file("zotov-89").commands) == set(COMMANDS)
 
 

@@ -3,24 +3,27 @@
 import dataclasses
 import json
 import math
+from pathlib import Path
 
 import casadi as ca
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from mechsym import cases
+from mechsym import cases, codesign
 from mechsym.cli import mechsym
 from mechsym.codesign.certificate import Terms, enclosed, proofs
 from mechsym.codesign.points import sample
 from mechsym.errors import BadInput
 from mechsym.jobs.codesign import settings_of, task_of
+from mechsym.jobs.machine import machine
 from mechsym.native.tape import read
 
 pytest.importorskip("flint")
 
 from mechsym.proof.work import integrals  # noqa: E402
 
+EXAMPLES = Path(__file__).parents[2] / "examples/mechanisms"
 x = ca.SX.sym("x")
 
 
@@ -78,11 +81,31 @@ def test_other_formulas_than_those_of_the_work_are_no_proof(points):
         enclosed([dataclasses.replace(p, inertia_formula=None) for p in points], phi, 0.05, Terms(), proof.points)
 
 
-def test_formulas_are_the_torque(points):
-    for point in points:
+def point_of(name, faster=1.0):
+    at = machine(cases.load(name))
+    return codesign.point(dataclasses.replace(at, omega=faster * at.omega), 0.0, "constant")
+
+
+OWN = (*(str(EXAMPLES / f"{name}.toml") for name in ("compressor", "scotch-yoke", "v-twin")), "generator")
+
+
+@pytest.mark.parametrize("name", ["zotov-89", *OWN])
+def test_formulas_are_the_torque(name, points):
+    for point in points if name == "zotov-89" else [point_of(name)]:
+        assert point.formulas[0][0] <= 0 < point.formulas[-1][1]  # every angle of a period has one
         for low, high, formula in point.formulas:
             angles = np.linspace(low, high, 7)[1:-1]
             assert [float(formula(a)) for a in angles] == pytest.approx(point.torque(angles), rel=1e-9, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_balls_hold_other_gases_and_several_pistons(name):
+    # at another speed the shape is another, which one spring cannot follow
+    at = [point_of(name), point_of(name, 1.4)]
+    phi = sample(at, 180).phi
+    (proof,) = proofs(at, phi, 0.02, Terms(), 1)
+    proven = enclosed(at, phi, 0.02, Terms(), proof.points)
+    assert 0 < proven <= proof.total_inertia * (1 + 1e-12) and proven > (1 - 1e-3) * proof.total_inertia
 
 
 @pytest.mark.slow

@@ -33,7 +33,7 @@ x, y, z = ca.SX.sym("x"), ca.SX.sym("y"), ca.SX.sym("z")
 
 def bound_of(value, letters, box):
     tape = prepared(ca.Function("f", letters, [value], [s.name() for s in letters], ["value"]), "strict")
-    return bounds(tape, box)[0].error
+    return bounds(tape, box)[0][0].error
 
 
 # half a unit in the last place by hand: results below 4, 2, 4; the second term is the first's error on its way

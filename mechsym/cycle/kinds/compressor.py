@@ -15,7 +15,7 @@ import numpy as np
 import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
-from mechsym.cycle.pressure import Pressure, pressure_over
+from mechsym.cycle.pressure import Pieces, Pressure, pressure_over
 from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
@@ -81,6 +81,18 @@ def valves(cycle: CompressorCycle, room: Chamber) -> dict[str, float]:
     }
 
 
+def formulas(cycle: CompressorCycle, room: Chamber, at: list[float]) -> Pieces:
+    """The same from valve to valve, whose angles are `at` [rad], for a CasADi symbol too."""
+    full = room.clearance + room.displacement
+    laws = (
+        lambda phi: cycle.p_delivery * (room.clearance / volume(room, phi)) ** cycle.n_e,
+        lambda phi: cycle.p_suction + 0 * phi,
+        lambda phi: cycle.p_suction * (full / volume(room, phi)) ** cycle.n_c,
+        lambda phi: cycle.p_delivery + 0 * phi,
+    )
+    return tuple(zip(at, [*at[1:], _TURN], laws, strict=True))
+
+
 def compressor_pressure(cycle: CompressorCycle, room: Chamber) -> Pressure:
     """Pressure of a compressor's cylinder, by formulas in every phase."""
     phases = valves(cycle, room)
@@ -89,7 +101,7 @@ def compressor_pressure(cycle: CompressorCycle, room: Chamber) -> Pressure:
     ) / room.displacement
     return pressure_over(
         "compressor", lambda phi: absolute_pressure(cycle, room, np.remainder(phi, _TURN)), _TURN,
-        tuple(sorted(phases.values())), room, phases=phases,
+        tuple(sorted(phases.values())), room, phases=phases, formulas=formulas(cycle, room, list(phases.values())),
         facts=(f"of the swept volume {drawn:.3f} is drawn in each turn; the clearance takes the rest",),
     )  # fmt: skip
 
