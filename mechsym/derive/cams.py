@@ -24,8 +24,8 @@ from mechsym.derive.rates import output, output_dynamic
 from mechsym.derive.refuse import file_of_declaration, refuse
 from mechsym.derive.unilateral import Unilateral
 from mechsym.errors import BadInput, suggest
-from mechsym.inputs import sources
-from mechsym.tables import columns_of
+from mechsym.files.inputs import sources
+from mechsym.files.tables import columns_of
 
 _FOLLOWERS = ("knife", "flat", "roller")
 _TURN = 2 * pi

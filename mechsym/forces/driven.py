@@ -18,6 +18,7 @@ import scipy
 
 from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
+from mechsym.files.tables import columns_of
 from mechsym.mechanisms import constraints, driven
 from mechsym.mechanisms.driven import MotionSettings
 from mechsym.mechanisms.record import Mechanism, velocities
@@ -27,7 +28,6 @@ from mechsym.quantities.display import quantity_text
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.quantities.units import Array, Second
 from mechsym.style import BLUE, axis_unit, panels
-from mechsym.tables import columns_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

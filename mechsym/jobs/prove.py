@@ -20,7 +20,7 @@ from mechsym.jobs.machine import machine
 from mechsym.jobs.problem import problem_of
 from mechsym.machine.record import acting, shaft_torque
 from mechsym.mechanisms.own import is_file
-from mechsym.mechanisms.record import Mechanism, bind, evaluate, generated, listing, velocities
+from mechsym.mechanisms.record import bind, evaluate, generated, listing, velocities
 from mechsym.proof.enclosure import EnclosureMethod
 from mechsym.proof.motion import MOST, Passed, balls_of, digits, enclose, half_widths, method_for, task_of
 from mechsym.proof.outputs import ProvenRounding, of_guides, of_mechanism, rounding, units_of, widened
@@ -175,7 +175,14 @@ def motion_of(
     symbols = {name: ca.SX.sym(name) for name in problem.mechanism.parameters}
     open_ = bind(case.mechanism, symbols)
     values = {name: float(v) for name, v in problem.mechanism.parameters.items()}
-    _require_same(case, problem, bind(case.mechanism, values))
+    # refuse a run whose mechanism is more than its declaration: a flywheel, the torque of a hinge
+    plain = bind(case.mechanism, values)
+    if plain.inputs != problem.mechanism.inputs:
+        raise BadInput(f"{case.file}: [drive] or [spring] adds an input to {plain.name}; it cannot be enclosed with it")
+    at = [0.3 + 0.1 * k for k in range(plain.functions["dynamics"].n_in())]
+    pairs = zip(*(m.functions["dynamics"].call(at) for m in (plain, problem.mechanism)), strict=True)
+    if any(np.abs(np.asarray(a - b)).max() > 0 for a, b in pairs):
+        raise BadInput(f"{case.file}: a section adds inertia to {plain.name}; put it into the parameters to enclose it")
     task = task_of(problem, open_, values)
     until = t_end or problem.t_end
     needed = digits(task, until, _WIDTH)
@@ -188,16 +195,6 @@ def motion_of(
     passed = enclose(task, method, Fraction(repr(float(until))), out, progress)
     states = (*problem.mechanism.coordinates, *velocities(problem.mechanism))
     return _told(case, problem, states, passed, (method, needed), window)
-
-
-def _require_same(case: Case, problem: Problem, plain: Mechanism) -> None:
-    """Refuse a run whose mechanism is more than its declaration: a flywheel, the torque of a hinge."""
-    if plain.inputs != problem.mechanism.inputs:
-        raise BadInput(f"{case.file}: [drive] or [spring] adds an input to {plain.name}; it cannot be enclosed with it")
-    at = [0.3 + 0.1 * k for k in range(plain.functions["dynamics"].n_in())]
-    pairs = zip(*(m.functions["dynamics"].call(at) for m in (plain, problem.mechanism)), strict=True)
-    if any(np.abs(np.asarray(a - b)).max() > 0 for a, b in pairs):
-        raise BadInput(f"{case.file}: a section adds inertia to {plain.name}; put it into the parameters to enclose it")
 
 
 def _told(

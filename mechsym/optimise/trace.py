@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.quantities import record
 from mechsym.quantities.units import exponents, scale
 

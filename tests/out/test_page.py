@@ -17,7 +17,7 @@ from mechsym.cases.new_engine import write_engine
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.export import ready
-from mechsym.out.laws import block_of
+from mechsym.out.block import block_of
 from mechsym.out.web import LiveRun, page, with_live
 from mechsym.simulate import Settings, simulate
 

@@ -18,9 +18,8 @@ from mechsym.jobs.problem import Ready
 from mechsym.mechanisms.turning import rules
 from mechsym.native.compiler import NoCompiler, call, forecast
 from mechsym.native.integrators import dop853_numbers
-from mechsym.out.block import Block, Port
+from mechsym.out.block import Block, Port, block_of
 from mechsym.out.fmi.describe import variables
-from mechsym.out.laws import block_of
 from mechsym.out.text.language_c import model
 from mechsym.page import page as template
 from mechsym.quantities import record
