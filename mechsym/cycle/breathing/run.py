@@ -277,12 +277,17 @@ def _summed(
     sums, trapped = dict(zip(STATES[9:], history[-1, 9:].tolist(), strict=True)), float(history[0, 3])
     fresh, drawn = trapped - float(history[0, 5]), sums["m_in"] - sums["b_in"]
     leaving = _leaving(cylinder, outside, pressures["manifold"], history[:, 7] / (history[:, 6] * cv))
+    first, last = history[0], history[-1]
+    mass, energy, _ = (last[:9] - first[:9]).reshape(3, 3).sum(axis=0)
+    left = energy - sums["H_in"] + sums["H_out"] - sums["heat"] + sums["wall_heat"] + sums["work"]
     return Breath(
         omega=omega, phi=phi, pressures=pressures, temperature=temperature, room=room, trapped=trapped,
         residual=1 - fresh / trapped,
         volumetric_efficiency=drawn / (p_in * float(np.ptp(room)) / (c.R * T_in)), drawn=drawn,
         trapping_efficiency=fresh / drawn, T_exhaust=leaving, work=sums["work"], pumping=sums["pumping"],
-        heat=sums["heat"], wall_heat=sums["wall_heat"], closure=closure, **_residuals(history, sums),
+        heat=sums["heat"], wall_heat=sums["wall_heat"], closure=closure,
+        mass_residual=float(abs(mass - sums["m_in"] + sums["m_out"])) / float(first[3]),
+        energy_residual=float(abs(left)) / float(first[4]),
     )  # fmt: skip
 
 
@@ -293,16 +298,6 @@ def _leaving(cylinder: Cylinder, outside: np.ndarray, p: np.ndarray, T: np.ndarr
     flow = ca.Function("flow", [state], [orifice_flow(1.0, (state[0], state[1]), behind, c.gamma, c.R)])
     out = np.maximum(np.asarray(flow(np.vstack([p, T]))).ravel(), 0.0)
     return float(np.sum(out * T) / np.sum(out))
-
-
-def _residuals(history: np.ndarray, sums: dict[str, float]) -> dict[str, float]:
-    first, last = history[0], history[-1]
-    mass, energy, _ = (last[:9] - first[:9]).reshape(3, 3).sum(axis=0)
-    left = energy - sums["H_in"] + sums["H_out"] - sums["heat"] + sums["wall_heat"] + sums["work"]
-    return {
-        "mass_residual": float(abs(mass - sums["m_in"] + sums["m_out"])) / float(first[3]),
-        "energy_residual": float(abs(left)) / float(first[4]),
-    }
 
 
 _ROUNDS, _BESIDE, _WORTH = 12, 1e-6, 0.5

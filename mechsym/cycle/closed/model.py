@@ -114,7 +114,13 @@ def open_function(build: Build, names: Sequence[str]) -> ca.Function:
         weights[[0, -1]] = 1.0
         works.append(ca.dot(ca.DM(weights / (3 * steps)).T, p * swept))
         state = history[:, -1]
-    rest = ca.Function("rest", [z, t, u], _behind_dead_centre(closed, u, t))
+    # work of the stroke that draws in, from the pressure at its start, and on to inlet closing [J]; gamma [-]
+    gamma, least, full = _expanding(closed, t)[1], closed.chamber.clearance, volume(closed.chamber, math.pi)
+    filled = least * (u / closed.pressure) ** (1 / gamma)
+    drawn = (u * least - closed.pressure * filled) / (gamma - 1) + closed.pressure * (full - filled)
+    rest = ca.Function(
+        "rest", [z, t, u], [drawn, closed.pressure * (volume(closed.chamber, closed.closes) - full), gamma]
+    )
     drawn, closing, gamma = rest(design, t_end, pressures[-1][-1])
     outputs = [ca.vertcat(*angles), ca.vertcat(*pressures), works[0] + works[1] + drawn + closing, works[1] + drawn,
                gamma]  # fmt: skip
@@ -145,14 +151,6 @@ def _slope(closed: Closed, valve: Blowdown, phi: Scalar, u: Scalar, t: Scalar) -
     outside = there * (valve.pressure / p) ** ((gamma - 1) / gamma)
     flow = orifice_flow(area, (p, there), (valve.pressure, outside), gamma, R)
     return (gamma - 1) / 2 * u * flow / (now * closed.omega)
-
-
-def _behind_dead_centre(closed: Closed, p: Scalar, t: Scalar) -> list[Scalar]:
-    """Work of the stroke that draws in, from the pressure at its start, and on to inlet closing [J]; gamma [-]."""
-    gamma, least, full = _expanding(closed, t)[1], closed.chamber.clearance, volume(closed.chamber, math.pi)
-    filled = least * (p / closed.pressure) ** (1 / gamma)
-    drawn = (p * least - closed.pressure * filled) / (gamma - 1) + closed.pressure * (full - filled)
-    return [drawn, closed.pressure * (volume(closed.chamber, closed.closes) - full), gamma]
 
 
 def _step(slope: ca.Function, h: float) -> ca.Function:

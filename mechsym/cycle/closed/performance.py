@@ -82,7 +82,14 @@ def performance(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Performan
     phi, p, t = dense(result)
     p_max, p_max_angle = peak(phi, p)
     here = at_design(engine, {k: np.asarray(v, float) for k, v in design.items()})
-    along = _along(engine, design, phi, p)
+    columns = [np.repeat(np.broadcast_to(np.asarray(v, float), phi.shape[:1]), phi.shape[1]) for v in design.values()]
+    function = force_function(engine, tuple(design))
+    points = [*columns, phi.ravel(), p.ravel()]
+    if phi.shape[0] >= MANY:
+        values = compiled(function).batch(*points)
+    else:
+        values = np.array([np.asarray(v) for v in function.call([np.array(columns), *(a[None] for a in points[-2:])])])
+    along = {k: v.reshape(phi.shape) for k, v in zip(function.name_out(), values, strict=True)}
     largest = {name: peak(phi, values)[0] for name, values in along.items()}
     angles = burnt_angles(here.cycle, scalars["omega"])
     fuel, released, heat = (scalars[k] for k in ("fuel_heat", "heat_released", "latent_heat"))
@@ -151,17 +158,6 @@ def _knock(engine: ClosedEngine, design: Mapping[str, Scalar], result: ClosedRun
     here = at_design(engine, {k: np.atleast_1d(np.asarray(v, float))[:, None] for k, v in design.items()})
     nodes = {"p": result.p, "t": result.t, **result.scalars}
     return knock_of_runs(nodes, here.gas, np.ravel(here.cycle.octane))
-
-
-def _along(engine: ClosedEngine, design: Mapping[str, Scalar], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
-    columns = [np.repeat(np.broadcast_to(np.asarray(v, float), phi.shape[:1]), phi.shape[1]) for v in design.values()]
-    function = force_function(engine, tuple(design))
-    points = [*columns, phi.ravel(), p.ravel()]
-    if phi.shape[0] >= MANY:
-        values = compiled(function).batch(*points)
-    else:
-        values = np.array([np.asarray(v) for v in function.call([np.array(columns), *(a[None] for a in points[-2:])])])
-    return {k: v.reshape(phi.shape) for k, v in zip(function.name_out(), values, strict=True)}
 
 
 def force_function(engine: ClosedEngine, names: tuple[str, ...]) -> ca.Function:

@@ -36,8 +36,6 @@ from mechsym.hinge.torque import Hinge
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Kelvin, Metre, Pascal, Pure, Radian, RadPerSecond, Scalar, Volume
 
-R_NITROGEN = 296.8  # [J/kg/K]
-
 
 def thermal_pressure(
     z: Metre[Scalar], H: Metre[Scalar], p0: Pascal[Scalar], pa: Pascal[Scalar], warmth: Pure[Scalar]
