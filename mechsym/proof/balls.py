@@ -37,7 +37,7 @@ def upper(ball: Ball) -> float:
 
 
 def outward(value: float, digits: int, up: bool = True) -> str:
-    """A bound to some digits, above it, or below it where it is a lower one."""
+    """A bound [any unit] to some digits, above it, or below it where it is a lower one."""
     rounding = decimals.ROUND_CEILING if up else decimals.ROUND_FLOOR
     return f"{float(decimals.Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):g}"
 
