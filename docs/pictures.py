@@ -53,6 +53,18 @@ def fourbar() -> str:
         return moving(drawn, "A four-bar linkage turning", {})
 
 
+def book() -> dict[str, str]:
+    """Mechanisms of the same page that stand still, as `mechsym derive --draw` draws them."""
+    from mechsym.mechanisms.plots import assembled
+
+    text = (Path(__file__).parent / "own-mechanism.md").read_text(encoding="utf-8")
+    shown = set(re.findall(r"\(pictures/(\w+)\.svg\)", text)) - {"fourbar"}
+    with tempfile.TemporaryDirectory() as folder:
+        for name, block in re.findall(r"```python file=(\w+)\.py\n(.*?)```", text, re.S):
+            (Path(folder) / f"{name}.py").write_text(block, encoding="utf-8")
+        return {f"{name}.svg": assembled(f"{folder}/{name}.py")[1] for name in sorted(shown)}
+
+
 def moving(drawn: Callable[[float], Shapes], title: str, legend: dict[str, str]) -> str:
     """A drawing over the crank angle as an SVG that moves without scripts, with a line for each role of a legend."""
     shown = scene(drawn, title, 1.0, _FRAMES)
@@ -147,7 +159,7 @@ def _workbench(folder: Path) -> tuple["subprocess.Popen[bytes]", str]:
 def main() -> None:
     """Write all of them."""
     FOLDER.mkdir(exist_ok=True)
-    for name, text in (("hinge.svg", hinge()), ("fourbar.svg", fourbar())):
+    for name, text in (("hinge.svg", hinge()), ("fourbar.svg", fourbar()), *book().items()):
         (FOLDER / name).write_text(text, encoding="utf-8")
     for name, data in shots().items():
         (FOLDER / name).write_bytes(data)

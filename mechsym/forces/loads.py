@@ -158,6 +158,9 @@ def whole(harmonics: Harmonics, order: int) -> complex:
 _NAMES = {
     "force_x": "momentum_rate_x",
     "force_y": "momentum_rate_y",
+    "force_z": "momentum_rate_z",
+    "moment_x": "angular_momentum_rate_x",
+    "moment_y": "angular_momentum_rate_y",
     "rocking_x": "rocking_rate_x",
     "rocking_y": "rocking_rate_y",
 }
@@ -215,6 +218,7 @@ def shaking(turn: Turn) -> Shaking | None:
     force = curves["force_x"] + 1j * curves["force_y"]
     with_crank = np.mean(force * np.exp(-1j * turn.phi))
     rest = force - with_crank * np.exp(1j * turn.phi)
+    along = np.square(curves.get("force_z", np.zeros(1)))  # which no weight on the shaft changes
     # an unbalance u at the angle a pulls the frame with u omega^2 e^{i (phi + a)}
     return Shaking(
         curves=curves,
@@ -222,8 +226,8 @@ def shaking(turn: Turn) -> Shaking | None:
         counterweight=Counterweight(
             unbalance=float(abs(with_crank) / turn.omega**2),
             angle=float(cmath.phase(-with_crank) % (2 * math.pi)) if with_crank != 0 else 0.0,
-            rms_before=float(np.sqrt(np.mean(np.abs(force) ** 2))),
-            rms_after=float(np.sqrt(np.mean(np.abs(rest) ** 2))),
+            rms_before=float(np.sqrt(np.mean(np.abs(force) ** 2 + along))),
+            rms_after=float(np.sqrt(np.mean(np.abs(rest) ** 2 + along))),
         ),
         planes=_planes(turn, curves),
     )
