@@ -20,7 +20,7 @@ TEN = {
     "toggle": (TURN, 2.0, 1.0, "crank_inertia,ram_mass"),
     "klann": (TURN, 2.0, 1.0, "crank_inertia,leg_mass"),
     "jansen": (TURN, 2.0, 1.0, "crank_inertia,bar_h_mass"),
-    "chebyshev": (SWING.format(q="phi", rise="20 deg"), 0.5, 0.4, "crank_inertia,coupler_mass"),
+    "chebyshev": (SWING.format(q="phi", rise="20 deg"), 0.5, 0.25, "crank_inertia,coupler_mass"),
     "peaucellier": (SWING.format(q="phi", rise="20 deg"), 0.5, 0.5, "crank_inertia,l1_mass"),
     "scissor": (SWING.format(q="phi", rise="20 deg"), 5.0, 0.6, "a_inertia,top_mass"),
     "fivebar": (SWING.format(q="a1", rise="20 deg") + 'a2 = "3-4-5"\n', 0.5, 0.4, "one_inertia,left_mass"),
