@@ -17,7 +17,7 @@ from pathlib import Path
 
 from mechsym import cases, jobs
 from mechsym.files import Json
-from mechsym.hinge.drawing import elastic_hinge
+from mechsym.hinge.plots import elastic_hinge
 from mechsym.jobs.machine import mechanism_of
 from mechsym.mechanisms.drawing import Shapes, declared
 from mechsym.mechanisms.record import listing
@@ -51,6 +51,18 @@ def fourbar() -> str:
         drawn = declared(mechanism, listing(mechanism.name))
         assert drawn is not None
         return moving(drawn, "A four-bar linkage turning", {})
+
+
+def book() -> dict[str, str]:
+    """Mechanisms of the same page that stand still, as `mechsym derive --draw` draws them."""
+    from mechsym.mechanisms.plots import assembled
+
+    text = (Path(__file__).parent / "own-mechanism.md").read_text(encoding="utf-8")
+    shown = set(re.findall(r"\(pictures/(\w+)\.svg\)", text)) - {"fourbar"}
+    with tempfile.TemporaryDirectory() as folder:
+        for name, block in re.findall(r"```python file=(\w+)\.py\n(.*?)```", text, re.S):
+            (Path(folder) / f"{name}.py").write_text(block, encoding="utf-8")
+        return {f"{name}.svg": assembled(f"{folder}/{name}.py")[1] for name in sorted(shown)}
 
 
 def moving(drawn: Callable[[float], Shapes], title: str, legend: dict[str, str]) -> str:
@@ -147,7 +159,7 @@ def _workbench(folder: Path) -> tuple["subprocess.Popen[bytes]", str]:
 def main() -> None:
     """Write all of them."""
     FOLDER.mkdir(exist_ok=True)
-    for name, text in (("hinge.svg", hinge()), ("fourbar.svg", fourbar())):
+    for name, text in (("hinge.svg", hinge()), ("fourbar.svg", fourbar()), *book().items()):
         (FOLDER / name).write_text(text, encoding="utf-8")
     for name, data in shots().items():
         (FOLDER / name).write_bytes(data)

@@ -20,7 +20,7 @@ _UNIT = re.compile(r"typing\.Annotated\[([^\[\],]+), '([^']+)'\]")  # of a numbe
 _PLACE = re.compile(r"<([\w.]+)[^>]*>")
 # what people get wrong, in the order in which they meet it: folders of the program whose messages belong together
 TOPICS = {
-    "Case files and values": ("cases", "quantities", "files.py", "inputs.py", "tables.py", "trust.py"),
+    "Case files and values": ("cases", "quantities", "files"),
     "Options and commands": ("cli", "jobs", "report", "budget.py"),
     "Mechanisms of your own": ("derive", "mechanisms"),
     "Engines and gas": ("cycle", "machine", "sizing", "forces"),

@@ -13,7 +13,7 @@ import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
-_PATIENCE = 0.85  # of the thread, from an interrupt to the end of the process [s]
+_PATIENCE = 0.7  # of the thread, from an interrupt to the end of the process [s]
 _UNDER_WAY = 0.15  # for the points that are being computed [s]
 STATUS = 130  # exit status
 _WAIT = [signal.SIGINT, *([signal.SIGALRM] if hasattr(signal, "setitimer") else [])]  # of `asked_to_stop` too

@@ -29,7 +29,7 @@ from mechsym.jobs.run import run
 TESTS = Path(__file__).parent
 LIMIT = 60  # time of a row by the clock [s]
 OWN = (TESTS.parent / "examples" / "mechanisms", TESTS / "plausible" / "own")
-_NAMES = ("hand", "peers", "trackers", "office", "laws")
+_NAMES = ("hand", "peers", "trackers", "office", "laws", "shop")
 LISTS = {name: tomllib.loads((TESTS / "plausible" / f"{name}.toml").read_text()) for name in _NAMES}
 
 

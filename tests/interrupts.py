@@ -48,6 +48,7 @@ COMMANDS = {
     "page": "page zotov-89 --out OUT.html",
     "report": "report zotov-89 --out OUT.html",
     "prove": "prove crosshead --samples 100000",
+    "prove-motion": "prove chmielewski --t-end 2 --out OUT",
     "reproduce": "reproduce zotov2024 --out OUT",
     "sections": "sections --schema",
     "simulate": "simulate chmielewski --dampings 1,5 --out OUT",

@@ -4,7 +4,11 @@ import html
 import re
 
 _UNSEEN = re.compile(r"<(script|style|code|math|desc|title)\b.*?</\1>|<!--.*?-->|srcdoc=\"[^\"]*\"", re.DOTALL)
-_KEY = re.compile(r"(?<![\w./\\-])[A-Za-z]\w*_\w+(?![\w(/]|\.(?:csv|json|toml|py|svg|html))")
+_FILE = "(?:csv|json|toml|py|svg|html|md|dxf|fmu)"
+_KEY = re.compile(
+    rf"(?<![\w./\\-])[A-Za-z]\w*_\w+(?![\w(/]|\.{_FILE})"
+    rf"|(?<![\w./\\-])[a-z_]{{3,}}\.(?!{_FILE}\b)[A-Za-z]\w*(?![\w(/-]|\.\w)"
+)
 
 
 def shown_keys(page):

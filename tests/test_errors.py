@@ -7,7 +7,7 @@ import pytest
 from mechsym import cases
 from mechsym.cases.check import check_file
 from mechsym.errors import BadInput
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 
 
 def test_an_error_crosses_processes_with_what_stands_beside_its_words():

@@ -15,8 +15,9 @@ import fault_shim
 import faults
 import pytest
 
-from mechsym import files, inputs, transaction
+from mechsym import files, transaction
 from mechsym.errors import BadInput
+from mechsym.files import inputs
 
 ERRORS = [BadInput, OSError, MemoryError, ValueError, RuntimeError, SystemExit, KeyboardInterrupt]
 

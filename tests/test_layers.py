@@ -16,7 +16,7 @@ OUTSIDE = ("generated", "derivations")  # plain functions and declarations: no r
 FILES = sorted(p for p in ROOT.rglob("*.py") if not set(OUTSIDE) & set(p.parts))
 # each room may import what stands before it; docs/house.md says what is in each
 ORDER = (
-    "errors quantities budget interrupts transaction files inputs trust tables periodic style page plausible "
+    "errors quantities budget interrupts transaction files periodic style page plausible "
     "derive convert native mechanisms cycle sizing machine simulate hinge torsion forces optimise proof codesign "
     "cases jobs report sweep audit papers out app cli"
 ).split()

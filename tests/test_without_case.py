@@ -8,10 +8,9 @@ import pytest
 
 from mechsym import cycle, forces
 from mechsym.cycle.friction import NoFriction
-from mechsym.cycle.heat import Adiabatic
+from mechsym.cycle.heat import Adiabatic, ConstantGamma
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
 from mechsym.cycle.kinds.two_stroke import TwoStrokeMarine
-from mechsym.cycle.mixture import ConstantGamma
 from mechsym.forces.friction import NoRings
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.quantities import RPM

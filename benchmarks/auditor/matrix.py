@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.auditor import public
-from benchmarks.auditor.spoiled import Spoiled, content, doubles, singles
+from benchmarks.auditor.spoiled import Spoiled, content, doubles, literature, singles
 from mechsym.audit.hosts.formula import check_formula
 from mechsym.audit.hosts.sources import TRIAL
 from mechsym.audit.judge.asked import Asked, question_of
@@ -18,7 +18,7 @@ from mechsym.files import to_json, write_text
 VERDICTS = ("exact", "truncation", "convention", "mixed", "untestable", "misprint", "nearer", "wrong")
 SEED = 31  # not the one that the search was looked at with
 SINGLE_KINDS, DOUBLES = 5, 2  # how often each form is spoiled
-STEPS = 7  # how often `done` is called
+STEPS = 8  # how often `done` is called
 _STORED = Path(__file__).parent / "results.json"
 _SECTION = Path(__file__).parents[2] / TRIAL
 
@@ -38,12 +38,15 @@ def trial(done: Callable[[], Any] = lambda: None) -> dict[str, Any]:
     done()
     twice = counted(doubles(DOUBLES, SEED))
     done()
+    listed = counted(literature(), by_kind=False)
+    done()
     benches = {}
     for half in public.HALVES:
         benches[half] = public.bench(half)
         done()
     return {
         "verdicts": {k: dict(sorted(v.items())) for k, v in verdicts.items()}, "one slip": once, "two slips": twice,
+        "literature": listed,
         "public": benches,
     }  # fmt: skip
 
@@ -67,17 +70,17 @@ def constant_speed() -> Iterator[tuple[str, str]]:
             yield text, f"slider_crank.{quantity}"
 
 
-def counted(spoiled: Sequence[Spoiled]) -> dict[str, Any]:
+def counted(spoiled: Sequence[Spoiled], by_kind: bool = True) -> dict[str, Any]:
     """Counts of spoiled formulas: how many were refuted, corrected, and corrected to the right function."""
-    kinds = sorted({k for s in spoiled for k in s.kind.split(", ")})
-    by_kind = {k: [s for s in spoiled if k in s.kind.split(", ")] for k in kinds}
+    kinds = sorted({k for s in spoiled for k in s.kind.split(", ")}) if by_kind else []
+    sorted_out = {k: [s for s in spoiled if k in s.kind.split(", ")] for k in kinds}
     return {
         "asked": len(spoiled),
         "verdicts": dict(sorted(Counter(s.verdict for s in spoiled).items())),
         "refuted": sum(not s.passed for s in spoiled),
         "corrected": sum(bool(s.correction) for s in spoiled),
         "repaired": sum(s.repaired for s in spoiled),
-        "by kind": {k: [sum(s.repaired for s in v), len(v)] for k, v in by_kind.items()},
+        "by kind": {k: [sum(s.repaired for s in v), len(v)] for k, v in sorted_out.items()},
         "not repaired": [_told(s) for s in spoiled if not s.repaired],
     }
 
@@ -105,7 +108,7 @@ formula is passed when it is called exact, a truncation, or right under a conven
 
 def section(found: Mapping[str, Any]) -> str:
     """How far the auditor can be trusted, as Markdown."""
-    misses = [f"- `{line}`" for name in ("one slip", "two slips") for line in found[name]["not repaired"]]
+    misses = [f"- `{line}`" for name in _spoiled(found) for line in found[name]["not repaired"]]
     spoiled = "Spoiled formulas that did not come back (theory.quantity [slip]: spoiled -> what was said):"
     parts = ["## How far the auditor can be trusted", _TRUST, "\n".join(lines(found)), spoiled, "\n".join(misses)]
     return "\n\n".join(parts) + "\n"
@@ -114,9 +117,8 @@ def section(found: Mapping[str, Any]) -> str:
 def lines(found: Mapping[str, Any]) -> list[str]:
     """The confusion matrix and the rates, as Markdown."""
     traps = found["verdicts"]["traps"]
-    rows = {k: v for k, v in found["verdicts"].items() if k != "traps"} | {
-        k: found[k]["verdicts"] for k in ("one slip", "two slips")
-    }
+    rows = {k: v for k, v in found["verdicts"].items() if k != "traps"}
+    rows |= {k: found[k]["verdicts"] for k in _spoiled(found)}
     head = [f"| what was asked | n | {' | '.join(VERDICTS)} |", "|---" * (len(VERDICTS) + 2) + "|"]
     body = [
         f"| {_ROWS[name]} | {sum(row.values())} | {' | '.join(str(row.get(v, 0)) for v in VERDICTS)} |"
@@ -125,7 +127,7 @@ def lines(found: Mapping[str, Any]) -> list[str]:
     trap = (
         f"- traps, right for one sign or on one branch: {traps.get('exact', 0)} of {sum(traps.values())} called exact"
     )
-    rates = (_rates(k, found[k]) for k in ("one slip", "two slips"))
+    rates = (_rates(k, found[k]) for k in _spoiled(found))
     shown = ["", *public.INTRODUCTION, "", *public.lines(found["public"])] if "public" in found else []
     return [*head, *body, "", trap, *rates, *shown]
 
@@ -133,7 +135,12 @@ def lines(found: Mapping[str, Any]) -> list[str]:
 _ROWS = {
     "right": "right formulas, exact",
     "constant speed": "textbook formulas at constant speed", "one slip": "spoiled once", "two slips": "spoiled twice",
+    "literature": "spoiled by a person's list",
 }  # fmt: skip
+
+
+def _spoiled(found: Mapping[str, Any]) -> list[str]:
+    return [k for k in ("one slip", "two slips", "literature") if k in found]
 
 
 def _rates(name: str, found: Mapping[str, Any]) -> str:

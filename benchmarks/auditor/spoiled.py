@@ -58,6 +58,17 @@ def doubles(each: int, seed: int) -> list[Spoiled]:
     return found
 
 
+def literature() -> list[Spoiled]:
+    """Slips of a list that was written by hand."""
+    forms, listed = content("forms.toml"), content("literature.toml")
+    known = {**forms, "ranges": {**forms["ranges"], **listed["ranges"]}}
+    return [
+        _asked(known, {**form, "text": form["right"]}, how, text)
+        for form in listed["form"]
+        for how, text in form["spoiled"]
+    ]
+
+
 def defined(forms: Mapping[str, Any], against: str) -> dict[str, str]:
     """Derived names that formulas of a theory may use."""
     return dict(forms["define"].get(against.partition(".")[0], forms["define"]["common"]))

@@ -1,4 +1,4 @@
-"""Swash-plate engine: three pistons along the shaft rest by balls on a plate that stands slanting on it.
+r"""Swash-plate engine: three pistons along the shaft rest by balls on a plate that stands slanting on it.
 
       |\    <- plate, its normal tilted against the shaft        F_k away from the head, along -z
    ===|=\=====[ piston k ]| head        z along the shaft, pistons in a ring of the radius R about it
@@ -30,11 +30,10 @@ def swash_engine():
         x = m.let(f"x{k}", R * tan(tilt) - guide.slide, "m")
         m.force(F, along=x)
         m.piston(f"p{k}", travel=x, force=F, stroke=2 * R * tan(tilt))
-        m.draw_line(piston.at(), piston.at(0, 0, R / 2), role="piston")
+        m.draw_drum(piston.axis("z"), R / 3, R / 2)
     m.torque(-M_r, along=phi)
     m.rotor("shaft", angle=phi, load=M_r)
     m.bearing("main_bearing", reactions=("R_x_A", "R_y_A"), turns=phi, at="main_bearings")
-    rim = [plate.at(R * cos(k * pi / 6), R * sin(k * pi / 6)) for k in range(12)]
-    m.draw_line(*rim, rim[0], role="crank")
-    m.draw_line(shaft.at(0, 0, -R), shaft.at(0, 0, offset), role="frame")
+    m.draw_drum(plate.axis("-z"), 4 * R / 3, R / 8, role="planet")
+    m.draw_drum(shaft.axis("z", at=(0, 0, -R)), R / 6, R + offset, role="flywheel")
     return m

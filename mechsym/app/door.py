@@ -8,7 +8,6 @@ the page that asks must be the workbench's own, and both must know the token of 
 import hmac
 import secrets
 from collections.abc import Awaitable, Callable, Mapping
-from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qsl, urlencode
 
 from mechsym.files import Json
@@ -63,7 +62,7 @@ class Door:
             return await _refuse(scope, send, reason)
         if self._knows(query.get(TOKEN, "")) and scope["type"] == "http":
             return await self._welcome(query, send)
-        if not self._knows(self._kept(headers)):
+        if not self._kept(headers):
             return await _refuse(scope, send, _ASK)
         return await self.app(scope, receive, _guarded(send))
 
@@ -73,17 +72,18 @@ class Door:
         origin = headers.get("origin")
         if origin is not None and origin not in {f"http://{host}" for host in self.hosts}:
             return "a page from elsewhere may not ask"
+        # a picture or script asked for by the page of another port comes without an origin and with the cookie
+        if headers.get("sec-fetch-site") in ("same-site", "cross-site") and headers.get("sec-fetch-mode") != "navigate":
+            return "a page from elsewhere may not ask"
         return ""
 
     def _knows(self, token: str) -> bool:
         return hmac.compare_digest(token.encode(), self.token.encode())
 
-    def _kept(self, headers: Mapping[str, str]) -> str:
-        try:
-            cookies = SimpleCookie(headers.get("cookie", ""))
-        except CookieError:
-            return ""
-        return cookies[self.cookie].value if self.cookie in cookies else ""
+    def _kept(self, headers: Mapping[str, str]) -> bool:
+        """Whether a cookie holds the token; other programs of this machine leave cookies of any form beside it."""
+        pairs = (part.strip().partition("=") for part in headers.get("cookie", "").split(";"))
+        return any(name == self.cookie and self._knows(value) for name, _, value in pairs)
 
     async def _welcome(self, query: Mapping[str, str], send: Send) -> None:
         """Keep the token in a cookie and lead on to the address without it, which may be kept or passed on."""

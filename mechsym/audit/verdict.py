@@ -94,7 +94,7 @@ def _searched(exam: Examination, settled: bool) -> Decision:
     question, tree = exam.question, exam.question.formula.tree
     start = standing(exam, tree)
     condition = next(conditions(question), None)
-    single = exact_repair(exam, start) if condition else None
+    single = exact_repair(exam, start) or exact_repair(exam, start, insert=True) if condition else None
     if single is not None:
         outcome = Found(repairs=(single,))
     else:

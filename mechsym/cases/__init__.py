@@ -22,7 +22,7 @@ from mechsym.cases.older import renewed
 from mechsym.cases.values import Place, convert, override, paths, place, without_unit
 from mechsym.errors import BadInput, MissingSection, shown, suggest
 from mechsym.files import Json
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.mechanisms import own
 from mechsym.plausible import Acceptance, Doubt
 from mechsym.quantities import record

@@ -249,7 +249,8 @@ def by_links(
     worst: dict[str, Doubt] = {}
     acts = {q: "N*m" for q, unit in listing["coordinates"].items() if unit == "rad"} | dict(listing["inputs"])
     longest = max((_length(link, letters) for link in links), default=0.0)
-    of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors, longest))
+    moving = sum(_number(link["mass"], letters) for link in links)
+    of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors, (longest, moving)))
     pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
     forces = max(pushes, default=0.0), max(turns, default=0.0)
     together = (*_masses(links, letters, units), *_stress(links, letters, *forces))
@@ -310,10 +311,13 @@ def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]
         yield from proportion("open_side", f"loops of pins whose side nobody chose ({', '.join(joints)})", len(joints))
 
 
+_OfAll = tuple[float, float]  # longest link [m], and what all weigh [kg]
+
+
 def _of(
-    link: Json, letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str], longest: float
+    link: Json, letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str], all_: _OfAll
 ) -> Iterator[Doubt]:
-    name = link["name"]
+    name, (longest, moving) = link["name"], all_
     points = [_point(pair, letters) for pair in link["points"]]
     length, mass = _length(link, letters), _number(link["mass"], letters)
     inertia = _number(link["inertia"], letters)
@@ -324,6 +328,9 @@ def _of(
             about = f"inertia of {name} / (mass * (twice its centre from its joint)^2)"
             yield from proportion("link_needle", about, inertia / (mass * length**2))
         return
+    share = inertia / (moving * length**2) if moving > 0 and not mass else 0.0
+    if link["turns"] in rotors and 0 < share < 1:  # a crank that is given by its inertia alone, and no heavy flywheel
+        yield from proportion("inertia", f"inertia of {name} / (moving mass * throw^2)", share)
     if link["turns"] in rotors or link["turns"] and link["centre"] == list(link["pivot"] or ()):
         inertia = 0.0  # of a flywheel
     # webs, discs and counterweights of a crank are wider than its throw

@@ -12,9 +12,9 @@ from mechsym import mechanisms
 from mechsym.cases.new_engine import PISTON_MASS, ROD_MASS, compression_below_knock, fill
 from mechsym.errors import BadInput
 from mechsym.files import together, write_text
+from mechsym.files.trust import keep
 from mechsym.quantities import RPM, record
 from mechsym.quantities.units import RadPerSecond
-from mechsym.trust import keep
 
 _SPARK = 13  # compression ratios below it are of mixture, above of air
 

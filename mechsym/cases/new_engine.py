@@ -51,7 +51,11 @@ def write_engine(
         raise BadInput(f"--cylinders {count}: allowed are 1 to {_MOST}")
     hangs = (rods or _RODS.get(kind)) == "articulated"
     if kind in _LAYOUTS:
-        engine = _four_stroke(kind, bore, stroke, count, hangs)
+        lay_out, words = _LAYOUTS[kind]
+        layout = lay_out(count, hangs)
+        what = words.format(n=count, angle=2 * layout.bank[-1]) if count > 1 else "engine, one cylinder"
+        head = _head("crank_train", f"Four-stroke {what}, bore {1e3 * bore:g} mm", stroke, "four-stroke")
+        engine = head + _train(layout, bore, stroke, 3.5)
     else:
         engine = _KINDS[kind](bore, stroke, count)
     text = _detuned(engine + _load_of(kind, gas, bore, stroke), bore, stroke)
@@ -139,14 +143,6 @@ def _crosshead(bore: float, stroke: float, count: int) -> str:
     return fill(
         head + _start("crosshead") + _start("two_stroke_large") + _start("hinge"), **mass, **inertia, **values, **scaled
     )
-
-
-def _four_stroke(kind: str, bore: float, stroke: float, count: int, hangs: bool) -> str:
-    lay_out, words = _LAYOUTS[kind]
-    layout = lay_out(count, hangs)
-    what = words.format(n=count, angle=2 * layout.bank[-1]) if count > 1 else "engine, one cylinder"
-    head = _head("crank_train", f"Four-stroke {what}, bore {1e3 * bore:g} mm", stroke, "four-stroke")
-    return head + _train(layout, bore, stroke, 3.5)
 
 
 def _opposed(bore: float, stroke: float, count: int) -> str:

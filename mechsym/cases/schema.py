@@ -18,7 +18,7 @@ ENTRIES: dict[str, Any] = {
     "part_gears": "mechsym.sizing.wants:GearPart",
     "part_crank": "mechsym.sizing.wants:CrankPart",
     "part_bearings": "mechsym.sizing.wants:BearingPart",
-    "part_crosshead": "mechsym.sizing.crosshead:CrossheadPart",
+    "part_crosshead": "mechsym.sizing.slider_crank:CrossheadPart",
     "part_masses": "mechsym.sizing.wants:MassPart",
     "flywheel": "mechsym.cases.settings:FlywheelSettings",
     "trials": "mechsym.cases.settings:TrialSettings",
@@ -28,7 +28,7 @@ ENTRIES: dict[str, Any] = {
     "optimise": "mechsym.optimise.solver:Optimise",
     "chamber": "mechsym.cycle.chamber:ChamberParameters",
     "cycle": ("kind", {name: kind.cycle for name, kind in KINDS.items()}),
-    "breathing": "mechsym.cycle.breathing.records:Breathing",
+    "breathing": "mechsym.cycle.breathing.flow:Breathing",
     "gas_limits": "mechsym.cases.settings:GasLimits",
     "scavenging": "mechsym.cycle.breathing.flow:Scavenging",
     "boost": "mechsym.cycle.breathing.turbocharger:Boost",
@@ -37,7 +37,7 @@ ENTRIES: dict[str, Any] = {
     "measured": "mechsym.cycle.measured.diagram:BrakeMeasured",
     "gas": (
         "model",
-        {"constant_gamma": "mechsym.cycle.mixture:ConstantGamma", "nasa": "mechsym.cycle.mixture:NasaMixture"},
+        {"constant_gamma": "mechsym.cycle.heat:ConstantGamma", "nasa": "mechsym.cycle.heat:NasaMixture"},
     ),
     "heat_transfer": (
         "law",
@@ -83,7 +83,7 @@ ENTRIES: dict[str, Any] = {
     "guide": "mechsym.hinge.choices:GuideParameters",
     "rollers": "mechsym.hinge.rollers:RollerParameters",
     "losses": "mechsym.hinge.rollers:HingeLosses",
-    "codesign": "mechsym.codesign.settings:CoDesignSettings",
+    "codesign": "mechsym.codesign.points:CoDesignSettings",
     "limits": "mechsym.hinge.choices:Limits",
     "friction": "mechsym.forces.friction:Friction",
     "rings": (
@@ -94,8 +94,8 @@ ENTRIES: dict[str, Any] = {
             "contact_pressure": "mechsym.forces.friction:ContactPressure",
         },
     ),
-    "shaking": "mechsym.forces.shaking:BalanceWanted",
-    "comparison": "mechsym.forces.comparison:ComparisonSettings",
+    "shaking": "mechsym.forces.loads:BalanceWanted",
+    "comparison": "mechsym.forces.result:ComparisonSettings",
     "faces": "mechsym.mechanisms.closing:RodlessFaces",
     "closing": (
         "rule",

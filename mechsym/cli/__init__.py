@@ -28,7 +28,7 @@ GROUPS = {
 }
 # a command stands in the file of its name, but for these
 _ELSEWHERE = {"page": "export:page", "fmu": "export:fmu", "eval": "evaluate:evaluate"} | {
-    name: f"catalogue:{name}" for name in ("cases", "mechanisms", "native")
+    name: f"catalogue:{name}" for name in ("cases", "cite", "mechanisms", "native", "sections")
 }
 COMMANDS = {
     name: f"mechsym.cli.{_ELSEWHERE.get(name, f'{name}:{name}')}" for group in GROUPS.values() for name in group
@@ -140,7 +140,7 @@ def _everywhere() -> list[click.Parameter]:
 
     def guard(ctx: click.Context, wanted: bool) -> None:
         if not ctx.resilient_parsing:
-            ctx.with_resource(load("mechsym.trust:guarded")(ctx.meta.get("mechsym.words", ()), wanted))
+            ctx.with_resource(load("mechsym.files.trust:guarded")(ctx.meta.get("mechsym.words", ()), wanted))
 
     show = 'Show text and CSV in these, e.g. "mm, bar, kN, deg"; JSON stays SI.'
     return [

@@ -13,7 +13,7 @@ from mechsym import cases
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.files import Json, plain, publish, to_json, together, try_folder, write_summary
-from mechsym.inputs import reads
+from mechsym.files.inputs import reads
 from mechsym.mechanisms import own
 from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import load

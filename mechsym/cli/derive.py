@@ -7,7 +7,7 @@ import click
 
 from mechsym.cli.common import emit, folder_option, json_option, progress
 from mechsym.errors import BadInput
-from mechsym.files import Json
+from mechsym.files import Json, write_text
 
 
 @click.command()
@@ -35,6 +35,7 @@ def derive(
     from mechsym.derive import build
     from mechsym.mechanisms import own
     from mechsym.mechanisms.equations import equations
+    from mechsym.mechanisms.plots import assembled
 
     files = [name for name in names if own.is_file(name)]
     given = {"--latex": latex, "--explain": explain, "--draw": draw, "--show": show, "--check": check, "--out": out}
@@ -54,7 +55,8 @@ def derive(
         emit({"closing": steps}, lambda: "\n".join(line for lines in steps.values() for line in lines))
         return
     if draw:
-        pictures = [str(_drawn(name, out or Path())) for name in files]
+        drawn = (assembled(name) for name in files)
+        pictures = [str(write_text((out or Path()) / f"{called}.svg", picture)) for called, picture in drawn]
         emit({"written": pictures}, lambda: "", files=pictures)
         return
     found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": [], "redundant": []}
@@ -67,31 +69,6 @@ def derive(
     emit(report, lambda: _text(found, check, show), files=[] if check or show else found["written"])
     if found["differs"]:
         sys.exit(1)
-
-
-def _drawn(name: str, folder: Path) -> Path:
-    """A mechanism in its pose, with the paths of its watched points where it turns round."""
-    from mechsym.files import write_text
-    from mechsym.mechanisms import constraints, own
-    from mechsym.mechanisms.drawing import declared
-    from mechsym.mechanisms.drawn_parts import turns_round
-    from mechsym.mechanisms.plots import figure_of
-    from mechsym.mechanisms.record import bind
-    from mechsym.style import svg
-
-    said = own.load(name).listing
-    sizes, pose = said.get("ranges", {}), said.get("pose", {})
-    if unsaid := [p for p in said["parameters"] if "default" not in sizes.get(p, {})]:
-        why = f"a drawing needs sizes, and {', '.join(unsaid)} have no value in the file"
-        raise BadInput(f"{name}: {why}; give them a default=, or write the report of a case")
-    mechanism = bind(name, {p: float(sizes[p]["default"]) for p in said["parameters"]})
-    places = constraints.close(mechanism, pose) if mechanism.dependents else pose
-    at = [float(places.get(q, 0.0)) for q in mechanism.coordinates]
-    turning = declared(mechanism, said)
-    drawn = turning if turning and turns_round(turning) else declared(mechanism, said, lambda _: at)
-    if drawn is None:
-        raise BadInput(f"{name} has nothing to draw; give it links and joints, or m.draw_line")
-    return write_text(folder / f"{said['name']}.svg", svg(figure_of(drawn, at[0]), said["name"]))
 
 
 def _files(names: list[str], check: bool, out: Path | None) -> Json:

@@ -11,7 +11,7 @@ from mechsym.cli import common
 from mechsym.cli.common import case_of, emit, file_in, pairs
 from mechsym.errors import BadInput
 from mechsym.files import make_folder, together, write_text
-from mechsym.inputs import reads
+from mechsym.files.inputs import reads
 from mechsym.quantities.display import ratio_text
 
 
@@ -34,7 +34,7 @@ def export(name: str, languages: str, diagram: str | None, overrides: tuple[str,
     """
     from mechsym.jobs.export import ready
     from mechsym.mechanisms import names, own
-    from mechsym.out.laws import block_of
+    from mechsym.out.block import block_of
     from mechsym.out.text.dialects import of_block, of_mechanism
     from mechsym.out.text.files import files
 
@@ -63,7 +63,7 @@ def page(case: Case, out: Path | None, diagram: str | None) -> None:
     Example: mechsym page zotov-89 --out engine.html
     """
     from mechsym.jobs.export import ready, turning
-    from mechsym.out.laws import block_of
+    from mechsym.out.block import block_of
     from mechsym.out.web import page as make
     from mechsym.out.web.build import PageChecks, WrittenPage
 
@@ -106,10 +106,10 @@ def fmu(
              mechsym fmu generator --diagram half-load.csv --platforms linux64
     """
     from mechsym.jobs.export import controlled, ready
+    from mechsym.out.block import block_of
     from mechsym.out.fmi import controller, write
     from mechsym.out.fmi import fmu as make
     from mechsym.out.fmi.build import PLATFORMS, SYSTEMS, UnitChecks, UnitFile
-    from mechsym.out.laws import block_of
 
     if click.get_current_context().meta.get("mechsym.units"):
         raise BadInput("--units: an FMU is in SI, as FMI has it, and tells its units itself; leave it away")

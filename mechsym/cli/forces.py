@@ -95,7 +95,7 @@ def _over_time(report: "DrivenNumbers") -> str:
 
 
 def _text(report: Json, found: "Forces", said: set[str]) -> str:
-    from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
+    from mechsym.forces.result import ComparedFriction, ComparedMechanism
     from mechsym.forces.shown import borne
     from mechsym.papers.sources import sources
 
@@ -106,6 +106,12 @@ def _text(report: Json, found: "Forces", said: set[str]) -> str:
     lines.append(f"power residual {ratio_text(report['power_residual'])}")
     if report["shaking"] is not None:
         lines.append(_shaking(report["shaking"]["counterweight"], max(abs(v) for v in report["max"].values())))
+        for name, of in report["shaking"]["orders"].items():
+            if name.startswith("moment"):
+                size = max((a for k, a in zip(of["order"], of["amplitude"], strict=True) if k), default=0.0)
+                lines.append(
+                    f"{name.replace('_', ' about ')} on the frame: largest order {quantity_text(size, 'N*m', 4)}"
+                )
     for name, errors in (report["two_mass"] or {}).items():
         named = {_LETTERS.get(k, k.replace("_", " ")): v for k, v in errors.items() if v > SMALLEST}
         told = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in named.items())

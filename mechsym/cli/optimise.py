@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from mechsym.cases import Case
 from mechsym.cli.common import budget_option, case_command, emit, out_option, table
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import key_words, quantity_text
 
 if TYPE_CHECKING:
     from mechsym.optimise.solver import Optimised
@@ -33,6 +33,8 @@ def optimise(case: Case, out: Path | None) -> None:
 
 
 def _text(done: "Optimised") -> str:
+    from mechsym.optimise.shown import SIDES
+
     best, name = done.best, done.objective_name
     lines = [
         f"{best.status} ({best.reason}) after {best.iterations} iterations: {name} = {best.objective:.6g}",
@@ -43,7 +45,10 @@ def _text(done: "Optimised") -> str:
         mark = " (best)" if row.words == done.chosen else ""
         lines.append(f"{words}: {row.status}, {name} = {row.objective:.6g}{mark}")
     lines += ["active limits:" if best.active else "no limit is active"]
-    lines += [f"  {row.name} {row.side} {quantity_text(row.limit, row.unit, 6)}: {row.meaning}" for row in best.active]
+    lines += [
+        f"  {key_words(row.name)} {SIDES[row.side]} {quantity_text(row.limit, row.unit, 6)}: {row.meaning}"
+        for row in best.active
+    ]
     if done.pareto:
         rows = [{"status": p.status, **p.figures, **p.variables} for p in done.pareto]
         lines += ["Pareto front:", table(rows, list(rows[0]), _units(done))]

@@ -91,9 +91,11 @@ def _motion(name: str, t_end: str | None, window: str | None, out: Path | None, 
 
 
 def _motion_text(found: "ProvenMotion") -> str:
+    from mechsym.proof.balls import outward
+
     rows = [
-        {"t": t, "state": name, "from": found.least[name][k], "to": found.largest[name][k],
-         "half-width at t": f"{found.half_width[name][k]:.2g}"}
+        {"t": t, "state": name, "from": outward(found.least[name][k], 6, False),
+         "to": outward(found.largest[name][k], 6), "half-width at t": outward(found.half_width[name][k], 2)}
         for k, t in enumerate(found.t) for name in found.least
         if k == len(found.t) - 1 or k % max(1, len(found.t) // 10) == 0
     ]  # fmt: skip

@@ -123,6 +123,8 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
     for unit in dict.fromkeys(of[f"{c}d"] for c in report["speeds"]):
         rates = dict.fromkeys(("mean", "min", "max"), unit)
         alike = [row for row in rows if of[f"{row['of']}d"] == unit]
+        if "phi_f" in report["speeds"]:  # a shaft with throws
+            alike = [row | {"of": row["of"].replace("phi_f", "flywheel").replace("phi", "throw ")} for row in alike]
         lines += ["", table(alike, ["over the last", "of", *rates], rates)]
     if sections := report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]

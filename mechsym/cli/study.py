@@ -81,7 +81,9 @@ def study(
                 break
         files = []
         if out is not None:
-            text = page("study.html", title=asked.title, about=asked.about, sweeps=told)
+            from mechsym.sweep.plots import said
+
+            text = page("study.html", title=asked.title, about=asked.about, sweeps=told, said=said)
             files = [str(write_text(out / "report.html", text))]
         interrupted = told[-1].numbers.interrupted
         done = StudyNumbers(study=asked.title, sweeps=tuple(told), interrupted=interrupted, files=tuple(files))

@@ -235,7 +235,10 @@ class Rival:
 
 def peers(points: Sequence[Point], ripples: Sequence[float]) -> list[Rival]:
     """A plain flywheel, a cam with coil springs and a flywheel behind noncircular gears, for each ripple [-]."""
-    phi, cam, gears = _shapes(points)
+    # angles [rad], the best fixed work [J] and the best work by the square of the speed [kg*m^2]
+    samples = sample(points, round(_ANGLES * points[0].period / (2 * np.pi)))
+    square = samples.omega[:, None] ** 2
+    phi, cam, gears = samples.phi, _best(samples.work, square), _best(samples.work / square, np.ones_like(square))
     left_cam, left_gears = _left(points, phi, cam, None), _left(points, phi, gears, 2.0)
     rows = []
     for wanted in sorted(ripples):
@@ -303,13 +306,6 @@ def gear_flywheel(points: Sequence[Point], phi: np.ndarray, shape: Inertia[Array
     more = _least(worst, wanted)
     # the flywheel turns as often as the shaft: the mean of its ratio is one
     return None if more is None else float(np.mean(np.sqrt(reduced(more)))) ** 2
-
-
-def _shapes(points: Sequence[Point]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Angles [rad], the best fixed work [J] and the best work by the square of the speed [kg*m^2]."""
-    samples = sample(points, round(_ANGLES * points[0].period / (2 * np.pi)))
-    square = samples.omega[:, None] ** 2
-    return samples.phi, _best(samples.work, square), _best(samples.work / square, np.ones_like(square))
 
 
 def _best(works: np.ndarray, scale: np.ndarray) -> np.ndarray:

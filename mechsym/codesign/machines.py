@@ -14,17 +14,16 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign.points import Function, Point
-from mechsym.codesign.settings import CoDesignSettings
+from mechsym.codesign.points import CoDesignSettings, Function, Point
 from mechsym.codesign.task import Hardware
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.pressure import unfired, unfired_kinks
 from mechsym.errors import BadInput, shown
+from mechsym.files.inputs import read_text
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
-from mechsym.inputs import read_text
 from mechsym.machine.record import Machine, acting, lever, only_gas
 from mechsym.quantities import parse, quantity, record
 from mechsym.quantities.records import Record

@@ -29,8 +29,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.codesign import unknowns
-from mechsym.codesign.points import Point, Samples, sample
-from mechsym.codesign.settings import FREE
+from mechsym.codesign.points import FREE, Point, Samples, sample
 from mechsym.codesign.task import Active, CoDesign, CoDesignTask, Track, limit_rows
 from mechsym.codesign.unknowns import Basis, Gathered, GuideSymbols, basis, curve, guides
 from mechsym.codesign.verify import passed
@@ -85,7 +84,16 @@ def _programme(task: CoDesignTask) -> ReadyProgramme:
     rollers = sum(g.inertia for g in found)
     ripples = _motions(task, samples, found, _FLYWHEEL * flywheel, parameters[0], gathered)
     goal = flywheel + (ca.dot(ca.DM(samples.weights), rollers) / _FLYWHEEL if task.free else 0.0)
-    _contacts(task, found, parameters, gathered)
+    # limits where spring and rollers are asked most: at the largest pressure of the schedule and the highest speed
+    hardware, fastest = task.hardware, max(p.omega for p in task.points)
+    *settings, reach = ca.vertsplit(parameters[1:])
+    limits = lettered(task.bounds, dict(zip((key for key, *_ in asked_of(task.bounds)), settings, strict=True)))
+    for guide in found:
+        spring = hardware.charged((1 + task.robust) * guide.largest, **guide.values)
+        at = hardware.station(guide.path, spring, fastest, **guide.values)
+        # rollers of the case's own guide reach rho0 + r and no farther
+        rows = limit_rows(at, limits, hardware.z_margin, reach if task.free else None)
+        gathered.group([*rows, ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
     smooth = sum(ca.sumsqr(g.path.d2rho) for g in found) / samples.phi.size
     chosen = sum(ca.sumsqr(share - 1) for g in found for share in g.shares)
     x, box = ca.vertcat(*gathered.unknowns), np.vstack(gathered.box)
@@ -202,19 +210,6 @@ def _motions(
 def _energy(task: CoDesignTask, guide: GuideSymbols, k: int, error: float) -> ca.SX:
     """Energy of a spring at a point [J], with its pressure off by a factor."""
     return task.hardware.charged(error * guide.p0[k], **guide.values).symbolic().energy(guide.path.z)
-
-
-def _contacts(task: CoDesignTask, found: list[GuideSymbols], parameters: ca.SX, gathered: Gathered) -> None:
-    """Limits where spring and rollers are asked most: at the largest pressure of the schedule and the highest speed."""
-    hardware, fastest = task.hardware, max(p.omega for p in task.points)
-    *settings, reach = ca.vertsplit(parameters[1:])
-    limits = lettered(task.bounds, dict(zip((key for key, *_ in asked_of(task.bounds)), settings, strict=True)))
-    for guide in found:
-        spring = hardware.charged((1 + task.robust) * guide.largest, **guide.values)
-        at = hardware.station(guide.path, spring, fastest, **guide.values)
-        # rollers of the case's own guide reach rho0 + r and no farther
-        rows = limit_rows(at, limits, hardware.z_margin, reach if task.free else None)
-        gathered.group([*rows, ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
 
 
 def _result(task: CoDesignTask, made: ReadyProgramme, solved: Solved, wall: float) -> CoDesign:

@@ -22,7 +22,7 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign.points import Function, Point, Samples, bare_flywheel, sample
+from mechsym.codesign.points import Function, Point, bare_flywheel, sample
 from mechsym.optimise.solvers import ipopt
 from mechsym.quantities import record
 from mechsym.quantities.results import quantity, result
@@ -75,7 +75,8 @@ def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
     programmes get stuck (20.66 for 17.21 in the built-in family from 75 to 142 rpm).
     """
     samples = sample(points, round(_ANGLES * points[0].period / (2 * np.pi)))
-    wanted = _wanted(samples)
+    work = samples.work / samples.omega[:, None] ** 2
+    wanted = np.asarray(work - (work @ samples.weights)[:, None])
     bare = float(np.ptp(wanted, axis=1).max())
     sizes = np.linalg.svd(wanted, compute_uv=False)
     best: list[Shapes] = []
@@ -84,10 +85,15 @@ def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
         if best and found.swing > best[-1].swing:
             found = dataclasses.replace(best[-1], springs=r)  # a shape that is not used does no harm
         best.append(found)
+    swings = [b.swing for b in best]
+    count, before = 0, bare
+    for swing in swings:
+        if swing > _PAYS * before or before <= 1e-9 * bare:
+            break
+        count, before = count + 1, swing
     return Bound(
-        phi=samples.phi, wanted=wanted, singular_values=sizes / sizes[0], bare=bare, best=tuple(best),
-        pays=_paying(bare, [b.swing for b in best]),
-    )  # fmt: skip
+        phi=samples.phi, wanted=wanted, singular_values=sizes / sizes[0], bare=bare, best=tuple(best), pays=count
+    )
 
 
 def flywheel_estimate(points: Sequence[Point], bound: Bound, ripple: Pure, rollers: Inertia = 0.0) -> Inertia:
@@ -100,11 +106,6 @@ def flywheel_estimate(points: Sequence[Point], bound: Bound, ripple: Pure, rolle
     """
     own = float(np.mean(points[0].inertia(np.linspace(0, points[0].period, 361)[:-1])))
     return max(0.0, bound.swing[0] / ripple - own - rollers)
-
-
-def _wanted(samples: Samples) -> np.ndarray:
-    work = samples.work / samples.omega[:, None] ** 2
-    return np.asarray(work - (work @ samples.weights)[:, None])
 
 
 def _none_left(wanted: np.ndarray, r: int) -> Shapes:
@@ -142,15 +143,6 @@ def _best(wanted: np.ndarray, r: int) -> Shapes:
     swing = size * float(np.ptp(w - shares_ @ shapes_, axis=1).max())
     status = found.status if found.status == "optimal" else found.reason
     return Shapes(springs=r, swing=swing, shapes=size * shapes_, shares=shares_, status=status)
-
-
-def _paying(bare: float, swings: Sequence[float]) -> int:
-    count, before = 0, bare
-    for swing in swings:
-        if swing > _PAYS * before or before <= 1e-9 * bare:
-            break
-        count, before = count + 1, swing
-    return count
 
 
 @result

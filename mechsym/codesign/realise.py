@@ -116,10 +116,20 @@ def realise(found: CoDesign, goal: str = "bearing_loss") -> Realised:
 def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, Track, float, float]:
     h, top, period = track.hardware, int(np.argmax(track.p0)), found.task.points[0].period
     phi = np.arange(_FINE) * period / _FINE
-    stored = _stored(track, float(track.p0[top]), phi)
+    # energy above its least [J] and its derivatives by the crank angle [J/rad, J/rad^2]
+    spring, z = track.hardware.charged(float(track.p0[top])), track.z(phi)
+    dz, d2z = track.z.derivative()(phi), track.z.derivative(2)(phi)
+    U, F = spring.energy(z), spring.force(z)
+    stored = U - U.min(), F * dz, spring.stiffness(z) * dz**2 + F * d2z
 
     def at(x: np.ndarray) -> tuple[Hardware, Station]:
-        new = _scaled(h, float(track.p0[top]), x)
+        p0 = float(track.p0[top])
+        names = {
+            h.spring.setting[0] if name == "p0" else name: float(np.exp(f))
+            for name, f in zip(CHOSEN, x[:-1], strict=True)
+        }
+        values = {**h.values(*names), h.spring.setting[0]: p0}
+        new = h.changed({name: value * names[name] for name, value in values.items()})
         least = float(np.exp(x[-1])) * max(h.z_margin, 1e-3 * h.spring.H)
         path = path_of(new, new.rho0, *_closing(new, stored, least))
         return new, new.station(path, new.spring, omega)
@@ -136,22 +146,6 @@ def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, T
     new, there = at(best.x)
     words = "optimal" if best.success and good else str(best.message).lower()
     return words, _track(track, new, there.z, phi, period), before, float(best.fun) * before
-
-
-def _scaled(h: Hardware, p0: float, x: np.ndarray) -> Hardware:
-    names = {
-        h.spring.setting[0] if name == "p0" else name: float(np.exp(f)) for name, f in zip(CHOSEN, x[:-1], strict=True)
-    }
-    values = {**h.values(*names), h.spring.setting[0]: p0}
-    return h.changed({name: value * names[name] for name, value in values.items()})
-
-
-def _stored(track: Track, p0: float, phi: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Energy above its least [J] and its derivatives by the crank angle [J/rad, J/rad^2]."""
-    spring, z = track.hardware.charged(p0), track.z(phi)
-    dz, d2z = track.z.derivative()(phi), track.z.derivative(2)(phi)
-    U, F = spring.energy(z), spring.force(z)
-    return U - U.min(), F * dz, spring.stiffness(z) * dz**2 + F * d2z
 
 
 def _closing(

@@ -141,9 +141,12 @@ def run(machine: Running, speed: float, turns: Pure, phi_start: float = 0.0, sta
 
     turns: turns of the crank; stall: share of the point's speed below which the run ends.
     """
+    # where the machine is not smooth in a period [rad]; what is nearer than rounding is one
+    period = machine.point.period
+    angles = np.concatenate([machine.kinks, *(t.z.x for t in machine.tracks)]) % period
     turning = Turning(
         laws=tuple(type(t.hardware.spring) for t in machine.tracks), tables=_tables(machine),
-        held=_held(machine), kinks=_kinks(machine), period=machine.point.period,
+        held=_held(machine), kinks=np.unique(np.round(angles, 12)), period=machine.point.period,
         start=(phi_start, speed), turned=phi_start + 2 * np.pi * turns, stalled=stall * machine.point.omega,
         longest=20 * turns * 2 * np.pi / speed,
     )  # fmt: skip
@@ -193,13 +196,6 @@ def ripple_of_last_turn(found: TimeRun, period: float) -> float | None:
         found.dense, np.linspace(last_period(found.t, found.phi, found.omega, period), found.t[-1], _LOOKS)
     )
     return speed.ripple
-
-
-def _kinks(machine: Running) -> np.ndarray:
-    """Where the machine is not smooth in a period [rad]; what is nearer than rounding is one."""
-    period = machine.point.period
-    angles = np.concatenate([machine.kinks, *(t.z.x for t in machine.tracks)]) % period
-    return np.unique(np.round(angles, 12))
 
 
 # the legs of a run share it
@@ -302,7 +298,13 @@ def turn(machine: Turning, readings: int) -> tuple[np.ndarray, np.ndarray, bool]
     engine and work of the load [J], shape (4, readings).
     """
     try:
-        return _compiled(machine, readings)
+        runs = _runs(machine)
+        # once to see how long it takes, and once to be read at even times
+        t = np.linspace(0, integrate(runs, "dop853").t[0], readings)
+        found = integrate(dataclasses.replace(runs, times=t[1:-1]), "dop853")
+        if found.status[0] > _MET:
+            raise BadInput(f"the machine in time {STATUS[found.status[0]]}")
+        return t, np.vstack([runs.start, found.samples[0], found.y[0]]).T, bool(found.met[0] == 1)
     except NoCompiler:
         return _by_scipy(machine, readings)
 
@@ -334,16 +336,6 @@ def _runs(machine: Turning) -> Runs:
         ),
         kinks=(Breaks(state=0, angles=machine.kinks, period=machine.period),), rtol=_TOLERANCE, atol=_TOLERANCE,
     )  # fmt: skip
-
-
-def _compiled(machine: Turning, readings: int) -> tuple[np.ndarray, np.ndarray, bool]:
-    runs = _runs(machine)
-    # once to see how long it takes, and once to be read at even times
-    t = np.linspace(0, integrate(runs, "dop853").t[0], readings)
-    found = integrate(dataclasses.replace(runs, times=t[1:-1]), "dop853")
-    if found.status[0] > _MET:
-        raise BadInput(f"the machine in time {STATUS[found.status[0]]}")
-    return t, np.vstack([runs.start, found.samples[0], found.y[0]]).T, bool(found.met[0] == 1)
 
 
 def _by_scipy(machine: Turning, readings: int) -> tuple[np.ndarray, np.ndarray, bool]:

@@ -238,7 +238,12 @@ def rows(found: CoDesign, k: int, scavenged: Point | None = None) -> list[Scenar
     """Scenarios of a point. scavenged: the same point with a tenth less scavenge pressure and the load as it was."""
     machine = machine_at(found, k)
     made = [] if scavenged is None else [_scavenge_step(found, machine, scavenged, k)]
-    made += [_leak(machine, k), _controlled(found, k)]
+    # the controller of one turn, from pressures that are off
+    held, point = hold(found, k, _OFF, turns=4), found.task.points[k]
+    about = f"pressures {_OFF:.0%} off, set after each turn from the speed of that turn"
+    errors = ", ".join(f"{100 * e:.2f}" for e in np.abs(held.pressure_error).max(axis=1))
+    words = f"error {errors} % turn by turn, ripple {per_cent(held.ripple[0])} to {per_cent(held.ripple[-1])}"
+    made += [_leak(machine, k), told("controller", about, k, point.omega, held.run, lambda r: words)]
     return made + ([] if machine.point.misfire is None else [_start(machine, k), _stop(machine, k)])
 
 
@@ -272,15 +277,6 @@ def _leak(machine: Running, k: int) -> Scenario:
     run = running.run(low, start[0], _TURNS)
     ripple = running.ripple_of_last_turn(run, machine.point.period) or _STOPPED
     return told(name, about, k, start[1], run, lambda r: f"ripple {per_cent(ripple)} after {_TURNS:g} turns")
-
-
-def _controlled(found: CoDesign, k: int) -> Scenario:
-    """The controller of one turn, from pressures that are off."""
-    held, point = hold(found, k, _OFF, turns=4), found.task.points[k]
-    about = f"pressures {_OFF:.0%} off, set after each turn from the speed of that turn"
-    errors = ", ".join(f"{100 * e:.2f}" for e in np.abs(held.pressure_error).max(axis=1))
-    words = f"error {errors} % turn by turn, ripple {per_cent(held.ripple[0])} to {per_cent(held.ripple[-1])}"
-    return told("controller", about, k, point.omega, held.run, lambda r: words)
 
 
 def _start(machine: Running, k: int) -> Scenario:

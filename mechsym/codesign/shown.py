@@ -10,7 +10,7 @@ from mechsym.codesign.result import CoDesignNumbers, CoDesignResult, bound_words
 from mechsym.codesign.task import Track, fine_path
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.hinge.shown import lost_combustion
-from mechsym.page import Card, Grid, Picture, View, grid, page, ranked, shows, title_mark
+from mechsym.page import Card, Picture, View, grid, page, ranked, shows, title_mark
 from mechsym.page.finding import LEAST_SURE, NOT_MET, Finding
 from mechsym.quantities.display import figure, quantity_text, ratio_text
 from mechsym.style import svg
@@ -106,35 +106,11 @@ def _table(path: Path, columns: Mapping[str, Sequence[float] | np.ndarray]) -> P
 def html(result: CoDesignResult, numbers: CoDesignNumbers, pictures: dict[str, str]) -> str:
     """The page as text."""
     findings = ranked(of_codesign(result))
-    return page(
-        "codesign.html", result=result, numbers=numbers, findings=findings,
-        mark=title_mark(findings), figures=pictures, sizes=_SIZES,
-        points=_points(result, numbers), prices=prices(numbers), bound=bound_words(numbers), **_first_page(result),
-    )  # fmt: skip
-
-
-def _first_page(result: CoDesignResult) -> dict[str, object]:
-    """What the first page of a builder says beside the numbers: dangers, ripple with losses, share of the heat."""
+    # what the first page of a builder says beside the numbers: dangers, ripple with losses, share of the heat
     ripples, residuals = [at.ripple for at in result.lossy], np.abs(result.verified.energy_residual)
     points = result.design.task.points
     speeds = [p.omega for p in points]
-    return {
-        "dangers": [s for name in _DANGERS for s in result.scenarios if s.name == name],
-        "lossy_ripple": None if None in ripples else max(r for r in ripples if r is not None),
-        "gas_share": max(at.gas / abs(p.load_torque) for at, p in zip(result.losses, points, strict=True)),
-        "residual": ratio_text(float(np.nanmax(residuals)), 1) if np.isfinite(residuals).any() else "–",
-        "index": result.design.tracks[0].hardware.spring.index,
-        "gamma": result.assumed.gamma,
-        "speeds": (min(speeds), max(speeds)),
-    }
-
-
-def _share(value: float | None) -> float | None:
-    return None if value is None else 100 * value
-
-
-def _points(result: CoDesignResult, numbers: CoDesignNumbers) -> Grid:
-    """What the design holds at each point."""
+    # what the design holds at each point
     tracks, checked = result.design.tracks, result.verified
     springs = ["p0"] if len(tracks) == 1 else [f"p0 of spring {s + 1}" for s in range(len(tracks))]
     rows = [
@@ -149,7 +125,21 @@ def _points(result: CoDesignResult, numbers: CoDesignNumbers) -> Grid:
         for k, p in enumerate(result.design.task.points)
     ]  # fmt: skip
     units = {"speed": "rad/s", "mean pressure": "Pa", **dict.fromkeys(springs, "Pa")}
-    return grid("Points", rows, list(rows[0]), units)
+    return page(
+        "codesign.html", result=result, numbers=numbers, findings=findings,
+        mark=title_mark(findings), figures=pictures, sizes=_SIZES,
+        points=grid("Points", rows, list(rows[0]), units), prices=prices(numbers), bound=bound_words(numbers),
+        dangers=[s for name in _DANGERS for s in result.scenarios if s.name == name],
+        lossy_ripple=None if None in ripples else max(r for r in ripples if r is not None),
+        gas_share=max(at.gas / abs(p.load_torque) for at, p in zip(result.losses, points, strict=True)),
+        residual=ratio_text(float(np.nanmax(residuals)), 1) if np.isfinite(residuals).any() else "–",
+        index=result.design.tracks[0].hardware.spring.index, gamma=result.assumed.gamma,
+        speeds=(min(speeds), max(speeds)),
+    )  # fmt: skip
+
+
+def _share(value: float | None) -> float | None:
+    return None if value is None else 100 * value
 
 
 def figures(result: CoDesignResult) -> dict[str, str]:

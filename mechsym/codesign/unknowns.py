@@ -19,8 +19,7 @@ import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym.codesign.points import Point, Samples
-from mechsym.codesign.settings import FREE
+from mechsym.codesign.points import FREE, Point, Samples
 from mechsym.codesign.task import MOST_MASS, CoDesignTask, Hardware, Path, path_of, roller_inertia
 from mechsym.hinge import rollers as law
 from mechsym.hinge.choices import ROOM
@@ -60,7 +59,7 @@ def basis(period: float, kinks: Sequence[float], count: int) -> Basis:
 
 def matrices(basis: Basis, phi: np.ndarray) -> tuple[ca.DM, ca.DM, ca.DM]:
     """Sparse matrices of shape (n, m) from coefficients to the value and its first two derivatives at phi [rad]."""
-    splines, found = _elements(basis), []
+    splines, found = scipy.interpolate.BSpline(_extended(basis), np.eye(basis.count + _DEGREE), _DEGREE), []
     phi = basis.knots[0] + (phi - basis.knots[0]) % basis.period
     for order in range(3):
         spread = splines.derivative(order)(phi) if order else splines(phi)
@@ -91,10 +90,6 @@ def _extended(basis: Basis) -> np.ndarray:
     before = basis.knots[-_DEGREE:] - basis.period
     after = basis.knots[: _DEGREE + 1] + basis.period
     return np.concatenate([before, basis.knots, after])
-
-
-def _elements(basis: Basis) -> "scipy.interpolate.BSpline":
-    return scipy.interpolate.BSpline(_extended(basis), np.eye(basis.count + _DEGREE), _DEGREE)
 
 
 MASS = 100.0  # unit of a free mass [kg]

@@ -4,7 +4,7 @@ chamber     volume over the travel of a piston        pressure    pressure over 
 gas         travel and moving mass out of a mechanism; pressure in its chamber: the force on a piston
 kinds       one table: every kind of cycle, and what each needs
 source      what every kind of gas answers, and where a cylinder is enough to answer it
-mixture, heat, wiebe, friction    properties, heat to the walls, combustion, friction mean pressure
+heat, wiebe, friction    properties and heat to the walls, combustion, friction mean pressure
 breathing   gas exchange by filling and emptying, turbocharger
 closed      the closed period integrated, its figures, its derivatives
 measured    measured diagrams: read, aligned, taken apart

@@ -15,9 +15,9 @@ from mechsym.cycle.closed.performance import Performance, performance
 from mechsym.cycle.closed.run import at_angles, run
 from mechsym.cycle.friction import mechanical_efficiency
 from mechsym.cycle.gas import Gas
+from mechsym.cycle.heat import ConstantGamma
 from mechsym.cycle.kinds.printed import marched, performance_printed
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition
-from mechsym.cycle.mixture import ConstantGamma
 from mechsym.cycle.pressure import periodic, pressure_over
 from mechsym.cycle.source import ENGINE_PAGE, EngineParts, Progress, otto_bound, unseen
 from mechsym.errors import BadInput

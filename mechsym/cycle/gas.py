@@ -50,7 +50,7 @@ def piston_motion(
         raise BadInput(f"mechanism {name} has {len(mechanism.coordinates)} coordinates; a cycle needs one crank angle")
     found = Motion(
         name=name,
-        function=_travel(mechanism, symbols, role.travel, parameters),
+        function=from_top(slopes(mechanism, role.travel, symbols), parameters),
         parameters=dict(parameters),
         masses=role.masses,
         loads=_loads(mechanism, symbols, role, parameters) if role.loads else None,
@@ -151,12 +151,6 @@ def from_top(found: ca.Function, parameters: Mapping[str, float] | None = None) 
     start = found.call([ca.SX(top), *given])[0]
     x, first, second = found.call([phi + top, *given])
     return ca.Function("travel", [phi, *given], [x - start, first, second])
-
-
-def _travel(
-    mechanism: Mechanism, symbols: Mapping[str, ca.SX], name: str, parameters: Mapping[str, float]
-) -> ca.Function:
-    return from_top(slopes(mechanism, name, symbols), parameters)
 
 
 def _loads(

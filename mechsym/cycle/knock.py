@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cycle.closed.run import GRADING, steps_of
-from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.cycle.heat import ConstantGamma, NasaMixture, properties
 from mechsym.quantities.units import Array, Kelvin, Pascal, Pure, Radian, RadPerSecond, Scalar, Second
 
 ATM = 101325.0

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mechsym.cycle.breathing.flow import valve_lift
-from mechsym.cycle.breathing.records import Breathing
+from mechsym.cycle.breathing.flow import Breathing, valve_lift
 from mechsym.files import Json
 from mechsym.quantities import display
 from mechsym.style import (

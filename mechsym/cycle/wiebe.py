@@ -29,7 +29,8 @@ def wiebe(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]:
     y: (phi - start) / duration; values below 0 count as 0. a: completeness: f(1) = 1 - exp(-a). m: form factor, m >= 0.
     Valid: m >= 0; for -1 < m < 0 the rate at y = 0 is infinite. Source: Wiebe (1956); Shen et al. (2020).
     """
-    return -_expm1(-a * _from_start(y) ** (m + 1))
+    value = -a * _from_start(y) ** (m + 1)
+    return -(ca.expm1(value) if _symbolic(value) else np.expm1(value))
 
 
 def dwiebe_dy(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]:
@@ -41,7 +42,10 @@ def dwiebe_dy(y: Pure[Scalar], a: Pure[Scalar], m: Pure[Scalar]) -> Pure[Scalar]
     divide by the duration for df/dphi. For m = 0 the rate steps to a at y = 0, the value given there.
     """
     t = _from_start(y)
-    return _where_burning(y, a * (m + 1) * t**m * _exp(-a * t ** (m + 1)))
+    # only m = 0 needs this: y^0 is 1 before the start too
+    value = -a * t ** (m + 1)
+    rate = a * (m + 1) * t**m * (ca.exp(value) if _symbolic(value) else np.exp(value))
+    return ca.if_else(y >= 0, rate, 0) if _symbolic(y) else np.where(np.asarray(y) >= 0, rate, 0.0)[()]
 
 
 def double_wiebe(
@@ -106,16 +110,3 @@ def _symbolic(value: object) -> bool:
 
 def _from_start(y: Scalar) -> Scalar:
     return ca.fmax(y, _TINY) if _symbolic(y) else np.maximum(y, 0.0)
-
-
-def _where_burning(y: Scalar, rate: Scalar) -> Scalar:
-    # only m = 0 needs this: y^0 is 1 before the start too
-    return ca.if_else(y >= 0, rate, 0) if _symbolic(y) else np.where(np.asarray(y) >= 0, rate, 0.0)[()]
-
-
-def _exp(value: Scalar) -> Scalar:
-    return ca.exp(value) if _symbolic(value) else np.exp(value)
-
-
-def _expm1(value: Scalar) -> Scalar:
-    return ca.expm1(value) if _symbolic(value) else np.expm1(value)

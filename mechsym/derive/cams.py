@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
+import sympy
 from sympy import Abs, Expr, Integer, Mod, Piecewise, Rational, Symbol, acos, asin, atan2, cos, pi, sin, sqrt
 
 from mechsym.derive.linkage import Pair
@@ -24,8 +25,9 @@ from mechsym.derive.rates import output, output_dynamic
 from mechsym.derive.refuse import file_of_declaration, refuse
 from mechsym.derive.unilateral import Unilateral
 from mechsym.errors import BadInput, suggest
-from mechsym.inputs import sources
-from mechsym.tables import columns_of
+from mechsym.files.inputs import sources
+from mechsym.files.tables import columns_of
+from mechsym.periodic.rises import RISES
 
 _FOLLOWERS = ("knife", "flat", "roller")
 _TURN = 2 * pi
@@ -41,23 +43,6 @@ def lookup(name: str, breaks: np.ndarray, values: np.ndarray, at: Expr) -> Expr:
     """
     kind = type(name, (Lookup,), {"breaks": tuple(map(float, breaks)), "values": tuple(map(float, values)), "nargs": 1})
     return kind(at)
-
-
-def _modified_sine(x: Expr) -> list[tuple[Expr, Expr]]:
-    c, ends = 1 / (4 + pi), sin(4 * pi * x) / 4
-    middle = 2 + pi * x - Rational(9, 4) * sin(4 * pi * x / 3 + pi / 3)
-    return [(c * (pi * x - ends), x < Rational(1, 8)), (c * middle, x < Rational(7, 8)),
-            (c * (4 + pi * x - ends), x <= 1)]  # fmt: skip
-
-
-#: Shares of a rise over shares of its angle, piece by piece
-LAWS = {
-    "harmonic": lambda x: [((1 - cos(pi * x)) / 2, x <= 1)],
-    "cycloid": lambda x: [(x - sin(2 * pi * x) / (2 * pi), x <= 1)],
-    "3-4-5": lambda x: [(10 * x**3 - 15 * x**4 + 6 * x**5, x <= 1)],
-    "4-5-6-7": lambda x: [(35 * x**4 - 84 * x**5 + 70 * x**6 - 20 * x**7, x <= 1)],
-    "modified sine": _modified_sine,
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -179,18 +164,18 @@ class Cams(Unilateral):
         """Lift, and its derivatives by the cam's angle, as names that know each other."""
         if not isinstance(profile, str):
             refuse(
-                f"profile = {profile} of the cam {name!r} is neither a law nor a CSV file; there are {', '.join(LAWS)}"
+                f"profile = {profile} of the cam {name!r} is neither a law nor a CSV file; there are {', '.join(RISES)}"
             )
         by = angle
         if profile.lower().endswith(".csv"):
             if any(w is not None and w != 0 for w in words):
                 refuse(f"the cam {name!r} has its lift from {profile}; leave lift, rise, dwell and fall out")
             value, by = self._tabled(name, angle, profile, unit)
-        elif profile in LAWS:
+        elif profile in RISES:
             value = self._worded(name, angle, profile, unit, words)
         else:
             refuse(
-                f"profile = {profile!r} of the cam {name!r} is no law; {suggest(profile, list(LAWS))}, or name a .csv"
+                f"profile = {profile!r} of the cam {name!r} is no law; {suggest(profile, list(RISES))}, or name a .csv"
             )
         first = value.diff(by)
         s = self.let(f"lift_{name}", value, unit)
@@ -212,11 +197,11 @@ class Cams(Unilateral):
         whole = up + top + down
         turn, what = _TURN * (1 + Rational(1, 10**9)), f"rise, dwell and fall of the cam {name}"
         self._needs(turn, whole, "rad", what, "together they are more than a turn: shorten them")
-        pieces = [(h * share, when) for share, when in LAWS[law](angle / up)]
+        pieces = [(h * share, when) for share, when in _pieces(law, angle / up)]
         if top != 0:
             pieces.append((h, angle < up + top))
         # each law is the same from its end as from its beginning
-        pieces += [(h * (1 - share), when) for share, when in LAWS[law]((angle - up - top) / down)]
+        pieces += [(h * (1 - share), when) for share, when in _pieces(law, (angle - up - top) / down)]
         return Piecewise(*pieces, (Integer(0), True))
 
     def _tabled(self, name: str, angle: Symbol, profile: str, unit: str) -> tuple[Expr, Symbol]:
@@ -296,6 +281,11 @@ class Cams(Unilateral):
         radius = distance + apart * (cos(angle) * bend - sin(angle) * slope**2 * turned) / turned**3
         lever = apart * cos(angle) / turned
         return _Follower(curvature=1 / radius, pressure_angle=atan2(face, lever), lever=lever)
+
+
+def _pieces(law: str, x: Expr) -> list[tuple[Expr, Expr]]:
+    """A rise from 0 to 1, piece by piece, with where each holds."""
+    return [(share, x <= Rational(end, 8)) for share, end in RISES[law](x, sympy)]
 
 
 def _rows(file: str, unit: str) -> tuple[np.ndarray, np.ndarray]:

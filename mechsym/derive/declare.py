@@ -86,6 +86,7 @@ class Declaration(Linkage, Elements, Drawing):
         self.gravity: tuple[Expr, Expr] = (Integer(0), Integer(0))
         self.given: tuple[list[list[Expr]], list[Expr], list[Expr]] | None = None
         self.watched: dict[str, object] = {}
+        self.faces: list[tuple[Any, Expr, Any, Any]] = []
         self.undetermined: list[str] = []  # reactions that joints hold against one another, in space
         self.redundant: list[str] = []
         self._start_linkage()

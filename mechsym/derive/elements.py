@@ -20,8 +20,8 @@ from mechsym.derive.cams import Cams, lookup
 from mechsym.derive.rates import velocity
 from mechsym.derive.refuse import file_of_declaration, refuse
 from mechsym.errors import BadInput
-from mechsym.inputs import sources
-from mechsym.tables import columns_of
+from mechsym.files.inputs import sources
+from mechsym.files.tables import columns_of
 
 #: Units of what a motor is bought by, in N*m/A, ohm and V
 _ELECTRIC = {"k": {"N*m/A": 1.0, "mN*m/A": 1e-3, "V*s/rad": 1.0, "V*s": 1.0}, "R": {"ohm": 1.0, "mohm": 1e-3},

@@ -30,11 +30,27 @@ def draw(m: Declaration) -> None:
         _DRAWN[joint.kind](m, joint, mark)
     for link in m.links:
         _link(m, link)
+    for radius, point in {(str(r), str(p)): (r, p) for p, r, _, _ in m.faces if isinstance(p, LinkPoint)}.values():
+        if radius != 0:
+            m.draw_circle(point, radius, role="planet")
+    for _, _, line, length in m.faces:
+        if isinstance(line, LinkLine) and (length is not None or line.link is m.frame):
+            _face(m, line, length, mark)
+
+
+def _face(m: Declaration, line: LinkLine, length: object, mark: Expr) -> None:
+    """A wall as long as it is, or a piece of the ground."""
+    ends = (-8 * mark, 8 * mark) if length is None else (Integer(0), m._sized(length, "m", "wall", "length of a wall"))
+    places = [(line.u + s * cos(line.tilt), line.v + s * sin(line.tilt)) for s in ends]
+    if ends[0] != ends[1]:
+        m.draw_line(*(line.link.at(*place) for place in places), role="frame" if line.link is m.frame else "planet")
 
 
 def _mark(m: Declaration) -> Expr:
     """Size of a mark: a fifteenth of the root mean square of the lengths of all links [m]."""
-    points = {(p.u, p.v) for joint in m.link_joints for p in (joint.first, joint.second)}
+    held = [p for joint in m.link_joints for p in (joint.first, joint.second)]
+    held += [p for p in m.watched.values() if isinstance(p, LinkPoint)]
+    points = {(p.u, p.v) for p in held} | {tuple(link.centre) for link in m.links}
     square = sum((x**2 for point in points for x in point), Integer(0))
     return sqrt(square * Rational(1, len(points))) / 15 if square != 0 else Integer(0)
 
@@ -43,7 +59,8 @@ def _link(m: Declaration, link: Link) -> None:
     """A link as a line, or a polygon, through what its joints hold and what is watched of it."""
     sides = [joint.side(link) for joint in m.link_joints if link in (joint.first.link, joint.second.link)]
     watched = (p for p in m.watched.values() if isinstance(p, LinkPoint) and p.link is link)
-    points = [link.at(p.u, p.v) for p in (*sides, *watched)]
+    faces = (p for p, _, _, _ in m.faces if isinstance(p, LinkPoint) and p.link is link)
+    points = [link.at(p.u, p.v) for p in (*sides, *watched, *faces)]
     where = list({(str(p.u), str(p.v)): p for p in points}.values())
     if len(where) > 1:
         m.draw_line(*where, *(where[:1] if len(where) > 2 else ()), role="crank" if link.given else "rod")

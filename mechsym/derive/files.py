@@ -19,7 +19,7 @@ from mechsym.derive.methods import declaration_of, is_method
 from mechsym.derive.printer import UnsupportedNode
 from mechsym.derive.textbook import disagreement
 from mechsym.errors import BadInput, suggest
-from mechsym.inputs import imports_from, sources
+from mechsym.files.inputs import imports_from, sources
 
 
 def run(path: Path) -> ModuleType:

@@ -34,11 +34,13 @@ class Side:
     branch: int
     by: str  #: What chose it: `branch`, `pose`, or nothing
     pins: bool  #: Whether pins alone close it, so that neither side is the usual one
+    condition: float | None = None  #: In the pose: 1 where its links stand across, 0 in a dead point
 
     def __str__(self) -> str:
         nobody = "chosen by nobody: say pose= or branch= if it is the other"
         why = {"branch": "as declared", "pose": "by the pose"}.get(self.by, nobody)
-        return f"{' and '.join(self.links)} close at the joint {self.joint}, branch = {self.branch} ({why})"
+        near = "" if self.condition is None else f"; condition {self.condition:.2g} in the pose, 0 in a dead point"
+        return f"{' and '.join(self.links)} close at the joint {self.joint}, branch = {self.branch} ({why}{near})"
 
 
 def choose(m: Linkage, joints: Sequence[Joint], links: tuple[Link, ...], entries: Sequence[Symbol]) -> Side | None:
@@ -65,7 +67,19 @@ def choose(m: Linkage, joints: Sequence[Joint], links: tuple[Link, ...], entries
     side = _nearer(m, joint, posed, by_sign, before)
     if side == -1:
         m.tape.entries[root] = flipped
-    return Side(joint.name, names, side, "pose", pins)
+    return Side(joint.name, names, side, "pose", pins, _condition(m, root))
+
+
+def _condition(m: Linkage, name: Symbol) -> float | None:
+    """How far a loop is from its dead point in the pose: its root by the most that it can be; none without sizes."""
+    (root,) = {p.base for p in _roots(m, m.tape.entries[name])}
+    values = _letters(m, [root])
+    for known in m.tape.needed([root]):
+        values[known] = _number(m.tape.entries[known], values)
+    terms = np.array([_number(term, values) for term in root.as_ordered_terms()])
+    if terms.shape[1] > 1:
+        return None
+    return float(np.sqrt(max(terms.sum(), 0.0) / np.maximum(terms, 0.0).sum()))
 
 
 def _roots(m: Linkage, value: Expr) -> list[Pow]:

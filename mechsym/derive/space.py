@@ -14,7 +14,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, ClassVar
 
-from sympy import Expr, Integer, Symbol, sqrt
+from sympy import Expr, Integer, Symbol, cos, pi, sin, sqrt
 
 from mechsym.derive import rates
 from mechsym.derive import vectors as vec
@@ -331,6 +331,19 @@ class SpatialDeclaration(Declaration):
         return None if unknown and not self.tape.derived_from(symbol)[1] else super()._dimension_of_letter(symbol)
 
     # drawing
+
+    def draw_drum(self, axis: Any, radius: Expr | float, length: Expr | float, role: str = "piston") -> None:
+        """Draw a drum of a radius and a length [m] about an axis of a link, from its point on."""
+        n, b = vec.normals(axis.direction)
+        r, l = self._checked(radius, "m", "radius of the drum"), self._checked(length, "m", "length of the drum")
+        ends = []
+        for way in (O, l):
+            middle = vec.add(axis.at, vec.scaled(way, axis.direction))
+            arms = [vec.add(vec.scaled(cos(k * pi / 6), n), vec.scaled(sin(k * pi / 6), b)) for k in range(12)]
+            ends.append([axis.link.at(*vec.add(middle, vec.scaled(r, arm))) for arm in arms])
+            self.draw_line(*ends[-1], ends[-1][0], role=role)
+        for k in range(0, 12, 3):
+            self.draw_line(ends[0][k], ends[1][k], role=role)
 
     def point_names(self, points: tuple[object, ...]) -> list[list[str]]:
         """Names of the points of a shape as it is seen from one side, and in space."""

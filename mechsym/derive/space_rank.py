@@ -174,11 +174,13 @@ def _poses(m: Declaration, function: ca.Function) -> list[np.ndarray]:
     moves = np.array(
         [s not in fixed and (s in m.parameter_list or s in m.own or s in m.dependent_list) for s in letters]
     )
-    for k in range(_TRIES):
-        x = _closed(function, np.array([_drawn(m, s, first, fixed, generator, k) for s in letters]), moves)
+    free = np.array([s not in fixed for s in letters])
+    for k in range(2 * _TRIES):  # at last the declared coordinates give way, so that it can be said what holds them
+        start = np.array([_drawn(m, s, first, fixed, generator, k % _TRIES) for s in letters])
+        x = _closed(function, start, moves if k < _TRIES else free)
         if x is not None and all(_within(m, s, v) for s, v in zip(letters, x, strict=True)):
             found.append(x)
-        if len(found) == _SAMPLES:
+        if len(found) == _SAMPLES or found and k == _TRIES:
             break
     if not found:
         refuse(
@@ -215,8 +217,8 @@ def _closed(function: ca.Function, x: np.ndarray, moves: np.ndarray) -> np.ndarr
         if not (np.isfinite(gap).all() and np.isfinite(slopes).all()):
             return None
         step = np.linalg.lstsq(slopes[:, moves], gap.ravel(), rcond=1e-9)[0]
-        x[moves] -= step * min(1.0, 0.3 / max(float(np.abs(step).max()), 1e-300))
-        if np.abs(step).max() < 1e-15:
+        x[moves] -= step * min(1.0, 0.3 / max(float(np.abs(step).max(initial=0.0)), 1e-300))
+        if np.abs(step).max(initial=0.0) < 1e-15:
             break
     gap = np.asarray(function(x)[0])
     return x if np.abs(gap).max() < 1e-12 * max(1.0, np.abs(x).max()) else None

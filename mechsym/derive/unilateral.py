@@ -7,6 +7,7 @@ m.friction(x, mu=mu, normal=m1 * g)                             along a coordina
 """
 
 from collections.abc import Callable
+from typing import Any
 
 from sympy import Expr, Integer, Piecewise, Symbol, cos, sin, sqrt
 
@@ -49,6 +50,8 @@ class Unilateral(Roles):
         for which, gap in (("ahead", half - of), ("behind", half + of)):
             self._stop(f"{name}_{which}", gap, kind, restitution, stiffness, damping)
 
+    faces: list[tuple[Any, Expr, Any, Any]]  # of contacts: a point, its radius, a line and its length
+
     def contact(
         self, name: str, first: object, second: object, *, radii: object = (0, 0),
         restitution: Expr | float | None = None, stiffness: Expr | float | None = None,
@@ -75,6 +78,7 @@ class Unilateral(Roles):
         if friction is not None and restitution not in (None, 0):
             refuse(f"the contact {name!r} has friction and restitution, whose blow may gain energy; give restitution=0")
         self._stop(name, gap, "m", restitution, stiffness, damping)
+        self.faces.append((first, r1, second, length))
         if friction is not None:
             if r1 != 0 and isinstance(first, tuple):
                 refuse(f"the contact {name!r} is of a circle whose turn is not known; name a point of a link")

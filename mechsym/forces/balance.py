@@ -19,8 +19,8 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.forces.loads import roll_moment
 from mechsym.forces.mains import Journal, MainShaft, influence, journals, place, supports
-from mechsym.forces.shaking import roll_moment
 from mechsym.forces.turn import Turn, at, main_roles
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, KilogramMetre, Metre, Newton, NewtonMetre

@@ -1,11 +1,6 @@
 r"""How driven coordinates move: evenly, by a word from rest to rest, or through the points of a file; the forces then.
 
-Words give the share s of a rise over the share x of its duration; a trapezium of acceleration has ramps and rests of
-constant acceleration in the proportion 1 : 2 : 1 in each half:
-
-.. math:: \text{cycloid: } x - \frac{\sin 2\pi x}{2\pi}, \qquad \text{3-4-5: } 10x^3 - 15x^4 + 6x^5
-
-A modified sine joins quarter waves of the periods 1/2 and 3/2 so that the acceleration is continuous. The rows of a
+Words are laws of a rise over its duration (periodic/rises.py). The rows of a
 file are joined by splines of degree 5, whose fourth derivative is continuous; a periodic one also at its ends.
 """
 
@@ -13,21 +8,23 @@ import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
+import casadi as ca
 import numpy as np
 import scipy
 
 from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
+from mechsym.files.tables import columns_of
 from mechsym.mechanisms import constraints, driven
 from mechsym.mechanisms.driven import MotionSettings
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.page import Card, Picture, View
+from mechsym.periodic.rises import RISES
 from mechsym.quantities import parse, record
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.quantities.units import Array, Second
 from mechsym.style import BLUE, axis_unit, panels
-from mechsym.tables import columns_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -35,43 +32,23 @@ if TYPE_CHECKING:
 Curve = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]  # times [s] to place, speed, acceleration
 
 
-def _pieces(knots: list[float], accelerations: list[tuple[float, ...]]) -> "scipy.interpolate.PPoly":
-    """The share of a rise by its acceleration, piece by piece: powers from the highest down."""
-    degree = max(map(len, accelerations))
-    rows = np.array([(0.0,) * (degree - len(p)) + p for p in accelerations]).T
-    return scipy.interpolate.PPoly(rows, knots).antiderivative(2)
+def rise_of(law: str) -> Curve:
+    """A rise from 0 to 1 with its first and second derivatives."""
+    x = ca.SX.sym("x")
+    *earlier, (value, _) = RISES[law](x, ca)
+    for piece, end in reversed(earlier):
+        value = ca.if_else(x < end / 8, piece, value)
+    rate = ca.gradient(value, x)
+    function = ca.Function("rise", [x], [value, rate, ca.gradient(rate, x)])
+
+    def rise(at: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        s, ds, dds = (np.asarray(ca.densify(v)).ravel() for v in function(np.atleast_2d(at)))
+        return s, ds, dds
+
+    return rise
 
 
-def _trapezium() -> Curve:
-    a = 16 / 3  # so that the rise is 1
-    ramp = 8 * a
-    knots = [0.0, 1 / 8, 3 / 8, 5 / 8, 7 / 8, 1.0]
-    return _of_pieces(_pieces(knots, [(ramp, 0.0), (a,), (-ramp, a), (-a,), (ramp, -a)]))
-
-
-def _of_pieces(curve: "scipy.interpolate.PPoly") -> Curve:
-    return lambda x: (curve(x), curve(x, 1), curve(x, 2))
-
-
-def _cycloid(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    w = 2 * math.pi
-    return x - np.sin(w * x) / w, 1 - np.cos(w * x), w * np.sin(w * x)
-
-
-def _modified_sine(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    c, w, ends = 1 / (4 + math.pi), 4 * math.pi, (x < 1 / 8) | (x > 7 / 8)
-    slow = w * x / 3 + math.pi / 3
-    s = np.where(ends, np.where(x > 0.5, 4.0, 0.0) - np.sin(w * x) / 4, 2 - 9 / 4 * np.sin(slow))
-    ds = np.where(ends, -np.cos(w * x), -3 * np.cos(slow))
-    return c * (s + math.pi * x), c * math.pi * (1 + ds), c * math.pi * w * np.where(ends, np.sin(w * x), np.sin(slow))
-
-
-WORDS: Mapping[str, Curve] = {
-    "cycloid": _cycloid,
-    "3-4-5": _of_pieces(_pieces([0.0, 1.0], [(120.0, -180.0, 60.0, 0.0)])),
-    "modified sine": _modified_sine,
-    "trapezium": _trapezium(),
-}
+WORDS = tuple(law for law in RISES if law != "harmonic")  # it begins and ends with a jump of its acceleration
 
 
 class DrivenMotion:
@@ -131,7 +108,7 @@ def _curve(section: MotionSettings, q: str, value: object, unit: str, start: flo
         )
     if section.rise is None or section.duration is None:
         raise BadInput(f"motion.{q} = {value!r} needs motion.rise, in {unit}, and motion.duration, in s")
-    rise, duration, share = parse(section.rise, unit, "motion.rise"), section.duration, WORDS[value]
+    rise, duration, share = parse(section.rise, unit, "motion.rise"), section.duration, rise_of(value)
 
     def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         x = np.clip(t / duration, 0.0, 1.0)

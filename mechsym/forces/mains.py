@@ -35,7 +35,7 @@ from mechsym.forces.turn import Turn, main_roles
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.roles import BearingRole
 from mechsym.quantities import choice, quantity, record
-from mechsym.quantities.units import Array, Metre, Pascal, Pure, Radian, RadPerSecond, Watt
+from mechsym.quantities.units import Array, Metre, Pascal, Pure, Radian, RadPerSecond
 from mechsym.torsion.twist import ShaftLimits
 
 STEEL = 206e9  #: Modulus of elasticity of crankshaft steel [Pa]
@@ -352,21 +352,17 @@ def orbit(journal: Journal, film: MainShaft, omega: RadPerSecond, phi: Radian[Ar
         if settled:
             break
         start, before = run.y[:, -1].tolist(), now
+    radius = film.journal_diameter / 2
+    shear = 2 * math.pi * film.oil_viscosity * omega**2 * radius**3 * film.bearing_width / film.clearance
+    slopes = np.gradient(np.append(now, now[0]), np.linspace(0, period, len(now) + 1))[:-1]
+    squeezed = (slopes - 0.5j * journal.sense * now) * omega * film.clearance
+    work = load.real * squeezed.real + load.imag * squeezed.imag
     return Orbit(
         eccentricity=now,
         thinnest=film.clearance * (1 - float(np.abs(now).max())),
-        power=_power(film, omega, now, load, journal.sense, period),
+        power=float(np.mean(shear / np.sqrt(1 - np.abs(now) ** 2) + work)),
         settled=settled,
     )
-
-
-def _power(film: MainShaft, omega: float, e: Array, load: Array, sense: float, period: float) -> Watt:
-    radius = film.journal_diameter / 2
-    shear = 2 * math.pi * film.oil_viscosity * omega**2 * radius**3 * film.bearing_width / film.clearance
-    slopes = np.gradient(np.append(e, e[0]), np.linspace(0, period, len(e) + 1))[:-1]
-    squeezed = (slopes - 0.5j * sense * e) * omega * film.clearance
-    work = load.real * squeezed.real + load.imag * squeezed.imag
-    return float(np.mean(shear / np.sqrt(1 - np.abs(e) ** 2) + work))
 
 
 def beyond(film: MainShaft, orbit: Orbit) -> str:

@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.forces.balance import BalancedEngine, amplitudes
-from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
-from mechsym.forces.loads import polar, radial, tangential
-from mechsym.forces.result import Forces
-from mechsym.forces.shaking import Harmonics
+from mechsym.forces.loads import Harmonics, polar, radial, tangential
+from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces
 from mechsym.forces.textbook import NORMAL_95, IndicatedPressure
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import Radian
@@ -171,7 +169,7 @@ def orders(result: Forces) -> "Figure":
     """Orders of the torque, and of the shaking force and moments."""
     shaken = {} if result.shaking is None else result.shaking.orders
     forces = {n: o for n, o in shaken.items() if n.startswith("force")}
-    moments = {n: o for n, o in shaken.items() if n.startswith("rocking")}
+    moments = {n: o for n, o in shaken.items() if n.startswith(("rocking", "moment"))}
     acting, notes = [], []
     for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "rocking moment")):
         if max((_whole(o).max(initial=0.0) for o in orders.values()), default=0.0) >= _NOUGHT:
@@ -329,7 +327,8 @@ def _closed(values: np.ndarray) -> np.ndarray:
 
 _SAID = {
     "two_mass": "rod as two masses", "terskih": "rod as two masses, after Terskikh", "force_x": "force along x",
-    "force_y": "force along y", "rocking_x": "rocking about x", "rocking_y": "rocking about y",
+    "force_y": "force along y", "force_z": "force along z", "moment_x": "moment about x", "moment_y": "moment about y",
+    "rocking_x": "rocking about x", "rocking_y": "rocking about y",
 }  # fmt: skip
 
 

@@ -11,9 +11,8 @@ import numpy as np
 from mechsym.cycle.gas import travel_of
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces import plots, summary
-from mechsym.forces.comparison import ComparedFriction, ComparedMechanism
 from mechsym.forces.loads import polar
-from mechsym.forces.result import Forces, extremes
+from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces, extremes
 from mechsym.forces.summary import CounterweightNumbers, half, quantities
 from mechsym.forces.turn import Acting, CrankDrive
 from mechsym.mechanisms import plots as plots_mechanism

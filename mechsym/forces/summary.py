@@ -9,12 +9,10 @@ import scipy
 
 from mechsym import mechanisms
 from mechsym.forces import textbook
-from mechsym.forces.comparison import ComparedMechanism, claims, left_out
 from mechsym.forces.friction import NO_PLACE, Losses
-from mechsym.forces.loads import power_residual
+from mechsym.forces.loads import Harmonics, Shaking, power_residual
 from mechsym.forces.mains import Orbit, beyond, specific_load
-from mechsym.forces.result import Forces, angle_of_largest, extremes
-from mechsym.forces.shaking import Harmonics, Shaking
+from mechsym.forces.result import ComparedMechanism, Forces, angle_of_largest, claims, extremes, left_out
 from mechsym.forces.turn import Turn
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.arrays import along

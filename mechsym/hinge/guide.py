@@ -222,7 +222,10 @@ def affine(guide: Guide, hinge: Hinge) -> Affine:
     for spring in (guide.spring, with_setting(guide.spring, second)):
         torques.append(crank_torque(refit(guide, spring), phi))
         if spring.state:
-            works.append(_work(torques[-1], hinge.period))
+            # work of a torque at even angles [J], less the share of what the gas keeps: the load is lowered by that
+            torque = torques[-1]
+            swing = (torque - torque.mean()) * hinge.period / torque.size
+            works.append(np.cumsum(swing) - (swing + swing[0]) / 2)
         else:
             energy = spring.energy(z)
             works.append(energy[-1] - energy[:-1])
@@ -239,12 +242,6 @@ def affine(guide: Guide, hinge: Hinge) -> Affine:
         work_0=works[0] - first * work_1,
         work_1=work_1,
     )
-
-
-def _work(torque: np.ndarray, period: float) -> np.ndarray:
-    """Work of a torque at even angles [J], less the share of what the gas keeps: the load is lowered by that."""
-    swing = (torque - torque.mean()) * period / torque.size
-    return np.cumsum(swing) - (swing + swing[0]) / 2
 
 
 def missing_work(parts: Affine, setting: float) -> Joule[Array]:

@@ -84,7 +84,13 @@ def design_kernel(
     if spring.state:
         raise BadInput("the limits of many guides at once take springs whose force follows from the closing alone")
     given: dict[str, Record] = {"spring": spring, "guide": choices, "rollers": rollers, "limits": limits}
-    chosen, numbers = _checked(free, given), _numbers_of(given)
+    known = _numbers_of(given)
+    for name in free:
+        if name not in known:
+            raise BadInput(f"{name} cannot be free in a map of guides; {suggest(name, known)}")
+    if len(set(free)) < len(free) or not free:
+        raise BadInput("name what is free, each of it once")
+    chosen, numbers = list(free), known
     # all numbers come as lanes, so that one compiled function serves every case of a kind
     low, _, high, _ = periodic.extremes(wanted.work)
     lanes = numbers | {"low": low, "high": high, "omega": wanted.omega * choices.shaft_ratio}
@@ -120,16 +126,6 @@ def _numbers_of(given: dict[str, Record]) -> dict[str, float]:
         for f in dataclasses.fields(values)
         if isinstance(getattr(values, f.name), float) and f"{section}.{f.name}" != "guide.shaft_ratio"
     }
-
-
-def _checked(free: Sequence[str], given: dict[str, Record]) -> list[str]:
-    known = _numbers_of(given)
-    for name in free:
-        if name not in known:
-            raise BadInput(f"{name} cannot be free in a map of guides; {suggest(name, known)}")
-    if len(set(free)) < len(free) or not free:
-        raise BadInput("name what is free, each of it once")
-    return list(free)
 
 
 def _in_blocks(

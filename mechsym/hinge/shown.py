@@ -11,9 +11,9 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.hinge import plots
-from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.guide import Guide, setting_of, setting_text
 from mechsym.hinge.limits import ALL_KEPT, Verdict, at_angles
+from mechsym.hinge.plots import elastic_hinge
 from mechsym.hinge.result import Design, ripple_text
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_columns, guide_turn, hinge_columns
@@ -284,6 +284,12 @@ def write(design: Design, folder: Path, finish: Callable[[str], str] = str) -> l
 def html(design: Design, numbers: HingeNumbers, figures: dict[str, str]) -> str:
     """The report as text."""
     findings = ranked(of_design(design))
+    rows = []
+    for section, record in design.origin.sections.items():
+        for field in dataclasses.fields(record):
+            value = getattr(record, field.name)
+            if "unit" in field.metadata and isinstance(value, float):
+                rows.append((f"{section}.{field.name}", field.metadata["about"], field.metadata["unit"], value))
     return page(
         "hinge.html",
         case=design.origin,
@@ -295,20 +301,10 @@ def html(design: Design, numbers: HingeNumbers, figures: dict[str, str]) -> str:
         figures=figures,
         see={picture.name: picture.see for picture in pictures(design)},
         setting=partial(setting_text, design.guide.spring),
-        parameters=_parameters(design),
+        parameters=rows,
         equations=listing(design.machine.mechanism.name)["equations"],
         scenes=scenes(design),
         readouts=readouts(design),
         rules=rules(),
         degrees=180 / np.pi,
     )
-
-
-def _parameters(design: Design) -> list[tuple[str, str, str, float]]:
-    rows = []
-    for section, record in design.origin.sections.items():
-        for field in dataclasses.fields(record):
-            value = getattr(record, field.name)
-            if "unit" in field.metadata and isinstance(value, float):
-                rows.append((f"{section}.{field.name}", field.metadata["about"], field.metadata["unit"], value))
-    return rows

@@ -197,8 +197,11 @@ def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
 
     hinge: torque that the other speed needs. Raises BadInput: unknown criterion.
     """
-    parts, least = affine(guide, hinge), _least_setting(guide.spring)
-    near = max(_least_squares_work(parts), least)
+    # a spring only pushes: where the other speed asks for the opposite torque, the best setting would be negative
+    parts, least = affine(guide, hinge), (0.01 * setting_of(guide.spring) if guide.spring.gas else 0.0)
+    # the constant of the work is free
+    wanted, given = parts.work_wanted - parts.work_0, parts.work_1
+    near = max(_projection(wanted - wanted.mean(), given - given.mean()), least)
     match criterion:
         case "least_squares_torque":
             setting = max(_projection(parts.torque_wanted - parts.torque_0, parts.torque_1), least)
@@ -235,19 +238,8 @@ def at_setting(guide: Guide, hinge: Hinge, setting: float, criterion: str = "giv
     )
 
 
-def _least_setting(spring: Spring) -> float:
-    # a spring only pushes: where the other speed asks for the opposite torque, the best setting would be negative
-    return 0.01 * setting_of(spring) if spring.gas else 0.0
-
-
 def _projection(wanted: np.ndarray, given: np.ndarray) -> float:
     return float(np.dot(wanted, given) / np.dot(given, given))
-
-
-def _least_squares_work(parts: Affine) -> float:
-    # the constant of the work is free
-    wanted, given = parts.work_wanted - parts.work_0, parts.work_1
-    return _projection(wanted - wanted.mean(), given - given.mean())
 
 
 def _minimum(cost: Callable[[float], float], near: float) -> float:

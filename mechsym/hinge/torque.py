@@ -118,7 +118,9 @@ def hinge_of(torques: EngineTorques, omega: RadPerSecond, tol: Pure = 1e-12) -> 
         torques.period,
         tol,
     )
-    inertia_part, gas_part, gravity_part = (_part(parts, i) for i in range(3))
+    inertia_part, gas_part, gravity_part = (
+        scipy.interpolate.PPoly(parts.c[..., i].copy(), parts.x, extrapolate="periodic") for i in range(3)
+    )
     load_torque = -periodic.mean(gas_part)
     if abs(load_torque) <= tol * float(np.abs(parts.c[-1]).max()):  # what no gas drives has no load, only rounding
         load_torque = 0.0
@@ -150,7 +152,3 @@ def exists(torque: "scipy.interpolate.PPoly") -> bool:
     """Whether a spring can give a periodic torque [N*m]: its mean is below 1e-9 of the peak."""
     low, _, high, _ = periodic.extremes(torque)
     return abs(periodic.mean(torque)) <= _MEAN_TOLERANCE * max(abs(low), abs(high))
-
-
-def _part(parts: "scipy.interpolate.PPoly", i: int) -> "scipy.interpolate.PPoly":
-    return scipy.interpolate.PPoly(parts.c[..., i].copy(), parts.x, extrapolate="periodic")

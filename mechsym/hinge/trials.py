@@ -78,7 +78,14 @@ def with_real_hinge(problem: Problem, machine: Machine, hinge: RealHinge) -> Pro
     curves = tuple(_curve(q, rho.derivative(i) if i else rho) for i in range(3))
     parts = [replace(p, value=_torque(hinge)) if p.name == "hinge" else p for p in problem.parts]
     taken = tuple(Part(name=name, input="M_h", role="loss", value=value) for name, value in _friction(hinge).items())
-    kinks = _kinks(kinks_of(machine), rho, period_of(machine))
+    # where the gas is not smooth, on every turn of the guide, and where the rollers turn back
+    gas = kinks_of(machine)
+    period = period_of(machine)
+    own = float(rho.x[-1] - rho.x[0])
+    back = rho.derivative().roots(discontinuity=False, extrapolate=False)
+    once = np.concatenate([np.asarray(gas, dtype=float), back[np.isfinite(back)]]) % own
+    every = np.sort(np.concatenate([once + k * own for k in range(max(1, round(period / own)))]))
+    kinks = tuple(float(a) for i, a in enumerate(every) if i == 0 or a - every[i - 1] > _SAME)
     return replace(
         problem,
         parts=(*parts, *taken),
@@ -195,7 +202,8 @@ def _inertia(coordinate: str, hinge: RealHinge, rho: "scipy.interpolate.PPoly") 
     ratio = hinge.guide.parameters.shaft_ratio
     mass = hinge.guide.rollers * ratio**2 * hinge.rollers.moving_mass
     drho = rho.derivative()
-    squared = mass * (_square(rho.c) + _padded(_square(drho.c) / ratio**2, 2))
+    c = _square(drho.c) / ratio**2
+    squared = mass * (_square(rho.c) + np.vstack([np.zeros((2, c.shape[1])), c]))
     poly = scipy.interpolate.PPoly(squared, rho.x, extrapolate="periodic")
     return _curve(coordinate, poly), _curve(coordinate, poly.derivative())
 
@@ -203,19 +211,6 @@ def _inertia(coordinate: str, hinge: RealHinge, rho: "scipy.interpolate.PPoly") 
 def _square(c: np.ndarray) -> np.ndarray:
     """Coefficients of the square of each piece, highest power first."""
     return np.stack([np.convolve(piece, piece) for piece in c.T], axis=1)
-
-
-def _padded(c: np.ndarray, rows: int) -> np.ndarray:
-    return np.vstack([np.zeros((rows, c.shape[1])), c])
-
-
-def _kinks(gas: tuple[float, ...], rho: "scipy.interpolate.PPoly", period: float) -> tuple[float, ...]:
-    """Where the gas is not smooth, on every turn of the guide, and where the rollers turn back."""
-    own = float(rho.x[-1] - rho.x[0])
-    back = rho.derivative().roots(discontinuity=False, extrapolate=False)
-    once = np.concatenate([np.asarray(gas, dtype=float), back[np.isfinite(back)]]) % own
-    every = np.sort(np.concatenate([once + k * own for k in range(max(1, round(period / own)))]))
-    return tuple(float(a) for i, a in enumerate(every) if i == 0 or a - every[i - 1] > _SAME)
 
 
 _ANGLES = 1440  # of a turn of the guide

@@ -12,13 +12,12 @@ from mechsym.codesign import loss, machines, scenarios
 from mechsym.codesign.certificate import floor, rollers_inertia
 from mechsym.codesign.front import cut_for_one, front, peers, ripple_map, springs_of, worth_it
 from mechsym.codesign.machines import hardware, point
-from mechsym.codesign.points import Point, bare_flywheel
+from mechsym.codesign.points import CoDesignSettings, Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import Count, counts, rank
 from mechsym.codesign.realise import RealisedNumbers, chosen, realise
 from mechsym.codesign.result import CoDesignResult
-from mechsym.codesign.settings import CoDesignSettings
-from mechsym.codesign.task import CoDesign, CoDesignTask
+from mechsym.codesign.task import CoDesignTask
 from mechsym.codesign.verify import Verified, spread, verify
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
@@ -137,17 +136,7 @@ def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -
         loads = points(case, dataclasses.replace(settings, curve="constant_speed", speeds=(full,), loads=shares))
         omega = np.linspace(0.9 * min(settings.speeds), 1.05 * max(*settings.speeds, full), _MAP)
         drawn = ripple_map(design, loads, omega, np.linspace(loads[0].load, loads[-1].load, _MAP))
-    return dataclasses.replace(
-        result,
-        scenarios=(*scenarios.table(design), *_changes(case, settings, design)),
-        spread=spread(design),
-        map=drawn,
-        misfire_floor=scenarios.misfire_flywheel(design, _HALF, 0.0) if design.status == "optimal" else None,
-    )
-
-
-def _changes(case: Case, settings: CoDesignSettings, design: CoDesign) -> list[scenarios.Scenario]:
-    """What else happens at the first and the last point."""
+    # what else happens at the first and the last point
     found = []
     for k in sorted({0, len(design.task.points) - 1}):
         place = machines.places(settings)[k]
@@ -156,7 +145,13 @@ def _changes(case: Case, settings: CoDesignSettings, design: CoDesign) -> list[s
             changed = dataclasses.replace(cycle, **{key: (1 - _SCAVENGE) * getattr(cycle, key)})
             lower = _point(case, settings, place, {"cycle": changed})
         found += scenarios.rows(design, k, lower)
-    return found
+    return dataclasses.replace(
+        result,
+        scenarios=(*scenarios.table(design), *found),
+        spread=spread(design),
+        map=drawn,
+        misfire_floor=scenarios.misfire_flywheel(design, _HALF, 0.0) if design.status == "optimal" else None,
+    )
 
 
 def settings_of(case: Case) -> CoDesignSettings:

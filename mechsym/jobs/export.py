@@ -94,22 +94,18 @@ def _splined(case: Case, problem: Problem) -> Problem:
             closed = closed_period(engine, {"omega": case.need("operation").speed})
             ends = closed.closes, closed.starts, closed.starts + closed.duration, closed.opens
             angles = tuple(sorted({round((a + fires) % period, 14) for a in ends for _, fires in starts}))
-            table = _table(part.value.value, angles, period)
+            # splines between its kinks: the cycle behind the force is a table too
+            edges = np.unique([0.0, *angles, period])
+            pieces = [_spline(part.value.value, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+            rows = np.concatenate([p.c for p in pieces], axis=1)
+            breaks = np.concatenate([*(p.x[:-1] for p in pieces), [period]])
+            table = scipy.interpolate.PPoly(rows, breaks, extrapolate="periodic")
             kinks.setdefault(part.value.coordinate, set()).update(angles)
             part = dataclasses.replace(part, value=dataclasses.replace(part.value, value=table, kinks=angles))
         parts.append(part)
     period = max(one.gas.pressure.period for one in acts)
     asked = tuple(Kinks(coordinate=q, angles=tuple(sorted(angles)), period=period) for q, angles in kinks.items())
     return dataclasses.replace(problem, parts=tuple(parts), kinks=asked)
-
-
-def _table(force: _Force, kinks: tuple[float, ...], period: float) -> "scipy.interpolate.PPoly":
-    """A gas force as splines between its kinks over its period [rad]: the cycle behind it is a table too."""
-    edges = np.unique([0.0, *kinks, period])
-    pieces = [_spline(force, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
-    rows = np.concatenate([p.c for p in pieces], axis=1)
-    breaks = np.concatenate([*(p.x[:-1] for p in pieces), [period]])
-    return scipy.interpolate.PPoly(rows, breaks, extrapolate="periodic")
 
 
 def _spline(force: _Force, first: float, last: float) -> "scipy.interpolate.PPoly":

@@ -21,11 +21,10 @@ from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces import balance as physics
 from mechsym.forces import driven, result, shown
 from mechsym.forces.balance import BalancedEngine, Shaken, Weight, amplitudes, length
-from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import NoRings
+from mechsym.forces.loads import orders
 from mechsym.forces.mains import MainShaft
-from mechsym.forces.result import Forces
-from mechsym.forces.shaking import orders
+from mechsym.forces.result import ComparisonSettings, Forces, compare
 from mechsym.forces.summary import ForceNumbers, summary
 from mechsym.forces.turn import Turn
 from mechsym.jobs.gas import of

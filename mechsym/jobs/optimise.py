@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mechsym import budget
 from mechsym.cases import Case, load, locate
 from mechsym.cases.needs import require
 from mechsym.cycle.columns import UNITS
@@ -33,6 +34,7 @@ from mechsym.optimise.solver import (
 from mechsym.quantities.display import without_unit
 from mechsym.quantities.results import Columns
 
+_SECONDS = 5.0  # that the best design takes by its gradient, of a processor: measured 1 to 2 s [s]
 # SI unit and size of what the columns of `mechsym cycle` are in
 _SI = {
     "g/(kW*h)": ("kg/J", 1 / 3.6e9),
@@ -155,6 +157,9 @@ def optimise(case: Case) -> Optimised:
     """
     require(case, "optimise")
     section: Optimise = case.need("optimise")
+    solves = math.prod(map(len, section.choices.values())) * (section.points + 1 if section.against else 1)
+    what = f"finding {solves:g} best design{'s' * (solves > 1)}"
+    budget.require(what, _SECONDS * solves, 0.0, "give fewer words or [optimise] points")
     if not section.choices:
         return _one(case)
     tried = []

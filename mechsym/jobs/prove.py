@@ -20,7 +20,8 @@ from mechsym.jobs.machine import machine
 from mechsym.jobs.problem import problem_of
 from mechsym.machine.record import acting, shaft_torque
 from mechsym.mechanisms.own import is_file
-from mechsym.mechanisms.record import Mechanism, bind, evaluate, generated, listing, velocities
+from mechsym.mechanisms.record import bind, evaluate, generated, listing, velocities
+from mechsym.proof.balls import outward
 from mechsym.proof.enclosure import EnclosureMethod
 from mechsym.proof.motion import MOST, Passed, balls_of, digits, enclose, half_widths, method_for, task_of
 from mechsym.proof.outputs import ProvenRounding, of_guides, of_mechanism, rounding, units_of, widened
@@ -175,7 +176,14 @@ def motion_of(
     symbols = {name: ca.SX.sym(name) for name in problem.mechanism.parameters}
     open_ = bind(case.mechanism, symbols)
     values = {name: float(v) for name, v in problem.mechanism.parameters.items()}
-    _require_same(case, problem, bind(case.mechanism, values))
+    # refuse a run whose mechanism is more than its declaration: a flywheel, the torque of a hinge
+    plain = bind(case.mechanism, values)
+    if plain.inputs != problem.mechanism.inputs:
+        raise BadInput(f"{case.file}: [drive] or [spring] adds an input to {plain.name}; it cannot be enclosed with it")
+    at = [0.3 + 0.1 * k for k in range(plain.functions["dynamics"].n_in())]
+    pairs = zip(*(m.functions["dynamics"].call(at) for m in (plain, problem.mechanism)), strict=True)
+    if any(np.abs(np.asarray(a - b)).max() > 0 for a, b in pairs):
+        raise BadInput(f"{case.file}: a section adds inertia to {plain.name}; put it into the parameters to enclose it")
     task = task_of(problem, open_, values)
     until = t_end or problem.t_end
     needed = digits(task, until, _WIDTH)
@@ -188,16 +196,6 @@ def motion_of(
     passed = enclose(task, method, Fraction(repr(float(until))), out, progress)
     states = (*problem.mechanism.coordinates, *velocities(problem.mechanism))
     return _told(case, problem, states, passed, (method, needed), window)
-
-
-def _require_same(case: Case, problem: Problem, plain: Mechanism) -> None:
-    """Refuse a run whose mechanism is more than its declaration: a flywheel, the torque of a hinge."""
-    if plain.inputs != problem.mechanism.inputs:
-        raise BadInput(f"{case.file}: [drive] or [spring] adds an input to {plain.name}; it cannot be enclosed with it")
-    at = [0.3 + 0.1 * k for k in range(plain.functions["dynamics"].n_in())]
-    pairs = zip(*(m.functions["dynamics"].call(at) for m in (plain, problem.mechanism)), strict=True)
-    if any(np.abs(np.asarray(a - b)).max() > 0 for a, b in pairs):
-        raise BadInput(f"{case.file}: a section adds inertia to {plain.name}; put it into the parameters to enclose it")
 
 
 def _told(
@@ -228,11 +226,15 @@ def _told(
     startup = case.sections.get("startup")
     claim, since = getattr(startup, "claim_speed", None), getattr(startup, "claim_time", None) or 0.0
     never = claim is not None and times[inside][-1] >= since and not mean[0] <= claim <= mean[1]
+
+    def between(low: float, high: float) -> str:
+        return f"[{outward(low, 6, False)}, {outward(high, 6)}]"
+
     statement = (
-        f"with the decimals of {case.name} every solution has {speeds[0]} within [{of_all[0]:.6g}, {of_all[1]:.6g}] "
+        f"with the decimals of {case.name} every solution has {speeds[0]} within {between(*of_all)} "
         f"{units[speeds[0]]} from {begins[inside][0]:g} to {times[inside][-1]:g} s, its mean over each second in "
-        f"[{mean[0]:.6g}, {mean[1]:.6g}]{f': never in steady motion at {claim:g}' if never else ''}; at "
-        f"{times[-1]:g} s the state is known to +-{max(half_widths(passed[-1].at)[:n]):.1g} in its coordinates"
+        f"{between(*mean)}{f': never in steady motion at {claim:g}' if never else ''}; at "
+        f"{times[-1]:g} s the state is known to +-{outward(max(half_widths(passed[-1].at)[:n]), 2)} in its coordinates"
     )
     return ProvenMotion(
         subject=case.name, t=tuple(times.tolist()), lower=columns(ends[:, :, 0]), upper=columns(ends[:, :, 1]),

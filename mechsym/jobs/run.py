@@ -6,6 +6,9 @@ import math
 from dataclasses import asdict, replace
 from typing import Annotated
 
+import numpy as np
+import scipy
+
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.cases.facts import facts_of
@@ -22,13 +25,15 @@ from mechsym.jobs.cycle import engine
 from mechsym.jobs.flywheel import shaft
 from mechsym.jobs.forces import vibration
 from mechsym.jobs.gas import at_recorded_speed, firing, gas, one_cylinder
-from mechsym.jobs.machine import load_input, mechanism_of, turning
+from mechsym.jobs.machine import constants, load_input, mechanism_of, turning
 from mechsym.jobs.problem import beyond, problem_of, window_of
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, TableLoad, settle
+from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.roles import ShaftRole
 from mechsym.mechanisms.shaft import elastic as shaft_of
+from mechsym.quantities.display import quantity_text
 from mechsym.simulate import Result, Settings, simulate, simulate_many
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.constrained import LOCKED
@@ -52,6 +57,9 @@ from mechsym.torsion.twist import (
     twist_words,
     words,
 )
+
+_CAM_POINTS = 20_000  # at which the force on a cam is looked at
+_HELD = 1e-6  # of its largest: what is further below 0 is no rounding
 
 
 def in_loop(case: Case) -> bool:
@@ -155,6 +163,7 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
             f"the shaft stops at t = {result.t[-1]:.4g} s, {engine.coordinate} = {where:.1f} deg: what it stores does "
             "not carry it over compression and load; raise flywheel.inertia or simulation.speed_start, or lower [load]"
         )
+    lines += _lifted(case, result)
     doubted = of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
     return FinishedRun(
         case=case.name, backend=settings.backend, tolerance=settings.tolerance, result=result, summary=numbers,
@@ -163,6 +172,27 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         start_up=tuple(start_numbers(s) for s in starts), start_ups=starts, vibration=train, settling=settles,
         engine=engine, doubts=doubted + (doubts(train, twist) if train else ()), findings=tuple(lines),
     )  # fmt: skip
+
+
+def _lifted(case: Case, result: Result) -> list[str]:
+    """Cams whose follower is held, where the run pulls it: it would have left the cam."""
+    cams = [cam for cam in mechanisms.roles_of(case.mechanism).cams if cam.force]
+    mechanism = mechanism_of(case) if cams and result.dense is not None else None
+    if mechanism is None or result.dense is None:
+        return []
+    t = np.linspace(result.t[0], result.t[-1], min(50 * result.steps, _CAM_POINTS))
+    at = dict(result.dense(t)) | constants(case)
+    for q in mechanism.coordinates:
+        at[f"{q}dd"] = scipy.interpolate.CubicSpline(t, at[f"{q}d"])(t, 1)
+    reactions = mechanism.functions["reactions"]
+    forces = along(reactions, {n: at[n] for n in reactions.name_in() if n in at})
+    pulled = ((cam.name, forces[cam.force]) for cam in cams)
+    return [
+        f"the follower of the cam {name} would lift off at t = {t[int(np.argmax(force < 0))]:.4g} s: it is held by up "
+        f"to {quantity_text(-float(force.min()), 'N', 4)}; declare the cam with restitution= to see it fly"
+        for name, force in pulled
+        if force.min() < -_HELD * np.abs(force).max()
+    ]
 
 
 def _engine(case: Case, numbers: RunNumbers, period: float) -> EngineSpeed | None:

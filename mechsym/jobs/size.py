@@ -22,16 +22,14 @@ from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import RPM, record
 from mechsym.quantities.units import Array, RadPerSecond
 from mechsym.sizing.checks import unsafe
-from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, wear
-from mechsym.sizing.crosshead import checks as crosshead_checks
+from mechsym.sizing.crank_design import Pressures, pressures_over
 from mechsym.sizing.hypocycloid import checks as rules
-from mechsym.sizing.hypocycloid import masses
-from mechsym.sizing.hypocycloid.engine import Parts, Stock
-from mechsym.sizing.hypocycloid.masses import PlanetDrive, hypocycloid_forces
-from mechsym.sizing.pressures import Pressures, pressures_over
+from mechsym.sizing.hypocycloid import engine as hypocycloid
+from mechsym.sizing.hypocycloid.engine import Parts, PlanetDrive, Stock, hypocycloid_forces
 from mechsym.sizing.rows import SizeRow, Sizing, check_rows, fact, size_rows
 from mechsym.sizing.rules import bearings, materials
-from mechsym.sizing.slider_crank import size_slider_crank, slider_crank_forces
+from mechsym.sizing.slider_crank import CrossheadLoads, CrossheadPart, size_slider_crank, slider_crank_forces, wear
+from mechsym.sizing.slider_crank import checks as crosshead_checks
 from mechsym.sizing.wants import Wants
 
 
@@ -93,11 +91,11 @@ def check_printed(case: Case) -> Sizing:
     reference = printed_parts(one.case)
     # the printed engine takes its torque off at the output shaft set only
     wants = dataclasses.replace(one.wants, take_off="one_end")
-    moving = masses.moving_printed(reference, one.stock)
+    moving = hypocycloid.moving_printed(reference, one.stock)
     drive = planet_of(one.case)
     forces = hypocycloid_forces(gas_of(one), drive)(moving)
     checks = rules.check_all(reference.parts, forces, wants, one.stock)
-    mass = masses.total_mass_printed(reference, one.stock)
+    mass = hypocycloid.total_mass_printed(reference, one.stock)
     rows = rules.part_rows(reference.parts, "as printed") + check_rows(checks)
     power = _power(one, forces.omega.max())
     rows += rules.engine_rows(reference.parts, forces, moving, mass, power, one.wants, one.stock, drive.moving)
@@ -109,8 +107,8 @@ def _hypocycloid(one: Task) -> Sizing:
     reference, wants, stock = printed_parts(one.case), one.wants, one.stock
     drive = planet_of(one.case)
     forces_of = hypocycloid_forces(gas_of(one), drive)
-    found = rules.size_hypocycloid(forces_of, reference, masses.moving_printed(reference, stock), wants, stock)
-    mass, power = masses.total_mass(found.parts, reference, wants, stock), _power(one, found.forces.omega.max())
+    found = rules.size_hypocycloid(forces_of, reference, hypocycloid.moving_printed(reference, stock), wants, stock)
+    mass, power = hypocycloid.total_mass(found.parts, reference, wants, stock), _power(one, found.forces.omega.max())
     rows = rules.part_rows(found.parts, "sized") + check_rows(found.checks)
     rows += rules.mass_rows(found.parts, reference, wants, stock)
     rows += rules.engine_rows(found.parts, found.forces, found.moving, mass, power, wants, stock, drive.moving)
@@ -168,11 +166,11 @@ def gas_of(one: Task) -> Pressures:
     return pressures_over(one.machine, speeds(one), one.wants.heat_share)
 
 
-def printed_parts(case: Case) -> masses.PrintedMasses:
+def printed_parts(case: Case) -> hypocycloid.PrintedMasses:
     """Parts that a case prints, with their masses, for the mass model. Raises BadInput: a section is missing."""
     parts = Parts(piston=case.need("part_piston"), cylinder=case.need("part_cylinder"), gears=case.need("part_gears"),
                   crank=case.need("part_crank"), bearings=case.need("part_bearings"))  # fmt: skip
-    return masses.PrintedMasses(
+    return hypocycloid.PrintedMasses(
         parts=parts, masses=case.need("part_masses"), bore=case.need("chamber").bore, e=planet_of(case).e
     )
 

@@ -21,9 +21,9 @@ import numpy as np
 import scipy
 
 from mechsym.errors import BadInput, suggest
+from mechsym.files.tables import numbers_of, split_table, text_of
 from mechsym.quantities import parse, quantity, record
 from mechsym.quantities.units import Pure, RadPerSecond
-from mechsym.tables import numbers_of, split_table, text_of
 
 Function = Callable[[np.ndarray], np.ndarray]
 

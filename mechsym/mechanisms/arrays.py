@@ -34,7 +34,7 @@ def over_arrays(function: ca.Function, count: int) -> Callable[..., np.ndarray] 
     """A function as numpy's, where that is quicker: arrays (n,) and numbers to an array (outputs, n); else None."""
     if count < _MANY:
         return None
-    from mechsym.native.fallback import arrays  # who asks for one state does not load it
+    from mechsym.native.evaluate import arrays  # who asks for one state does not load it
 
     return arrays(function)
 

@@ -1,8 +1,8 @@
 """Mechanisms of the user's own: `./scotch.py`, `./scotch.py:NAME`, or a name that an installed package brings.
 
 The code of a file is derived once and kept in the user's cache by the content of the file, of all that it imports from
-beside it (see `mechsym.inputs.sources`) and of the derivation core; sympy is needed only then. The record of parameters
-is made from the declaration.
+beside it (see `mechsym.files.inputs.sources`) and of the derivation core; sympy is needed only then. The record of
+parameters is made from the declaration.
 A package brings mechanisms by the entry point group `mechsym.mechanisms`: name = "package.module", a module with a
 declaration. Such a file runs as code of the user's own.
 """
@@ -21,11 +21,11 @@ from typing import TYPE_CHECKING, TypedDict
 
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import write_bytes, write_text
-from mechsym.inputs import sources
+from mechsym.files.inputs import sources
+from mechsym.files.trust import refuse_foreign
 from mechsym.mechanisms.amounts import amount
 from mechsym.quantities import check, quantity, record
 from mechsym.quantities.records import Field, Record
-from mechsym.trust import refuse_foreign
 
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
@@ -221,7 +221,7 @@ def _stored(folder: Path, key: str) -> "Derived | None":
 
 
 def permit(path: Path) -> None:
-    """Refuse a file that may not be run, see `mechsym.trust`; what an installed package brings, may."""
+    """Refuse a file that may not be run, see `mechsym.files.trust`; what an installed package brings, may."""
     if path not in {_parts(name)[0].resolve() for name in brought()}:
         refuse_foreign(path)
 

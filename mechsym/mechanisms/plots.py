@@ -4,13 +4,17 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.mechanisms.drawing import Circle, Shapes, extent_of, shapes
+from mechsym.mechanisms import constraints, own
+from mechsym.mechanisms.drawing import Circle, Shapes, declared, extent_of, shapes
+from mechsym.mechanisms.drawn_parts import turns_round
+from mechsym.mechanisms.record import bind
 from mechsym.mechanisms.turning import STYLES, ordered, rules, scene
 from mechsym.page import page
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Metre, Radian
-from mechsym.style import INK, axis_unit
+from mechsym.style import INK, axis_unit, svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,3 +75,23 @@ def animation(mechanism: str, parameters: Record, title: str, bore: float | None
 def turning_page(scenes: Sequence[Json], title: str) -> str:
     """A page in which scenes turn."""
     return page("mechanism.html", title=title, scenes=scenes, readouts=[], rules=rules())
+
+
+def assembled(name: str) -> tuple[str, str]:
+    """Name and drawing (SVG) of a mechanism of a file in its pose, with the paths of what it watches if it turns round.
+
+    Raises BadInput: a letter has no value in the file, or nothing is drawn.
+    """
+    said = own.load(name).listing
+    sizes, pose = said.get("ranges", {}), said.get("pose", {})
+    if unsaid := [p for p in said["parameters"] if "default" not in sizes.get(p, {})]:
+        why = f"a drawing needs sizes, and {', '.join(unsaid)} have no value in the file"
+        raise BadInput(f"{name}: {why}; give them a default=, or write the report of a case")
+    mechanism = bind(name, {p: float(sizes[p]["default"]) for p in said["parameters"]})
+    places = constraints.close(mechanism, pose) if mechanism.dependents else pose
+    at = [float(places.get(q, 0.0)) for q in mechanism.coordinates]
+    turning = declared(mechanism, said)
+    drawn = turning if turning and turns_round(turning) else declared(mechanism, said, lambda _: at)
+    if drawn is None:
+        raise BadInput(f"{name} has nothing to draw; give it links and joints, or m.draw_line")
+    return said["name"], svg(figure_of(drawn, at[0]), said["name"])

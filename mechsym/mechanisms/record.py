@@ -135,7 +135,7 @@ def _named(name: str, bound: Mechanism) -> Mechanism:
     """A mechanism with what its listing says beside the code: units, and names as they are told."""
     known, shown = listing(name), dict[str, str]()
     for point in known.get("watched", ()):
-        of_point = re.compile(rf"(d\d*)?{point}_([xy])((?:_d.*)?)")
+        of_point = re.compile(rf"(d\d*)?{point}_([xyz])((?:_d.*)?)")
         matches = ((n, of_point.fullmatch(n)) for n in known["outputs"])
         shown |= {n: f"{point}.{m[1] or ''}{m[2]}{m[3]}" for n, m in matches if m}
     undetermined = tuple(known.get("undetermined", ()))

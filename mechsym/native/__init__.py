@@ -2,7 +2,7 @@
 
 tape.py       a CasADi function as plain instructions, and cheaper forms of it
 kernels.py    equal parts rolled into loops                  source.py    C text
-evaluate.py   scalar and batch calls, derivatives            fallback.py  the same without a compiler
+evaluate.py   scalar and batch calls, derivatives; the same without a compiler
 cache.py      compiled files, checked before use             arc.py       motion along the arc length of each angle
 adams.py      steps that look back, in lanes                 c/adams.h    their control
 integrate.py  runs in time: DOP853 in lanes, collocation

@@ -16,7 +16,7 @@ import casadi as ca
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from mechsym.native import fallback
+from mechsym.native import evaluate
 from mechsym.native.tape import ANALYTIC, read
 from mechsym.quantities import record
 
@@ -160,7 +160,7 @@ def arcs(of: Form, held: bytes, shape: tuple[int, int, int]) -> Arcs | None:
 
 
 def _batch(function: object) -> Callable[..., Array]:
-    batch = fallback.arrays(function)
+    batch = evaluate.arrays(function)
     assert batch is not None  # elementary, as the rates are
     return batch
 

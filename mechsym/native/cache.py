@@ -23,7 +23,7 @@ from pathlib import Path
 from types import ModuleType
 
 from mechsym.files import user_cache
-from mechsym.native import cache, compiler
+from mechsym.native import compiler
 from mechsym.quantities import record
 from mechsym.transaction import hidden, sweep_up
 
@@ -197,7 +197,7 @@ def info() -> Info:
         program = compiler.find()
     except compiler.NoCompiler as error:
         reason = str(error)
-    files = cache.contents()
+    files = contents()
     return Info(
         route="C" if program else "numpy",
         reason=reason,
@@ -206,7 +206,7 @@ def info() -> Info:
         flags={mode: compiler.flags(mode) for mode in compiler.MODES},
         processor=compiler.processor(),
         python_header=compiler.python_header(),
-        cache=str(cache.directory()),
+        cache=str(directory()),
         files=len(files),
         size=sum(p.stat().st_size for p in files),
     )

@@ -150,22 +150,18 @@ def call(command: Sequence[str], what: str, target: Path, folder: Path | None = 
     except subprocess.TimeoutExpired:
         raise NoCompiler(f"{name} did not end in {PATIENCE:g} s; {other}") from None
     finally:
-        _end(process)
+        # end a process that runs still, and those that it started
+        if process.poll() is None:
+            with contextlib.suppress(ProcessLookupError):
+                if os.name == "posix":
+                    os.killpg(process.pid, signal.SIGKILL)
+                process.kill()
+            process.wait()
+        if process.stderr:
+            process.stderr.close()
         interrupts.groups.discard(process.pid)
     if process.returncode:
         lines = [line for line in said.splitlines() if "error" in line] or said.splitlines() or ["no word"]
         raise NoCompiler(f"{name} failed on {what}: {lines[0].strip()}")
     if not target.is_file():
         raise NoCompiler(f"{name} says that it is done, and made nothing; {other}")
-
-
-def _end(process: "subprocess.Popen[str]") -> None:
-    """End a process that runs still, and those that it started."""
-    if process.poll() is None:
-        with contextlib.suppress(ProcessLookupError):
-            if os.name == "posix":
-                os.killpg(process.pid, signal.SIGKILL)
-            process.kill()
-        process.wait()
-    if process.stderr:
-        process.stderr.close()

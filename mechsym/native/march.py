@@ -11,7 +11,7 @@ import casadi
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.native import cache, fallback, integrators, source
+from mechsym.native import cache, evaluate, integrators, source
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.kernels import constant_table, cut, whole
 from mechsym.native.source import Program, header, preamble, program
@@ -58,7 +58,7 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
     except NoCompiler as error:
         _LOG.warning("numpy instead of C: %s", error)
         advance = _interpreted(turn)
-    before = fallback.numpy_function(once)
+    before = evaluate.numpy_function(once)
 
     def march(start: np.ndarray, stages: np.ndarray, lanes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         state = np.array(start, dtype=float, order="C")
@@ -107,7 +107,7 @@ def _compiled(turn: Tape, sizes: tuple[int, int, int], mode: str) -> Callable[..
 
 
 def _interpreted(turn: Tape) -> Callable[..., None]:
-    run = fallback.numpy_function(turn)
+    run = evaluate.numpy_function(turn)
 
     def advance(state: np.ndarray, stages: np.ndarray, lanes: np.ndarray, record: np.ndarray) -> None:
         following = np.empty_like(state)
@@ -163,7 +163,17 @@ def folder(rate: casadi.Function, method: Method, mode: str = "fast") -> Fold:
     rates = program(rate, mode)
     integrators.sizes(rates)
     try:
-        return _compiled_fold(rates, method, mode)
+        loaded = cache.load(fold_text(rates, method), mode)
+        constants = np.repeat(constant_table(rates.kernels)[:, None], _LANES, axis=1)
+
+        def fold(start: np.ndarray, held: np.ndarray, steps: int) -> np.ndarray:
+            start, held = (np.ascontiguousarray(a, dtype=float) for a in (start, held))
+            history = np.empty((steps, *start.shape))
+            places = [ctypes.c_void_p(a.ctypes.data) for a in (constants, start, held, history)]
+            loaded.ms_fold(ctypes.c_long(steps), ctypes.c_long(start.shape[1]), *places)
+            return history
+
+        return fold
     except NoCompiler as error:
         _LOG.warning("numpy instead of C: %s", error)
         return _interpreted_fold(rates, method)
@@ -182,22 +192,8 @@ def fold_text(rates: Program, method: Method) -> str:
     return "\n".join([integrators.system(rates, _LANES), *numbers, header("fold.h")])
 
 
-def _compiled_fold(rates: Program, method: Method, mode: str) -> Fold:
-    loaded = cache.load(fold_text(rates, method), mode)
-    constants = np.repeat(constant_table(rates.kernels)[:, None], _LANES, axis=1)
-
-    def fold(start: np.ndarray, held: np.ndarray, steps: int) -> np.ndarray:
-        start, held = (np.ascontiguousarray(a, dtype=float) for a in (start, held))
-        history = np.empty((steps, *start.shape))
-        places = [ctypes.c_void_p(a.ctypes.data) for a in (constants, start, held, history)]
-        loaded.ms_fold(ctypes.c_long(steps), ctypes.c_long(start.shape[1]), *places)
-        return history
-
-    return fold
-
-
 def _interpreted_fold(rates: Program, method: Method) -> Fold:
-    run = fallback.numpy_function(rates.tape)
+    run = evaluate.numpy_function(rates.tape)
 
     def fold(start: np.ndarray, held: np.ndarray, steps: int) -> np.ndarray:
         history, y, h = np.empty((steps, *start.shape)), np.array(start, dtype=float), 1 / steps

@@ -100,28 +100,24 @@ def read(function: casadi.Function) -> Tape:
     a sparse output that are not stored are zero.
     """
     if not function.is_a("SXFunction"):
-        function = _expanded(function)
+        try:
+            expanded = function.expand()
+            calls = [k for k in range(expanded.n_instructions()) if expanded.instruction_id(k) == casadi.OP_CALL]
+            reason = "it calls another function"
+        except RuntimeError as error:
+            calls, reason = [-1], str(error).strip().splitlines()[-1]
+        if calls:
+            raise BadInput(
+                f"function {function.name()} cannot be written as elementary operations ({reason}); "
+                "build it from SX expressions"
+            )
+        function = expanded
     ins = [(function.name_in(i), function.numel_in(i)) for i in range(function.n_in())]
     outs = [(function.name_out(i), function.numel_out(i)) for i in range(function.n_out())]
     nodes, results = prune(*_renamed(function, [n for _, n in ins], [n for _, n in outs]))
     return Tape(
         name=function.name(), inputs=_names(ins), outputs=_names(outs), nodes=tuple(nodes), results=tuple(results)
     )
-
-
-def _expanded(function: casadi.Function) -> casadi.Function:
-    try:
-        expanded = function.expand()
-        calls = [k for k in range(expanded.n_instructions()) if expanded.instruction_id(k) == casadi.OP_CALL]
-        reason = "it calls another function"
-    except RuntimeError as error:
-        calls, reason = [-1], str(error).strip().splitlines()[-1]
-    if calls:
-        raise BadInput(
-            f"function {function.name()} cannot be written as elementary operations ({reason}); "
-            "build it from SX expressions"
-        )
-    return expanded
 
 
 def _renamed(function: casadi.Function, inputs: list[int], outputs: list[int]) -> tuple[list[Node], list[int]]:

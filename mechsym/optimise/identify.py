@@ -38,7 +38,7 @@ from mechsym.optimise.fit import (
 from mechsym.optimise.trace import Trace
 from mechsym.plausible import Doubt
 from mechsym.quantities.results import part, quantity, result
-from mechsym.quantities.units import Array, RadPerSecond, Second
+from mechsym.quantities.units import Array, RadPerSecond
 
 _DURBIN = 3.0  # standard errors by which the statistic of white noise may miss 2
 _EXACT = 1e-6  # of the speed, below which what is left over is rounding
@@ -173,7 +173,9 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
 
     Raises BadInput: the trace is too short for them, or does not determine one of them.
     """
-    seen = _seen_poses(model)
+    # whether the equations of motion hold each coordinate: where a rotor starts, its speed does not know
+    held = _columns_in(model, 0)
+    seen = [k in held for k in range(len(model.velocities))]
     count = sum(map(len, trace.speeds.values()))
     unknown = len(model.names) + len(model.velocities) + sum(seen)
     if count < 10 * unknown:
@@ -184,7 +186,15 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
     angles = [k * 2 * math.pi / _STARTS for k in range(_STARTS if angular else 1)]
     longest = _longest(model, trace, angles)
     require_plausible(model, trace, angles, longest)
-    most = _evaluations(model, trace, longest, len(angles))
+    # how often a fit may solve its linear system; refused where it takes longer or more memory than its budget
+    starts = len(angles)
+    intervals, states = (float(trace.t[-1] - trace.t[0]) / longest, 2 * len(model.velocities))
+    columns = len(model.names) + states + 1
+    numbers = intervals * (DEGREE + 1) * states * columns
+    seconds, size = _PER_NUMBER * numbers * starts, 8 * _COPIES * numbers
+    what = f"{trace.file}: a fit over about {intervals:.3g} intervals"
+    budget.require(what, seconds, size, "give a shorter stretch of the trace")
+    most = round(max(_NUMBERS / numbers, _EACH_START * starts) * budget.allowed().seconds / budget.Budget().seconds)
     task = TraceTask(model, trace, grid(trace.t, model.breaks, longest), round(_FOR_STARTS * most))
     near = [place for angle in angles if (place := approach(task, angle)) is not None]
     fits = sorted((fit for place in near if (fit := closest(task, *place)) is not None), key=lambda fit: fit.left)
@@ -210,12 +220,6 @@ def _columns_in(model: TracedMotion, number: int) -> set[int]:
     return set(ca.jacobian(model.rate(*inputs), inputs[number]).sparsity().get_col())
 
 
-def _seen_poses(model: TracedMotion) -> list[bool]:
-    """Whether the equations of motion hold each coordinate: where a rotor starts, its speed does not know."""
-    held = _columns_in(model, 0)
-    return [k in held for k in range(len(model.velocities))]
-
-
 def _require_seen(model: TracedMotion, trace: Trace) -> None:
     """Refuse parameters that are in no equation of motion."""
     held = _columns_in(model, 2)
@@ -223,17 +227,6 @@ def _require_seen(model: TracedMotion, trace: Trace) -> None:
     if unseen:
         why = f"no motion shows {', '.join(unseen)}: the equations of motion do not hold it"
         raise BadInput(f"{trace.file}: {why}; leave it out of --free")
-
-
-def _evaluations(model: TracedMotion, trace: Trace, longest: Second, starts: int) -> int:
-    """How often a fit may solve its linear system; refused where it takes longer or more memory than its budget."""
-    intervals, states = (float(trace.t[-1] - trace.t[0]) / longest, 2 * len(model.velocities))
-    columns = len(model.names) + states + 1
-    numbers = intervals * (DEGREE + 1) * states * columns
-    seconds, size = _PER_NUMBER * numbers * starts, 8 * _COPIES * numbers
-    what = f"{trace.file}: a fit over about {intervals:.3g} intervals"
-    budget.require(what, seconds, size, "give a shorter stretch of the trace")
-    return round(max(_NUMBERS / numbers, _EACH_START * starts) * budget.allowed().seconds / budget.Budget().seconds)
 
 
 def _longest(model: TracedMotion, trace: Trace, angles: list[float]) -> float:
@@ -341,7 +334,20 @@ def _distance(task: TraceTask, fit: ClosestMotion, number: int, far: float, leas
     for _ in range(_TRIALS):
         if task.spent:  # a trial that was not finished bounds nothing
             return outer[0] if math.isfinite(outer[1]) else math.inf
-        there = _held(task, here, number, float(fit.theta[number]) + math.copysign(distance, far))
+        # the closest motion with one parameter held, from one nearby
+        model, theta = task.model, here.theta.copy()
+        move = ((float(fit.theta[number]) + math.copysign(distance, far)) - theta[number]) / model.size[number]
+        others = np.delete(np.arange(here.slopes.shape[1]), number)
+        columns, width = unit_columns(here.slopes[:, others])
+        step = np.zeros(here.slopes.shape[1])
+        step[number] = move
+        target = here.rest.ravel() - here.slopes[:, number] * move
+        step[others] = np.linalg.lstsq(columns, target, rcond=1e-7)[0] / width
+        theta = np.maximum(theta + step[: len(theta)] * model.size, model.low)
+        step[: len(theta)] = (theta - here.theta) / model.size
+        states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
+        motion = closest(task, states, theta, number)
+        there = motion if motion is not None and motion.status == "converged" else None
         growth = math.inf if there is None else math.sqrt(max(there.left - least, 0.0))
         if abs(growth - wide) < _CLOSE * wide or (growth < wide and distance >= room):
             return distance
@@ -355,20 +361,3 @@ def _distance(task: TraceTask, fit: ClosestMotion, number: int, far: float, leas
             share = (wide - inner[1]) / (outer[1] - inner[1]) if math.isfinite(outer[1]) else 0.5
             distance = inner[0] + min(max(share, 0.1), 0.9) * (outer[0] - inner[0])
     return outer[0]
-
-
-def _held(task: TraceTask, here: ClosestMotion, number: int, value: float) -> ClosestMotion | None:
-    """The closest motion with one parameter held, from one nearby."""
-    model, theta = task.model, here.theta.copy()
-    move = (value - theta[number]) / model.size[number]
-    others = np.delete(np.arange(here.slopes.shape[1]), number)
-    columns, width = unit_columns(here.slopes[:, others])
-    step = np.zeros(here.slopes.shape[1])
-    step[number] = move
-    target = here.rest.ravel() - here.slopes[:, number] * move
-    step[others] = np.linalg.lstsq(columns, target, rcond=1e-7)[0] / width
-    theta = np.maximum(theta + step[: len(theta)] * model.size, model.low)
-    step[: len(theta)] = (theta - here.theta) / model.size
-    states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
-    motion = closest(task, states, theta, number)
-    return motion if motion is not None and motion.status == "converged" else None

@@ -5,9 +5,11 @@ from pathlib import Path
 from mechsym.optimise.identify import Identified
 from mechsym.optimise.solver import Optimised
 from mechsym.page import Card, View, shows
-from mechsym.quantities.display import SMALLEST, quantity_text
+from mechsym.quantities.display import SMALLEST, key_words, quantity_text
 from mechsym.quantities.results import Columns
 from mechsym.style import BLUE, INK, QUIET, RED, axis_unit, legend, panels, write_picture
+
+SIDES = {"low": "at least", "high": "at most", "equal": "equal to"}  #: Of a limit
 
 
 @shows(Optimised)
@@ -17,11 +19,14 @@ def optimised_view(found: Optimised) -> View:
     cards = [
         Card(name="optimum", value=best.status, about=best.reason, mark="yes" if best.status == "optimal" else "no")
     ]
-    cards += [Card(name="objective", value=quantity_text(best.objective, best.unit), about=found.objective_name)]
-    cards += [Card(name=name, value=quantity_text(value, best.variables.units[name]))
+    cards += [
+        Card(name="objective", value=quantity_text(best.objective, best.unit), about=key_words(found.objective_name))
+    ]
+    cards += [Card(name=key_words(name), value=quantity_text(value, best.variables.units[name]))
               for name, value in best.variables.items()]  # fmt: skip
-    cards += [Card(name=f"limit {row.name}", value=f"{row.side} {quantity_text(row.limit, row.unit)}",
-                   about=row.meaning) for row in best.active]  # fmt: skip
+    for row in best.active:
+        limit = f"{SIDES[row.side]} {quantity_text(row.limit, row.unit)}"
+        cards.append(Card(name=f"limit: {key_words(row.name)}", value=limit, about=row.meaning))
     points, units = found.front or (best,), {**best.variables.units, "objective": best.unit, "status": ""}
     return View(title="Best design", cards=tuple(cards), columns=lambda: Columns({
         **{name: [p.variables[name] for p in points] for name in best.variables},

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.quantities import record
 from mechsym.quantities.units import exponents, scale
 
@@ -83,7 +83,13 @@ def read_trace(path: str | Path, velocities: Mapping[str, str], inputs: Mapping[
 
 
 def _table(file: str) -> tuple[list[str], np.ndarray]:
-    _require_small(file)
+    # refuse a file that only its size tells to be too long, before it is read
+    size = Path(file).stat().st_size if Path(file).is_file() else 0
+    if size > _LARGEST:
+        raise BadInput(
+            f"{file}: {size / 1e6:.0f} MB; at most {_LARGEST / 1e6:.0f} MB are read: keep every tenth sample, or a "
+            "shorter stretch (ten samples a turn or swing are enough)"
+        )
     text = read_text(file, way_out="give the path of a CSV file", encoding="utf-8-sig")
     lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and not line.startswith("#")]
     if len(lines) <= _FEWEST:
@@ -101,16 +107,6 @@ def _table(file: str) -> tuple[list[str], np.ndarray]:
                 f"{file}, line {n}: a value is not finite, or no measured one: {', '.join(row)}; leave such samples out"
             )
     return header, rows
-
-
-def _require_small(file: str) -> None:
-    """Refuse a file that only its size tells to be too long, before it is read."""
-    size = Path(file).stat().st_size if Path(file).is_file() else 0
-    if size > _LARGEST:
-        raise BadInput(
-            f"{file}: {size / 1e6:.0f} MB; at most {_LARGEST / 1e6:.0f} MB are read: keep every tenth sample, or a "
-            "shorter stretch (ten samples a turn or swing are enough)"
-        )
 
 
 def _check(file: str, t: np.ndarray, speeds: Mapping[str, np.ndarray]) -> None:

@@ -13,8 +13,11 @@ from mechsym.style import significant
 if TYPE_CHECKING:
     import jinja2
 
-_KEYED = re.compile(r"[A-Za-z][\w.]*(?= ?=)")  # a key before its value
-_NAMED = re.compile(r"(?<![\w./\\])[A-Za-z]\w*_\w+(?![\w(/]|\.[a-z])")  # a key, no file
+_KEYED = re.compile(r"([A-Za-z][\w.]*) ?= ?")  # a key before its value
+_NAMED = re.compile(  # a key, no file
+    r"(?<![\w./\\])[A-Za-z]\w*_\w+(?![\w(/]|\.[a-z])"
+    r"|(?<![\w./\\-])[a-z_]{3,}\.(?!(?:csv|json|toml|py|svg|html|md|dxf|fmu)\b)[A-Za-z]\w*(?![\w(/-]|\.\w)"
+)
 _SYMBOL = 3  # letters before its index
 _GREEK = {name.lower(): lookup(f"GREEK SMALL LETTER {name}") for name in
           ("ALPHA", "BETA", "GAMMA", "THETA", "PHI", "RHO", "OMEGA", "ETA", "MU", "TAU")}  # fmt: skip
@@ -48,7 +51,7 @@ def _environment() -> "jinja2.Environment":
     made.filters |= {
         "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "plain": pretty,
         "pretty": typeset, "pieces": pieces,
-        "words": key_words, "places": lambda text: _KEYED.sub(lambda found: key_words(found[0]), str(text)),
+        "words": key_words, "places": lambda text, said: _KEYED.sub(lambda found: f"{said(found[1])} = ", str(text)),
         "quantity": lambda value, unit, digits=5: typeset(quantity_text(value, unit, digits)),
     }  # fmt: skip
     return made
@@ -78,7 +81,9 @@ def _letter(found: re.Match[str]) -> str:
 
 def _set(found: re.Match[str]) -> str:
     base, _, index = found[0].partition("_")
-    return f"{base}<sub>{index.replace('_', ' ')}</sub>" if len(base) <= _SYMBOL else f"<code>{found[0]}</code>"
+    if "." in found[0] or len(base) > _SYMBOL:
+        return f"<code>{found[0]}</code>"
+    return f"{base}<sub>{index.replace('_', ' ')}</sub>"
 
 
 def pieces(mathml: str) -> list[str]:

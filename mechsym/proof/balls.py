@@ -1,5 +1,6 @@
 """Balls: a midpoint and a radius that hold the exact value, by python-flint's arb (real) and acb (complex)."""
 
+import decimal as decimals
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
@@ -33,6 +34,12 @@ def upper(ball: Ball) -> float:
     """A double [unit of the ball] that no absolute value in it is above; infinite where the ball is not finite."""
     size = float(ball.abs_upper()) * UP
     return size if size == size else float("inf")
+
+
+def outward(value: float, digits: int, up: bool = True) -> str:
+    """A bound [any unit] to some digits, above it, or below it where it is a lower one."""
+    rounding = decimals.ROUND_CEILING if up else decimals.ROUND_FLOOR
+    return f"{float(decimals.Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):g}"
 
 
 _EITHER: dict[str, Callable[..., Ball]] = {

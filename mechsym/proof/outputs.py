@@ -16,7 +16,7 @@ from mechsym.mechanisms.record import generated, listing
 from mechsym.native import compiled
 from mechsym.native.source import prepared
 from mechsym.native.tape import Tape
-from mechsym.proof.balls import Ball, arb, evaluate
+from mechsym.proof.balls import Ball, arb, evaluate, outward
 from mechsym.proof.rounding import VALUES, Rounded, bounds
 from mechsym.proof.sampled import Exact, errors, exact_function, points_in
 from mechsym.quantities import record
@@ -243,7 +243,7 @@ def rounding(
         samples=samples,
         holds=holds,
         statement=f"what the strict build of {name} returns in doubles is within its bound of the exact value, at most "
-        f"{largest:.2g} of the largest value of an output, for {words}"
+        f"{outward(largest, 2)} of the largest value of an output, for {words}"
         if holds
         else f"the code of {name} is not what was proven: a sample is beyond its bound",
         trusted=TRUSTED,

@@ -150,12 +150,6 @@ def dimension(unit: str) -> tuple[int, ...]:
     return _unit(unit)[1][:4]
 
 
-def _compatible(found: tuple[int, ...], wanted: tuple[int, ...]) -> bool:
-    # a torque per angle is written N*m/rad or N*m: the radian counts only where it stands alone or per second
-    angular = wanted[:4] in ((0, 0, 0, 0), (0, 0, -1, 0))
-    return found == wanted if angular else found[:4] == wanted[:4]
-
-
 def parse(value: object, unit: str, key: str = "value") -> float:
     """A number in SI [unit] from a number or a text with a unit.
 
@@ -201,6 +195,9 @@ def _scale(value: str, text: str, unit: str, key: str) -> float:
         factor, dims = _unit(text)
     except BadInput as error:
         raise BadInput(f"{key} = {shown(value)}: {error}") from None
-    if not _compatible(dims, _unit(unit)[1]):
+    wanted = _unit(unit)[1]
+    # a torque per angle is written N*m/rad or N*m: the radian counts only where it stands alone or per second
+    angular = wanted[:4] in ((0, 0, 0, 0), (0, 0, -1, 0))
+    if not (dims == wanted if angular else dims[:4] == wanted[:4]):
         raise BadInput(f"{key} = {shown(value)} has the wrong dimension; give it in {unit} or a multiple of that unit")
     return factor

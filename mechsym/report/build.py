@@ -4,10 +4,10 @@ import hashlib
 from collections.abc import Callable, Mapping, Sequence
 
 import mechsym
-from mechsym import cases, inputs
+from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.provenance import SourcedValue, sourced
-from mechsym.files import Json
+from mechsym.files import Json, inputs
 from mechsym.jobs.export import turning, with_gas
 from mechsym.jobs.measured import MeasuredDiagram
 from mechsym.mechanisms.plan import plan_of
@@ -100,8 +100,9 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
                 number, seen = number + 1, seen | {picture.name}
                 drawn = picture.draw()
                 width, height = drawn.get_size_inches()
-                figures.append({"number": number, "see": picture.see, "svg": svg(drawn, str(number)),
-                                "narrow": len(drawn.axes) == 1 and height > 0.75 * width})  # fmt: skip
+                high, one_panel = height > 0.75 * width, len(drawn.axes) == 1
+                shape = "narrow" if high and one_panel else "tall" if high else ""
+                figures.append({"number": number, "see": picture.see, "svg": svg(drawn, str(number)), "shape": shape})
             facts = [fact for fact in found.facts if fact not in told]
             told += facts
             parts.append({"part": found, "facts": facts, "figures": figures, "id": f"{found.name}-{place}"})

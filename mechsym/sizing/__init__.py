@@ -2,12 +2,10 @@
 
 wants.py          what a design must reach, and its parts: sections `[sizing]`, `[part_*]`
 rules/            one rule a function: gears, bearings, shafts, ..
-*_design.py       one part each: sizes and checks
-pressures.py      the cycle over the speeds
+*_design.py       one part each: sizes and checks; crank_design.py also the cycle over the speeds
 loads.py          from forces to gears and bearings
 hypocycloid/      an engine as a whole: its forces, masses, checks, and sizes to a fixed point
-slider_crank.py   the same for a slider crank
-crosshead.py      a crosshead drive held against its rules
+slider_crank.py   the same for a slider crank; a crosshead drive held against its rules
 checks.py         a part beside its limit
 rows.py           results as rows, and what of them is worth seeing
 drawing.py        the section view
@@ -21,11 +19,11 @@ from mechsym.quantities import lazily
 
 _NAMES = {
     "Check": "mechsym.sizing.checks:Check",
-    "Pressures": "mechsym.sizing.pressures:Pressures",
+    "Pressures": "mechsym.sizing.loads:Pressures",
     "Stock": "mechsym.sizing.hypocycloid.engine:Stock",
     "Wants": "mechsym.sizing.wants:Wants",
-    "hypocycloid_forces": "mechsym.sizing.hypocycloid.masses:hypocycloid_forces",
-    "pressures_over": "mechsym.sizing.pressures:pressures_over",
+    "hypocycloid_forces": "mechsym.sizing.hypocycloid.engine:hypocycloid_forces",
+    "pressures_over": "mechsym.sizing.crank_design:pressures_over",
     "size_hypocycloid": "mechsym.sizing.hypocycloid.checks:size_hypocycloid",
     "size_slider_crank": "mechsym.sizing.slider_crank:size_slider_crank",
     "slider_crank_forces": "mechsym.sizing.slider_crank:slider_crank_forces",

@@ -31,7 +31,13 @@ def require(
     >>> require("face width b", 0.039, "m", above=0, high=1.02)
     """
     # most are single numbers that are right, and a search asks for thousands
-    if isinstance(value, float) and _inside(value, above, low, below, high):
+    if isinstance(value, float) and (
+        math.isfinite(value)
+        and (above is None or value > above)
+        and (low is None or value >= low)
+        and (below is None or value < below)
+        and (high is None or value <= high)
+    ):
         return
     values = np.atleast_1d(np.asarray(value, dtype=float))
     inside = np.isfinite(values)
@@ -43,16 +49,6 @@ def require(
         bounds = allowed({"above": above, "low": low, "below": below, "high": high})
         text = f"{name} = {values[~inside][0]:g}{shown} is out of range; it must be {bounds or 'finite'}{shown}"
         raise BadInput(f"{text}; {hint}" if hint else text)
-
-
-def _inside(value: float, above: float | None, low: float | None, below: float | None, high: float | None) -> bool:
-    return (
-        math.isfinite(value)
-        and (above is None or value > above)
-        and (low is None or value >= low)
-        and (below is None or value < below)
-        and (high is None or value <= high)
-    )
 
 
 @record

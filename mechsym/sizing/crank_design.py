@@ -1,12 +1,20 @@
 """Piston, rod, cylinder, bolts, crankpin, webs, shafts: sizes for the loads of every speed, and their checks."""
 
 from collections.abc import Callable
+from dataclasses import fields
+from functools import partial
+from typing import Any
 
 import numpy as np
 
+from mechsym.cycle.chamber import chamber
+from mechsym.cycle.closed.model import ClosedEngine, closed_period
+from mechsym.cycle.closed.run import dense, run
+from mechsym.cycle.engine import over_speeds
 from mechsym.quantities import record
-from mechsym.quantities.units import Metre
+from mechsym.quantities.units import Array, Metre, Pure, RadPerSecond
 from mechsym.sizing.checks import Check, at_least, at_most, at_speed, round_up
+from mechsym.sizing.loads import over_period
 from mechsym.sizing.rules import crankshaft, piston
 from mechsym.sizing.rules.materials import Material, need
 from mechsym.sizing.rules.turning_shaft import (
@@ -24,6 +32,56 @@ from mechsym.sizing.wants import CrankPart, CylinderPart, PistonPart, Wants
 
 _SHOULDER = 1.2  # the output shaft's largest shoulder over its diameter
 _SHOULDER_FILLET = 0.1  # and its fillet over the diameter
+_STEPS = 720  # angles over a period of 4 pi; divisible by 4 for the teeth's returns
+
+
+@record
+class OverSpeeds:
+    """Speeds and angles at which loads are known, and the chamber that makes them."""
+
+    #: shape (k,), (n,): Crank speeds [rad/s], crank angles from firing top dead centre [rad]
+    omega: np.ndarray
+    theta: np.ndarray
+    dp_max: np.ndarray  #: shape (k,): Largest pressure above the surroundings [Pa]
+    #: Bore, stroke of one piston, distance of the heads (0 under a fixed head) [m], heat through a head [W]
+    bore: float
+    stroke: float
+    gap: float
+    head_heat: float
+
+    def shared(self) -> dict[str, Any]:
+        """All of this by name, for loads that come of it."""
+        return {field.name: getattr(self, field.name) for field in fields(OverSpeeds)}
+
+
+@record
+class Pressures(OverSpeeds):
+    """Pressure over the period at every speed."""
+
+    net: np.ndarray  #: shape (k, n): Gas force on a piston, the pressure behind it taken off [N]
+
+
+def pressures_over(engine: ClosedEngine, omega: RadPerSecond[Array], heat_share: Pure) -> Pressures:
+    """The cycle at every speed, gas exchange at the surroundings' pressure.
+
+    omega: crank speeds, shape (k,); heat_share: share of the fuel's heat that goes through the two heads.
+    """
+    theta = np.arange(_STEPS) * 4 * np.pi / _STEPS
+    phi, closed, _ = dense(run(partial(closed_period, engine), {"omega": omega}))
+    around, room = engine.cycle.intake_pressure, chamber(engine.chamber, engine.motion)
+    p = over_period(theta, phi, closed, around)
+    top = over_speeds(engine, omega.max(keepdims=True))
+    fuel = float(top.sfc[0] * top.power[0])  # in one cylinder, for the heads of both its pistons
+    return Pressures(
+        omega=omega,
+        theta=theta,
+        net=(p - engine.chamber.back_pressure) * float(room.area),
+        dp_max=p.max(axis=1) - around,
+        bore=float(room.bore),
+        stroke=float(room.stroke),
+        gap=piston.tdc_gap(float(room.clearance), float(room.area)),
+        head_heat=piston.head_heat(fuel / 2, engine.cycle.heating_value, heat_share),
+    )
 
 
 @record
@@ -134,17 +192,10 @@ def _shear_strength(material: Material) -> float:
 
 
 @record
-class CylinderLoads:
+class CylinderLoads(OverSpeeds):
     """What acts on piston and cylinder."""
 
-    omega: np.ndarray  #: shape (k,): Crank speeds [rad/s]
-    dp_max: np.ndarray  #: shape (k,): Largest pressure above the surroundings [Pa]
     rod: np.ndarray  #: shape (k, n): Force in the rod, compression positive [N]
-    head_heat: float  #: Heat through a piston head at the fastest speed [W]
-    #: Bore, stroke of one piston, distance of the heads at top dead centre (0 under a fixed head) [m]
-    bore: float
-    stroke: float
-    gap: float
 
 
 def size_piston(loads: CylinderLoads, wants: Wants, material: Material, rod_length: Metre) -> PistonPart:
@@ -173,6 +224,13 @@ def check_piston(part: PistonPart, loads: CylinderLoads, wants: Wants, material:
     stress = piston.head_stress(loads.dp_max[hottest], loads.bore, part.head)
     cool = piston.head_thickness_heat(loads.head_heat, need(material, "conductivity"), wants.head_dT)
     thinnest = piston.ring_radial_thickness(loads.bore, 0.025e6, 110e6)
+    area, fatigue = np.pi * part.rod**2 / 4, need(material, "fatigue")
+    amplitude, _ = stress_cycle(loads.rod / area)
+    k, j = np.unravel_index(int(np.argmax(np.abs(loads.rod))), loads.rod.shape)
+    peak, worst = abs(float(loads.rod[k, j])), int(np.argmax(amplitude))
+    factor = goodman_factor(amplitude[worst], 0.0, fatigue, material.ultimate)
+    strength = material.yield_strength or material.ultimate
+    buckling = piston.rod_buckling_load(part.rod, part.rod_length, material.youngs_modulus, strength)
     return [
         at_most("piston head", "bending stress", stress, need(material, "hot_ultimate"), "Pa", wanted=wants.head,
                 rule="Grashof", source="eq. 4.2", note=at_speed(loads.omega, hottest)),
@@ -180,7 +238,15 @@ def check_piston(part: PistonPart, loads: CylinderLoads, wants: Wants, material:
                  source="eqs. 4.3, 4.4", note="at the fastest speed"),
         at_least("piston ring", "radial thickness", part.ring_radial, thinnest, "m", wanted=1.0,
                  rule="ring in bending", source="eq. 4.6", note="against the least of the usual range"),
-        *_check_rod(part, loads, wants, material),
+        *[
+        at_most("piston rod", "largest stress", peak / area, fatigue, "Pa", wanted=wants.rod, rule="axial stress",
+                source="eq. 4.5", note=at_speed(loads.omega, int(k))),
+        at_most("piston rod", "stress amplitude", float(amplitude[worst]), float(amplitude[worst] * factor), "Pa",
+                wanted=wants.rod, rule="Goodman", source="Shigley eq. 6-46",
+                note=f"{at_speed(loads.omega, worst)}; mean stress is compression"),
+        at_most("piston rod", "load", peak, buckling, "N", wanted=wants.rod, rule="buckling (Johnson, Euler)",
+                source="Shigley eq. 4-42", note=at_speed(loads.omega, int(k))),
+    ],
     ]  # fmt: skip
 
 
@@ -217,23 +283,4 @@ def check_cylinder(
                  source="eq. 4.17"),
         at_most("cylinder bolts", f"stress in the core of M{part.thread_mm:.0f}", stress, wants.bolt_stress, "Pa",
                 wanted=1.0, rule="bolt core", source="eq. 4.18, ISO 724", note=note),
-    ]  # fmt: skip
-
-
-def _check_rod(part: PistonPart, loads: CylinderLoads, wants: Wants, material: Material) -> list[Check]:
-    area, fatigue = np.pi * part.rod**2 / 4, need(material, "fatigue")
-    amplitude, _ = stress_cycle(loads.rod / area)
-    k, j = np.unravel_index(int(np.argmax(np.abs(loads.rod))), loads.rod.shape)
-    peak, worst = abs(float(loads.rod[k, j])), int(np.argmax(amplitude))
-    factor = goodman_factor(amplitude[worst], 0.0, fatigue, material.ultimate)
-    strength = material.yield_strength or material.ultimate
-    buckling = piston.rod_buckling_load(part.rod, part.rod_length, material.youngs_modulus, strength)
-    return [
-        at_most("piston rod", "largest stress", peak / area, fatigue, "Pa", wanted=wants.rod, rule="axial stress",
-                source="eq. 4.5", note=at_speed(loads.omega, int(k))),
-        at_most("piston rod", "stress amplitude", float(amplitude[worst]), float(amplitude[worst] * factor), "Pa",
-                wanted=wants.rod, rule="Goodman", source="Shigley eq. 6-46",
-                note=f"{at_speed(loads.omega, worst)}; mean stress is compression"),
-        at_most("piston rod", "load", peak, buckling, "N", wanted=wants.rod, rule="buckling (Johnson, Euler)",
-                source="Shigley eq. 4-42", note=at_speed(loads.omega, int(k))),
     ]  # fmt: skip

@@ -40,11 +40,17 @@ def section(parts: Parts | SliderParts, forces: PartForces | SliderForces, stock
         if name != "bore" and any(box[4] == name for box in boxes):
             axes.add_patch(Rectangle((0, 0), 0, 0, facecolor=colour, edgecolor=INK, label=name))
     legend(axes)
-    factor, _ = axis_unit("m", 1.0)
+    factor, unit = axis_unit("m", 1.0)
     for x, y, text in labels:
         axes.annotate(text, (x * factor, y * factor), ha="center", va="center", fontsize=7, color=INK)
     axes.axhline(0, color=RED, linewidth=0.6, linestyle="-.")
-    _frame(axes, boxes)
+    x = factor * max(max(abs(b[0]), abs(b[1])) for b in boxes)
+    y = factor * max(max(abs(b[2]), abs(b[3])) for b in boxes)
+    axes.set_aspect("equal")
+    axes.set_xlim(-1.03 * x, 1.03 * x)
+    axes.set_ylim(-1.05 * y, 1.05 * y)
+    axes.set_xlabel(f"along the cylinder axis [{unit}]")
+    axes.set_ylabel(f"along the crank axes [{unit}]")
     return figure
 
 
@@ -177,14 +183,3 @@ def _draw(axes: Axes, box: Box, sign: int) -> None:
     k, _ = axis_unit("m", 1.0)
     axes.add_patch(Rectangle((low * k, y_from * k), (high - low) * k, (y_to - y_from) * k, facecolor=_COLOURS[colour],
                              edgecolor=INK, linewidth=0.6))  # fmt: skip
-
-
-def _frame(axes: Axes, boxes: list[Box]) -> None:
-    factor, unit = axis_unit("m", 1.0)
-    x = factor * max(max(abs(b[0]), abs(b[1])) for b in boxes)
-    y = factor * max(max(abs(b[2]), abs(b[3])) for b in boxes)
-    axes.set_aspect("equal")
-    axes.set_xlim(-1.03 * x, 1.03 * x)
-    axes.set_ylim(-1.05 * y, 1.05 * y)
-    axes.set_xlabel(f"along the cylinder axis [{unit}]")
-    axes.set_ylabel(f"along the crank axes [{unit}]")

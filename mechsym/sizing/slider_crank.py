@@ -1,26 +1,33 @@
-"""Sizing of a slider crank with the same rules: piston, rod, cylinder, crankshaft, bearings, to a fixed point.
+r"""Sizing of a slider crank with the same rules: piston, rod, cylinder, crankshaft, bearings, to a fixed point.
 
 The source sizes no slider crank; what a rule needs and no source gives is assumed here and said so. Torque leaves at
 one end; a third of the rod counts as reciprocating; counterweights balance the rotating masses.
+
+A crosshead drive held against its rules: pins, film, shoes, piston rod, web, and where it wears.
+
+    piston rod --[crosshead pin, shoes on the guide]-- connecting rod --[crank pin]-- web -- main journal
+
+The crosshead pin only swings, and in a two-stroke engine its load never turns round: what carries it is the film that
+the load squeezes and the swing renews. The piston rod's buckling is in `rules.piston`.
 """
 
 import itertools
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import cached_property
 
 import numpy as np
 
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.record import Mechanism, curves
 from mechsym.mechanisms.roles import PartRoles
-from mechsym.quantities import record
+from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Kilogram
 from mechsym.sizing.bearing_design import Choice, Seat, check_bearing, choices, mass, seat_diameter
-from mechsym.sizing.checks import Check, at_most, at_speed, round_up, unsafe, weakest
+from mechsym.sizing.checks import Check, at_least, at_most, at_speed, round_up, unsafe, weakest
 from mechsym.sizing.crank_design import (
     CrankLoads,
     CylinderLoads,
+    Pressures,
     check_crank,
     check_cylinder,
     check_output,
@@ -30,8 +37,13 @@ from mechsym.sizing.crank_design import (
     size_piston,
 )
 from mechsym.sizing.hypocycloid.engine import Stock
-from mechsym.sizing.pressures import Pressures
-from mechsym.sizing.rules.crankshaft import slider_crank_chain
+from mechsym.sizing.rules.crankshaft import (
+    rectangle_stress,
+    slider_crank_chain,
+    specific_pressure,
+    squeeze_time,
+    wear_index,
+)
 from mechsym.sizing.rules.masses import cylinder_mass
 from mechsym.sizing.rules.materials import Material
 from mechsym.sizing.rules.piston import rod_buckling_load
@@ -45,27 +57,15 @@ _ROD_ENDS = 1.6  # mass of a rod over that of its shank, assumed
 
 
 @record
-class SliderForces:
+class SliderForces(CylinderLoads):
     """Forces of one slider crank; arrays of shape (k, n) over a period of 4 pi."""
 
-    #: shape (k,), (n,): Crank speeds [rad/s], crank angles from firing top dead centre [rad]
-    omega: np.ndarray
-    theta: np.ndarray
-    dp_max: np.ndarray  #: shape (k,): Largest pressure above the surroundings [Pa]
     net: np.ndarray  #: Force on the piston pin, reciprocating mass included [N]
     torque: np.ndarray  #: Torque of the crank [N*m]
-    #: Crank radius, rod length, bore, stroke, distance of the heads [m], heat through a head [W]
+    chain: dict[str, np.ndarray]  #: Forces along the rod and at the crank by name [N]
+    #: Crank radius, rod length [m]
     r: float
     l: float
-    bore: float
-    stroke: float
-    gap: float
-    head_heat: float
-
-    @cached_property
-    def chain(self) -> dict[str, np.ndarray]:
-        """Forces along the rod and at the crank by name, shape (k, n) [N]."""
-        return slider_crank_chain(self.net, self.theta, self.r, self.l)
 
 
 @record
@@ -99,10 +99,9 @@ def slider_crank_forces(gas: Pressures, mechanism: Mechanism, roles: PartRoles) 
 
     def forces_of(mass: float) -> SliderForces:
         force = gas.net - mass * moved[f"d2{x}_d{q}2"] * gas.omega[:, None] ** 2
-        return SliderForces(
-            omega=gas.omega, theta=gas.theta, dp_max=gas.dp_max, net=force, torque=force * moved[f"d{x}_d{q}"],
-            r=r, l=l, bore=gas.bore, stroke=gas.stroke, head_heat=gas.head_heat, gap=gas.gap,
-        )  # fmt: skip
+        chain = slider_crank_chain(force, gas.theta, r, l)
+        torque = force * moved[f"d{x}_d{q}"]
+        return SliderForces(**gas.shared(), net=force, torque=torque, chain=chain, rod=chain["rod"], r=r, l=l)
 
     return forces_of
 
@@ -130,12 +129,11 @@ def size_slider_crank(
 
 def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
     """One round: sizes of every part for the forces; bearings the lightest that hold, or the strongest there are."""
-    loads = _cylinder_loads(forces)
     material = {key: stock.material(getattr(wants, key)) for key in ("piston", "cylinder", "shaft")}
     steel = stock.material(wants.crankshaft)
-    piston = replace(size_piston(loads, wants, material["piston"], forces.l), rod_length=forces.l)
-    piston = replace(piston, rod=_rod_diameter(loads, wants, steel, forces.l))
-    cylinder = size_cylinder(loads, wants, material["cylinder"], piston.height)
+    piston = replace(size_piston(forces, wants, material["piston"], forces.l), rod_length=forces.l)
+    piston = replace(piston, rod=_rod_diameter(forces, wants, steel, forces.l))
+    cylinder = size_cylinder(forces, wants, material["cylinder"], piston.height)
     rod_seat, main_seat = _seats(forces)
     rods = _ranked(stock, wants, rod_seat, (0.02, 0.06))
     mains = _ranked(stock, wants, main_seat, (0.015, 0.06))
@@ -167,13 +165,13 @@ def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
 def check_all(parts: SliderParts, forces: SliderForces, wants: Wants, stock: Stock) -> list[Check]:
     """Every check of a slider crank. Returns checks: from the piston to the bearings."""
     used = {place: stock.material(getattr(wants, place)) for place in ("piston", "cylinder", "crankshaft", "shaft")}
-    cylinder, crank = _cylinder_loads(forces), _loads(parts, forces)
+    crank = _loads(parts, forces)
     rod_seat, main_seat = _seats(forces)
-    piston = [c for c in check_piston(parts.piston, cylinder, wants, used["piston"]) if c.component != "piston rod"]
+    piston = [c for c in check_piston(parts.piston, forces, wants, used["piston"]) if c.component != "piston rod"]
     return [
         *piston,
-        *_check_rod(parts.piston.rod, cylinder, wants, used["crankshaft"], forces.l),
-        *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
+        *_check_rod(parts.piston.rod, forces, wants, used["crankshaft"], forces.l),
+        *check_cylinder(parts.cylinder, forces, wants, used["cylinder"], parts.piston.height),
         *check_crank(parts.crank, crank, wants, used["crankshaft"]),
         *check_output(parts.crank.output, crank, wants, used["shaft"]),
         *check_bearing(parts.rod_bearing, rod_seat, wants),
@@ -193,11 +191,6 @@ def reciprocating_mass(parts: SliderParts, forces: SliderForces, wants: Wants, s
     barrel = cylinder_mass(light, B, piston.height - piston.head, B - 2 * piston.barrel)
     pin = cylinder_mass(steel, B / 4, 0.8 * B, B / 8)
     return head + barrel + pin + _ROD_ENDS * cylinder_mass(steel, piston.rod, forces.l) / 3
-
-
-def _cylinder_loads(forces: SliderForces) -> CylinderLoads:
-    return CylinderLoads(omega=forces.omega, dp_max=forces.dp_max, rod=forces.chain["rod"], head_heat=forces.head_heat,
-                         bore=forces.bore, stroke=forces.stroke, gap=forces.gap)  # fmt: skip
 
 
 def _loads(parts: SliderParts, forces: SliderForces) -> CrankLoads:
@@ -254,3 +247,97 @@ def _check_rod(d: float, loads: CylinderLoads, wants: Wants, material: Material,
         at_most("connecting rod", "load", peak, buckling, "N", wanted=wants.rod, rule="buckling (Johnson, Euler)",
                 source="Shigley eq. 4-42"),
     ]  # fmt: skip
+
+
+_MARINE = "Woodyard (2009), ch. 9"
+
+
+@record
+class CrossheadPart:
+    """Section `[part_crosshead]`: sizes of a crosshead drive, and what its materials and oil stand."""
+
+    pin_diameter: float = quantity("m", above=0, about="diameter of the crosshead pin")
+    pin_length: float = quantity("m", above=0, about="carrying length of the crosshead pin")
+    pin_arc: float = quantity("rad", default=2.0, above=0, below=np.pi, about="angle of the shell that carries")
+    crank_pin_diameter: float = quantity("m", above=0, about="diameter of the crank pin")
+    crank_pin_length: float = quantity("m", above=0, about="carrying length of the crank pin")
+    shoe_width: float = quantity("m", above=0, about="width of the guide shoes of one side")
+    shoe_length: float = quantity("m", above=0, about="length of the guide shoes")
+    rod_diameter: float = quantity("m", above=0, about="diameter of the piston rod")
+    rod_length: float = quantity("m", above=0, about="length of the piston rod between its ends")
+    web_width: float = quantity("m", above=0, about="width of the crank web")
+    web_thickness: float = quantity("m", above=0, about="thickness of the crank web along the shaft")
+    web_arm: float = quantity("m", above=0, about="from the middle of the main journal to that of the web")
+    oil: float = quantity("Pa*s", default=0.03, above=0, about="viscosity of the oil in the bearings")
+    film_start: float = quantity("m", default=50e-6, above=0, about="film that the swing leaves at its turning points")
+    film_least: float = quantity("m", default=3e-6, above=0, about="film that keeps the surfaces apart")
+    pin_pressure: float = quantity("Pa", default=20e6, above=0, about="allowed on the crosshead pin")
+    crank_pin_pressure: float = quantity("Pa", default=15e6, above=0, about="allowed on the crank pin")
+    shoe_pressure: float = quantity("Pa", default=0.6e6, above=0, about="allowed on the guide shoes")
+    web_fatigue: float = quantity("Pa", default=120e6, above=0, about="fatigue strength of the web's material")
+    youngs_modulus: float = quantity("Pa", default=206e9, above=0, about="Young's modulus of the piston rod")
+    yield_strength: float = quantity("Pa", default=350e6, above=0, about="yield strength of the piston rod")
+    wanted: float = quantity("-", default=1.0, above=0, about="safety factor of pins, shoes and film")
+    wanted_web: float = quantity("-", default=2.0, above=0, about="safety factor of the web, notches included")
+    wanted_buckling: float = quantity("-", default=4.0, above=0, about="safety factor of the piston rod")
+
+
+@record
+class CrossheadLoads:
+    """One cycle at constant speed; all arrays of shape (n,), the first angle again at the end."""
+
+    phi: np.ndarray  #: Crank angle [rad]
+    omega: float  #: Crank speed [rad/s]
+    #: Along the piston rod, positive where it is pressed; at the crosshead pin; at the crank pin; on the guide [N]
+    rod: np.ndarray
+    pin: np.ndarray
+    crank_pin: np.ndarray
+    side: np.ndarray
+    dx_dphi: np.ndarray  #: Travel of the crosshead by the angle [m/rad]
+    dpsi_dphi: np.ndarray  #: Swing of the connecting rod by the angle [-]
+
+
+def checks(part: CrossheadPart, loads: CrossheadLoads) -> list[Check]:
+    """Every rule with its factor of safety."""
+    pin, crank_pin, side = (float(np.abs(a).max()) for a in (loads.pin, loads.crank_pin, loads.side))
+    thrust = float(loads.rod.max())
+    # the swing turns round twice a turn: for half of it the film is squeezed by the mean load and not renewed
+    half = np.pi / loads.omega
+    mean = float(np.trapezoid(np.abs(loads.pin), loads.phi) / (loads.phi[-1] - loads.phi[0]))
+    lasts = squeeze_time(
+        mean, part.pin_length, part.pin_diameter, part.pin_arc, part.oil, part.film_start, part.film_least
+    )
+    return [
+        _pressure(part, "crosshead pin", pin, (part.pin_length, part.pin_diameter), part.pin_pressure),
+        _pressure(part, "crank pin", crank_pin, (part.crank_pin_length, part.crank_pin_diameter),
+                  part.crank_pin_pressure),
+        _pressure(part, "guide shoe", side, (part.shoe_length, part.shoe_width), part.shoe_pressure),
+        at_least("crosshead pin", "time of the squeezed film", lasts, half, "s", wanted=part.wanted,
+                    rule="squeeze film of parallel plates with open ends", source="Hays (1961)",
+                    note="mean load over half a turn"),
+        at_least("piston rod", "buckling load", rod_buckling_load(
+            part.rod_diameter, part.rod_length, part.youngs_modulus, part.yield_strength), thrust, "N",
+            wanted=part.wanted_buckling, rule="Euler or Johnson", source="Shigley, ch. 4"),
+        at_most("crank web", "stress", rectangle_stress(thrust / 2 * part.web_arm, thrust / 2, part.web_width,
+                part.web_thickness), part.web_fatigue, "Pa", wanted=part.wanted_web, rule="bending and pressure",
+                source="Khurmi and Gupta (2005), ch. 32", note="at the largest thrust, half on each web"),
+    ]  # fmt: skip
+
+
+def wear(part: CrossheadPart, loads: CrossheadLoads) -> Mapping[str, float]:
+    """Mean pressure times sliding speed of pin, crank pin and shoe [Pa*m/s]."""
+    pin = loads.pin / (part.pin_length * part.pin_diameter)
+    crank_pin = loads.crank_pin / (part.crank_pin_length * part.crank_pin_diameter)
+    shoe = loads.side / (part.shoe_length * part.shoe_width)
+    swing = loads.dpsi_dphi * part.pin_diameter / 2 * loads.omega
+    turning = (1 + loads.dpsi_dphi) * part.crank_pin_diameter / 2 * loads.omega
+    return {
+        "crosshead pin": wear_index(pin, swing, loads.phi),
+        "crank pin": wear_index(crank_pin, turning, loads.phi),
+        "guide shoe": wear_index(shoe, loads.dx_dphi * loads.omega, loads.phi),
+    }
+
+
+def _pressure(part: CrossheadPart, name: str, F: float, sizes: tuple[float, float], limit: float) -> Check:
+    return at_most(name, "specific pressure", specific_pressure(F, *sizes), limit, "Pa", wanted=part.wanted,
+                   rule="load by projected area", source=_MARINE)  # fmt: skip

@@ -81,8 +81,10 @@ def _panel(figure: "Figure", axis: "Axes") -> Json:
     named = dict(zip(at, [names[k] for k in sorted(names)], strict=True)) if len(at) == len(names) else {}
     up = _words(axis.get_ylabel())
     lines = [line for line in axis.lines if _curve(line)]
+    unnamed = [line for line in lines if str(line.get_label()).startswith("_") and len(_points(line)[0]) > 2]
+    own = up.partition(" [")[0] if len(unnamed) == 1 else ""  # several are named by their colours, in another panel
     return {
-        "curves": [[int(str(line.get_gid())[len(CURVE) :]), _named(line, up.partition(" [")[0])] for line in lines],
+        "curves": [[int(str(line.get_gid())[len(CURVE) :]), _named(line, own)] for line in lines],
         "at": [round(v, 3) for v in corners],
         "x": [float(v) for v in axis.get_xlim()],
         "y": [float(v) for v in axis.get_ylim()],

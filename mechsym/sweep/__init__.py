@@ -12,10 +12,8 @@ run.py       the points in chunks, from the store or computed
 work.py      chunks on processes; a worker that dies takes one point with it
 cluster.py   chunks on a dask cluster
 store.py     finished points in a file: the same command goes on where it stopped
-points.py    how a chunk is computed: simulations, hinges, cycles
-hinges.py    hinges whose guides are judged side by side
-guides.py    which guides can be built, many at once
-cycles.py    cycles that differ in numbers only as one map
+points.py    how a chunk is computed: simulations, hinges, cycles; those that differ in numbers only as one map
+hinges.py    hinges whose guides are judged side by side; which guides can be built, many at once
 outcomes.py  a result, or a gap with a reason; what the other commands say of one case
 data.py      labelled columns with units, CSV, netCDF, Sobol indices; what the commands tell of a sweep
 plots.py     the picture

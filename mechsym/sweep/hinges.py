@@ -1,13 +1,25 @@
-"""Hinges at many points: guides that differ in numbers only are judged side by side, see `hinge.side_by_side`."""
+"""Hinges at many points: guides that differ in numbers only are judged side by side, see `hinge.side_by_side`.
 
-from collections.abc import Callable, Collection, Sequence
+Which guides can be built at all is asked of thousands at once, see `hinge.kernel`; `judge` decides again what is near
+to a limit, and gives the numbers of the best guide of a call.
+"""
+
+import dataclasses
+import math
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from mechsym import cases
 from mechsym.cases import Case
+from mechsym.cases.values import Place
 from mechsym.errors import BadInput, suggest
-from mechsym.quantities import record
+from mechsym.files import Json
+from mechsym.quantities import parse, record
 from mechsym.quantities.results import Columns, names_of, some
-from mechsym.sweep.outcomes import ARITHMETIC, Gap, Outcome, guarded
+from mechsym.sweep.axes import Value
+from mechsym.sweep.outcomes import ARITHMETIC, Gap, Outcome, guarded, known
 
 if TYPE_CHECKING:
     from mechsym.hinge.balance import Balance
@@ -113,3 +125,107 @@ def _verdicts(balance: "Balance", designs: "Sequence[GuideDesign]") -> list[Outc
         guarded(lambda d: judge(cut(balance, d.spring, d.choices), d.rollers, d.limits), d) if one is None else one
         for one, d in zip(found, designs, strict=True)
     ]
+
+
+MANY = 10_000  # guides in one call: enough to hide the making of the kernel, few enough for the progress to move
+_OF_A_GUIDE = ("spring", "guide", "rollers", "limits")
+_KERNEL = 1e-3  # margins of the kernel differ from those of `judge` by less; nearer to a limit than this is not decided
+
+
+def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[str, Value]]) -> list[Outcome]:
+    """Margins of the guide at each point, by limit.
+
+    case: name of a built-in case or path of a file; overrides: values that hold at all points; heres: sequence of
+    mapping, values of the axes at each point, as `--set` takes them. Returns outcomes: `feasible`, `margin` (the
+    smallest), `judged` (1 for numbers of `judge`, 0 within 1e-4 of them), and `margins.limit` of each [-].
+    """
+    places = {key: cases.locate(case, key, overrides) for key in heres[0]}
+    numbers = {
+        key: place
+        for key, place in places.items()
+        if place.section in _OF_A_GUIDE and place.unit is not None and place.field != "shaft_ratio"
+    }
+    groups: dict[tuple[tuple[str, Value], ...], list[int]] = {}
+    for i, here in enumerate(heres):
+        groups.setdefault(tuple((k, v) for k, v in here.items() if k not in numbers), []).append(i)
+    outcomes: dict[int, Outcome] = {}
+    for rest, members in groups.items():
+        at = {**overrides, **dict(rest)}
+        free = [{key: heres[i][key] for key in numbers} for i in members]
+        try:
+            found = _margins(cases.load(case, at), numbers, free)
+        except (BadInput, ArithmeticError, ValueError, RuntimeError) as error:
+            found = [known(error)] * len(members)
+        outcomes |= dict(zip(members, found, strict=True))
+    return [outcomes[i] for i in range(len(heres))]
+
+
+def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[str, Value]]) -> list[Outcome]:
+    from mechsym.hinge.balance import balance
+    from mechsym.hinge.kernel import design_kernel
+    from mechsym.hinge.torque import torque
+    from mechsym.jobs.machine import machine
+
+    given = {name: case.need(name) for name in _OF_A_GUIDE}
+    wanted = balance(torque(machine(case)), given["guide"].balance)
+    # a map over speeds alone has one design at each of them
+    names = [f"{p.section}.{p.field}" for p in places.values()] or ["limits.closing_share"]
+    columns = [_column(case, given, key, place, [here[key] for here in heres]) for key, place in places.items()]
+    columns = columns or [[given["limits"].closing_share] * len(heres)]
+    outcomes: dict[int, Outcome] = {}
+    for column in reversed(columns):  # the first value that is impossible gives the reason
+        outcomes |= {i: value for i, value in enumerate(column) if isinstance(value, Gap)}
+    good = [i for i in range(len(heres)) if i not in outcomes] if outcomes else range(len(heres))
+    values = np.array([[column[i] for i in good] for column in columns]).reshape(len(names), len(good)).T
+    spring, choices, rollers, limits = given.values()
+    kernel = design_kernel(wanted, spring, choices, rollers, limits, names)
+    margins = kernel.margins(values)
+    least = margins.min(axis=1, initial=np.inf)
+    again = np.flatnonzero((np.abs(least) < _KERNEL) | (least == least.max(initial=-1.0)))
+    outcomes |= dict(zip(good, _told(margins, least, kernel.limits), strict=True))
+    for k in again.tolist():
+        outcomes[good[k]] = _one(wanted, _design(given, names, values[k].tolist()), kernel.limits)
+    return [outcomes[i] for i in range(len(heres))]
+
+
+def _column(case: Case, given: Json, key: str, place: Place, texts: Sequence[Value]) -> list[float | Gap]:
+    """Values of an axis at each point [SI], each checked once, or the gap that an impossible one leaves."""
+
+    def value(text: Value) -> float | Gap:
+        try:
+            found = parse(f"{text} {place.written}" if place.written else text, place.unit or "-", key)
+            # the records of these sections check each value by itself
+            return getattr(dataclasses.replace(given[place.section], **{place.field: found}), place.field)
+        except BadInput as error:
+            return known(BadInput(f"{case.file}: {error}"))
+
+    made = {text: value(text) for text in dict.fromkeys(texts)}
+    return [made[text] for text in texts]
+
+
+def _design(given: Json, names: Sequence[str], values: Sequence[float]) -> Json:
+    """Records of a point by section."""
+    changed: dict[str, dict[str, float]] = {name: {} for name in given}
+    for name, value in zip(names, values, strict=True):
+        section, _, field = name.partition(".")
+        changed[section][field] = value
+    return {name: dataclasses.replace(found, **changed[name]) for name, found in given.items()}
+
+
+def _one(wanted: "Balance", design: Json, limits: Sequence[str]) -> Outcome:
+    from mechsym.hinge.guide import cut
+    from mechsym.hinge.limits import judge
+
+    verdict = judge(cut(wanted, design["spring"], design["guide"]), design["rollers"], design["limits"])
+    margins = {c.name: math.nan if c.margin is None else c.margin for c in verdict.checks}
+    known = {"feasible": float(verdict.feasible), "margin": verdict.margin, "judged": 1.0}
+    known |= {f"margins.{name}": margins[name] for name in limits if name in margins}
+    return {f"{name} [-]": value for name, value in known.items()}
+
+
+def _told(margins: np.ndarray, least: np.ndarray, limits: Sequence[str]) -> list[Outcome]:
+    """What the kernel says, a limit that asks nothing as not a number; -1 throughout where there is no guide."""
+    names = [f"{name} [-]" for name in ("feasible", "margin", "judged", *(f"margins.{name}" for name in limits))]
+    finite = np.where(np.isfinite(margins), margins, math.nan)
+    table = np.column_stack([least >= 0, least, np.zeros_like(least), finite]).tolist()
+    return [dict(zip(names, row, strict=True)) for row in table]

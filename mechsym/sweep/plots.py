@@ -1,5 +1,6 @@
 """The picture of a sweep: lines over one axis, maps over two, histograms and scatter for samples; gaps are marked."""
 
+import functools
 from collections.abc import Mapping
 
 import numpy as np
@@ -8,6 +9,8 @@ from matplotlib.axis import XAxis, YAxis
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from mechsym.cases import schema
+from mechsym.cases.keys import keys
 from mechsym.cycle.columns import WORDS
 from mechsym.quantities.display import key_words, without_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
@@ -16,6 +19,7 @@ from mechsym.sweep import Axis, Sweep, failures, main_results
 from mechsym.sweep.data import indices
 
 _MOST = 6  # panels
+_LONGEST = 44  # letters that stand at an axis
 _FEW = 4  # values of an axis that are drawn as lines of their own
 _COUNTS = 12  # steps of a count that is drawn with whole numbers
 _TRUTHS = ("feasible", "met", "kept", "holds", "converged", "proven")  # 1 is yes
@@ -25,7 +29,12 @@ _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
 def picture(result: Sweep) -> Figure | None:
     """The main results of a sweep, see `mechsym.sweep.main_results`; None for a single point, or gaps only."""
-    shown = _worth_drawing(result)
+    # main results, without those that stay the same or are round-off; all when none is left
+    found = main_results(result)
+    sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
+    lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
+    chosen = found if result.show or not lively else lively
+    shown = dict(list(chosen.items())[:_MOST])
     if not shown or len(result.points) == 1:
         return None
     if result.sobol and indices(result):
@@ -41,15 +50,6 @@ def picture(result: Sweep) -> Figure | None:
         pair = (min(long), max(long)) if wide else (first, second[0])
         return (_maps if wide else _lines)(result, shown, pair)
     return _lines(result, shown, (first, None))
-
-
-def _worth_drawing(result: Sweep) -> dict[str, np.ndarray]:
-    """Main results, without those that stay the same or are round-off; all when none is left."""
-    found = main_results(result)
-    sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
-    lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
-    chosen = found if result.show or not lively else lively
-    return dict(list(chosen.items())[:_MOST])
 
 
 def _words(result: Sweep, axes: list[int]) -> bool:
@@ -68,8 +68,20 @@ def _panels(result: Sweep, shown: Mapping[str, object], rows: int = 1) -> tuple[
     return figure, axes
 
 
+@functools.cache
+def said(key: str) -> str:
+    """A key of a case in the words of its field; the symbol of a letter whose meaning hangs on the mechanism."""
+    section, _, field = key.partition(".")
+    if section not in schema.sections():
+        return key_words(key, WORDS)
+    told = {row["about"] for row in keys(section) if row["key"] == field}
+    about = told.pop().partition(";")[0].replace("`", "") if len(told) == 1 else ""
+    about = about[:1].lower() + about[1:] if about[1:2].islower() else about
+    return about if 0 < len(about) <= _LONGEST else field if section in schema.LETTERS else key_words(key, WORDS)
+
+
 def _label(name: str, unit: str) -> str:
-    return key_words(name, WORDS) + (f" [{unit}]" if unit else "")
+    return said(name) + (f" [{unit}]" if unit else "")
 
 
 def _places(axis: XAxis | YAxis, name: str, values: np.ndarray) -> None:
@@ -110,11 +122,11 @@ def _title(result: Sweep, free: list[int]) -> str:
 
 
 def _value(axis: Axis, value: float | str) -> str:
-    name = key_words(axis.key, WORDS)
+    name = said(axis.key)
     if isinstance(value, str):
         return f"{name} = {value}"
     factor, unit = axis_unit(axis.unit, value) if axis.unit not in ("", "-") else (1.0, "")
-    return f"{key_words(without_unit(axis.key, axis.unit), WORDS)} = {value * factor:.4g} {unit}".rstrip()
+    return f"{said(without_unit(axis.key, axis.unit))} = {value * factor:.4g} {unit}".rstrip()
 
 
 def _ticks(axis: Axes, along: Axis) -> tuple[np.ndarray, str]:
@@ -123,7 +135,7 @@ def _ticks(axis: Axes, along: Axis) -> tuple[np.ndarray, str]:
         return _scaled(along.key, np.array(along.values), along.unit)
     places = np.arange(len(along.values))
     axis.set_xticks(places, [str(v) for v in along.values])
-    return places, key_words(along.key, WORDS)
+    return places, said(along.key)
 
 
 def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int | None]) -> Figure:
@@ -205,7 +217,7 @@ def _indices(result: Sweep) -> Figure:
             mid, low, high = (np.array([getattr(row, kind + end) for row in own]) for end in ("", "_low", "_high"))
             whiskers = [np.maximum(mid - low, 0.0), np.maximum(high - mid, 0.0)]
             axis.barh(place + beside, mid, 0.36, xerr=whiskers, color=color, label=words, error_kw={"ecolor": INK})
-        axis.set_yticks(place, [key_words(row.key, WORDS) for row in own])
+        axis.set_yticks(place, [said(row.key) for row in own])
         axis.set_xlabel("share of the variance [-]")
         axis.set_title(key_words(name, WORDS), fontsize=9)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2, fontsize=8, frameon=False)

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mechsym import cases, inputs
+from mechsym import cases
 from mechsym.errors import BadInput, suggest
+from mechsym.files import inputs
 from mechsym.interrupts import asked_to_stop
 from mechsym.quantities import record
 from mechsym.quantities.ranges import MOST

@@ -20,8 +20,8 @@ import sqlite3
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from mechsym import inputs
 from mechsym.errors import BadInput
+from mechsym.files import inputs
 from mechsym.quantities import record
 from mechsym.sweep.outcomes import Gap, Outcome
 from mechsym.sweep.work import Done

@@ -22,7 +22,7 @@ from pathlib import Path
 from mechsym import cases
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
-from mechsym.inputs import read_bytes
+from mechsym.files.inputs import read_bytes
 from mechsym.quantities import record
 from mechsym.sweep.run import Plan
 

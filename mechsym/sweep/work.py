@@ -21,8 +21,9 @@ from multiprocessing import connection
 from multiprocessing.context import ForkServerContext, SpawnContext
 from multiprocessing.process import BaseProcess
 
-from mechsym import cases, inputs
+from mechsym import cases
 from mechsym.errors import BadInput
+from mechsym.files import inputs
 from mechsym.quantities import record
 from mechsym.sweep.axes import Value, ties
 from mechsym.sweep.outcomes import Gap, Outcome, flat, known

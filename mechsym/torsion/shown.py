@@ -1,6 +1,6 @@
 """What of a run in time, and of a start-up in it, is worth seeing, and what has to be known first."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import cycle
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,6 @@ from mechsym.torsion.startup import FinishedRun, StartUp
 from mechsym.torsion.twist import ShaftSection, TrainVibration, critical_words, pairs, section_words
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _ENDS = {"turns": "all turns", "t_end": "to its end", "stall": "the shaft stops"}
@@ -207,21 +206,17 @@ def start_up(runs: Sequence[StartUp], claim_speed: RadPerSecond | None = None) -
     if claim_speed is not None:
         marks["printed"] = claim_speed * factor
         speed.set_ylim(top=1.12 * claim_speed * factor)
-    _levels(speed, marks)
+    # lines across a panel with their names at its right
+    low, high = speed.get_ylim()
+    shown = {name: at for name, at in marks.items() if low <= at <= high}
+    places = spread([(at - low) / (high - low) for at in shown.values()], 0.07, 0.0, 1.0)
+    for (name, at), place in zip(shown.items(), places, strict=True):
+        speed.axhline(at, color=GREY, lw=0.7, ls=":")
+        speed.text(1.01, place, name, transform=speed.transAxes, va="center", color=INK, fontsize=8)
     speed.set(ylabel=f"mean crank speed [{unit}]")
     legend(speed)
     twist.set(xlabel="time [s]", ylabel=f"twist amplitude [{angle_unit}]")
     return figure
-
-
-def _levels(axis: "Axes", marks: Mapping[str, float]) -> None:
-    """Lines across a panel with their names at its right."""
-    low, high = axis.get_ylim()
-    shown = {name: at for name, at in marks.items() if low <= at <= high}
-    places = spread([(at - low) / (high - low) for at in shown.values()], 0.07, 0.0, 1.0)
-    for (name, at), place in zip(shown.items(), places, strict=True):
-        axis.axhline(at, color=GREY, lw=0.7, ls=":")
-        axis.text(1.01, place, name, transform=axis.transAxes, va="center", color=INK, fontsize=8)
 
 
 def twist(result: Result, shafts: int) -> "Figure":

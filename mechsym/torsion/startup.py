@@ -162,13 +162,26 @@ _SPOKEN = 4  # orders above are too weak to speak of
 def findings(start: StartUp) -> tuple[str, ...]:
     """What happens and whether the model bears it."""
     end = float(start.result.t[-1])
+    times = start.torque_peak / abs(start.drive.torque) if start.drive.torque else float("inf")
+    lines = [
+        f"largest twist {quantity_text(start.twist_peak, 'rad', 3)}, shaft torque "
+        f"{quantity_text(start.torque_peak, 'N*m', 4)}, {figure(times, 3)} times the drive's"
+    ]
+    limit = start.claim.twist_limit
+    if start.twist_peak > limit:
+        lines.append(
+            f"the model does not hold: the twist is beyond {quantity_text(limit, 'rad', 3)}, no linear spring nor a "
+            "whole shaft"
+        )
+    if start.speed_min < -1e-3 * start.speed_max:
+        lines.append(f"the crank runs backwards within a turn (down to {_speed(start.speed_min)})")
     return (
         f"natural frequency {_hertz(start.natural_bare)} bare, {_hertz(start.natural)} with the mean reciprocating "
         "inertia",
         f"a rigid shaft would gain {_speed(start.rigid_rate)} each second and reach {_speed(_rigid(start, end))} at "
         f"{end:g} s at most",
         *_passages(start),
-        *_validity(start),
+        *lines,
         *_claim(start),
     )
 
@@ -267,23 +280,6 @@ def _passages(start: StartUp) -> list[str]:
             f"{_speed(c.critical.speed)}: the drive feeds the vibration, not the speed; {left}"
         )
     return lines or ["no resonance is reached"]
-
-
-def _validity(start: StartUp) -> list[str]:
-    times = start.torque_peak / abs(start.drive.torque) if start.drive.torque else float("inf")
-    lines = [
-        f"largest twist {quantity_text(start.twist_peak, 'rad', 3)}, shaft torque "
-        f"{quantity_text(start.torque_peak, 'N*m', 4)}, {figure(times, 3)} times the drive's"
-    ]
-    limit = start.claim.twist_limit
-    if start.twist_peak > limit:
-        lines.append(
-            f"the model does not hold: the twist is beyond {quantity_text(limit, 'rad', 3)}, no linear spring nor a "
-            "whole shaft"
-        )
-    if start.speed_min < -1e-3 * start.speed_max:
-        lines.append(f"the crank runs backwards within a turn (down to {_speed(start.speed_min)})")
-    return lines
 
 
 def _claim(start: StartUp) -> list[str]:

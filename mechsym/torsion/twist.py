@@ -244,13 +244,26 @@ def vibration(
     modes = torsion.modes(linear.mass, linear.stiffness)
     response = _response(linear, torsion.orders(mechanism, _COUNT, gas, period), omega)
     stiffness = -np.diag(bare.stiffness, 1)
+    natural = modes.frequencies[1:]
+    span = (low, high)
+    rigid, elastic = (np.abs(a).max(axis=1) for a in (response.rigid, response.elastic))
+    strong = rigid > _WEAK * rigid.max()
+    rows = [
+        CriticalOrder(
+            order=float(k), speed=float(f / k), natural=float(f), away=float(f / k / omega - 1),
+            torque_rigid=float(r), torque=float(e), magnification=float(e / r),
+        )
+        for k, r, e, counts in zip(response.order, rigid, elastic, strong, strict=True)
+        for f in natural
+        if counts and span[0] <= f / k <= span[1]
+    ]  # fmt: skip
     return TrainVibration(
         omega=omega,
         low=low,
         high=high,
         natural_bare=tuple(torsion.modes(bare.inertia, bare.stiffness).frequencies[1:].tolist()),
         natural=tuple(modes.frequencies[1:].tolist()),
-        criticals=_criticals(response, modes.frequencies[1:], omega, (low, high)),
+        criticals=tuple(sorted(rows, key=lambda c: abs(c.away))),
         torque_amplitude=tuple(_swing(response, response.elastic, period).tolist()),
         torque_rigid=float(_swing(response, response.rigid, period).max()),
         twist_limit=tuple(_limits(limits, stiffness).tolist()),
@@ -278,23 +291,6 @@ def _response(linear: torsion.Matrices, excitation: torsion.Orders, omega: float
         elastic.append(np.cumsum(through)[:-1])
         rigid.append(np.cumsum(alone)[:-1])
     return _Response(order=excitation.order, elastic=np.array(elastic), rigid=np.array(rigid))
-
-
-def _criticals(
-    response: _Response, natural: np.ndarray, omega: float, span: tuple[float, float]
-) -> tuple[CriticalOrder, ...]:
-    rigid, elastic = (np.abs(a).max(axis=1) for a in (response.rigid, response.elastic))
-    strong = rigid > _WEAK * rigid.max()
-    rows = [
-        CriticalOrder(
-            order=float(k), speed=float(f / k), natural=float(f), away=float(f / k / omega - 1),
-            torque_rigid=float(r), torque=float(e), magnification=float(e / r),
-        )
-        for k, r, e, counts in zip(response.order, rigid, elastic, strong, strict=True)
-        for f in natural
-        if counts and span[0] <= f / k <= span[1]
-    ]  # fmt: skip
-    return tuple(sorted(rows, key=lambda c: abs(c.away)))
 
 
 def _swing(response: _Response, torque: np.ndarray, period: float) -> np.ndarray:

@@ -57,6 +57,11 @@ FOREIGN = {
     "another origin": {**HERE, "origin": "https://evil.example"},
     "a page of another port": {**HERE, "origin": "http://127.0.0.1:9000"},
     "a file or a sandboxed frame": {**HERE, "origin": "null"},
+    "a picture asked for by the page of another port": {
+        **HERE,
+        "sec_fetch_site": "same-site",
+        "sec_fetch_mode": "no-cors",
+    },
     "a name that begins alike": {**HERE, "origin": "http://127.0.0.1:8080.evil.example"},
 }
 
@@ -69,6 +74,19 @@ def test_a_foreign_page_is_refused_even_with_the_token(headers, kind):
         sent[0]["status"] == 403 and b"values" not in sent[1]["body"]
     )
     assert "set-cookie" not in (head(sent) if kind == "http" else {})
+
+
+@pytest.mark.parametrize(
+    "other", ['a={"x":1}', "a b=1", "x=\u00e9", "a@b=1", "flag", "a=b c", "", "mechsym_8080=wrong"]
+)
+def test_cookies_of_other_programs_of_this_machine_keep_nobody_out(other):
+    for cookie in (f"{other}; mechsym_8080=right", f"mechsym_8080=right; {other}"):
+        assert asked(**HERE, cookie=cookie)[0]["status"] == 200
+
+
+def test_a_link_from_elsewhere_may_lead_here():
+    linked = {"sec_fetch_site": "cross-site", "sec_fetch_mode": "navigate"}
+    assert asked(query="token=right", **HERE, **linked)[0]["status"] == 303
 
 
 @pytest.mark.parametrize("query", ["", "token=", "token=wrong", "token=righ", "token=%72ight%00", "token=\u00e9"])

@@ -14,8 +14,8 @@ from mechsym.audit.read.reader import read
 from mechsym.audit.read.spelling import to_latex, to_python
 from mechsym.audit.repair.edits import apply, places
 from mechsym.audit.repair.examination import examine, fingerprint, standing
+from mechsym.audit.repair.rules import Words, listed_edits
 from mechsym.audit.repair.search import search
-from mechsym.audit.repair.slips import single_edits
 from mechsym.audit.row import formula_row
 from mechsym.audit.theory.record import Letter, Theory, known
 from mechsym.audit.verdict import decide
@@ -68,7 +68,7 @@ WRONG = {"sign", "factor", "power", "root", "sine and cosine"}  # a wrong sign, 
 def test_wrong_signs_squares_and_factors_are_repaired(text, seed):
     asked = question(text, text)
     exam, right = examine(asked), asked.formula.tree
-    edits = [e for e in single_edits(right, lambda letter: []) if e.kind in WRONG]
+    edits = [e for e in listed_edits(right, Words()) if e.kind in WRONG]
     spoiled = apply(right, random.Random(seed).choice(edits))
     assume(fingerprint(exam, spoiled) != fingerprint(exam, right))
     assume(not is_exact(exam.judged, spoiled))

@@ -12,7 +12,7 @@ from mechsym import cases
 from mechsym.cases.new_engine import write_engine
 from mechsym.cycle.closed.model import closed_period, open_period
 from mechsym.cycle.closed.performance import design_function, performance
-from mechsym.cycle.mixture import properties
+from mechsym.cycle.heat import properties
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import cycle, engine
 from mechsym.jobs.gas import gas, one_cylinder

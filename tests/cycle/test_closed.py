@@ -12,9 +12,8 @@ from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.performance import performance
 from mechsym.cycle.closed.run import closed_function, closed_map, dense, run
-from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, Woschni
+from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, NasaMixture, Woschni
 from mechsym.cycle.kinds.spark_ignition import otto_efficiency
-from mechsym.cycle.mixture import NasaMixture
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
 from mechsym.quantities import RPM

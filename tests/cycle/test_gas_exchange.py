@@ -9,8 +9,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from mechsym.cycle.breathing.flow import critical_ratio, curtain_area, orifice_flow, port_area, valve_lift
-from mechsym.cycle.breathing.records import Breathing, FreshCharge, HeatSink, Surroundings
+from mechsym.cycle.breathing.flow import (
+    Breathing,
+    FreshCharge,
+    HeatSink,
+    Surroundings,
+    critical_ratio,
+    curtain_area,
+    orifice_flow,
+    port_area,
+    valve_lift,
+)
 from mechsym.cycle.breathing.run import Cylinder, breathe, repeating
 from mechsym.cycle.heat import Woschni
 

@@ -14,8 +14,8 @@ from mechsym.cli import mechsym
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.performance import design_function
 from mechsym.cycle.closed.run import at_angles, run, steps_of
+from mechsym.cycle.heat import ConstantGamma
 from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, knock_along, knock_of_runs, share_of_delay
-from mechsym.cycle.mixture import ConstantGamma
 from mechsym.jobs.cycle import engine
 from mechsym.jobs.optimise import optimise
 from mechsym.optimise.solver import Optimise, problem, solve

@@ -6,8 +6,20 @@ import pytest
 
 from mechsym import cases
 from mechsym.cycle.friction import ChenFlynn, Heywood, NoFriction, friction_pressure
-from mechsym.cycle.heat import Adiabatic, Annand, GasAtWall, Hohenberg, Woschni, heat_flux, motored_swirl
-from mechsym.cycle.mixture import ConstantGamma, NasaMixture, conductivity, properties, viscosity
+from mechsym.cycle.heat import (
+    Adiabatic,
+    Annand,
+    ConstantGamma,
+    GasAtWall,
+    Hohenberg,
+    NasaMixture,
+    Woschni,
+    conductivity,
+    heat_flux,
+    motored_swirl,
+    properties,
+    viscosity,
+)
 from mechsym.errors import BadInput
 
 # JANAF tables (NIST), cp in J/(mol K)

@@ -8,8 +8,8 @@ import pytest
 from mechsym.cases import load
 from mechsym.cycle.chamber import volume
 from mechsym.cycle.engine import over_speeds
+from mechsym.cycle.heat import NasaMixture
 from mechsym.cycle.kinds.printed import marched, performance_printed
-from mechsym.cycle.mixture import NasaMixture
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
 from mechsym.quantities import RPM

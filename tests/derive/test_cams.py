@@ -10,11 +10,11 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from mechsym.derive import derive
-from mechsym.derive.cams import LAWS
 from mechsym.derive.emit import module_text
 from mechsym.derive.files import chosen
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import bind_module
+from mechsym.periodic.rises import RISES
 
 _NODES = 17
 
@@ -88,7 +88,7 @@ def placed(m, kind, swings):
 
 
 CASES = [(kind, swings, "cycloid") for kind in ("knife", "roller", "flat") for swings in (False, True)]
-CASES += [("roller", False, law) for law in LAWS]
+CASES += [("roller", False, law) for law in RISES]
 
 
 @pytest.mark.parametrize("kind, swings, law", CASES)

@@ -14,8 +14,8 @@ from click.testing import CliRunner
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.forces.balance import Shaken, Weight, _with, amplitudes, balance, couple, part
+from mechsym.forces.loads import BalanceWanted, shaking, verdict
 from mechsym.forces.mains import MainShaft
-from mechsym.forces.shaking import BalanceWanted, shaking, verdict
 from mechsym.forces.turn import Turn, crank_drive, turn
 from mechsym.mechanisms.crank_train import CrankTrainParameters
 

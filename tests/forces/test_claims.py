@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 from small_machines import machine, smooth_gas, turn_of
 
-from mechsym.forces.comparison import ComparisonSettings, claims, compare, equal_loss_coefficient, left_out
 from mechsym.forces.friction import Friction, NoRings
+from mechsym.forces.result import ComparisonSettings, claims, compare, equal_loss_coefficient, left_out
 from mechsym.mechanisms.crosshead import CrossheadParameters
 
 CRANK = CrossheadParameters(r1=0, r2=0.3, l1=0.4, l2=0.5, m1=0, m2=0, m3=3, m4=2, m5=4, I01=2, IC2=0, g=0)

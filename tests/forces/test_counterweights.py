@@ -11,7 +11,7 @@ from scipy.optimize import minimize, minimize_scalar
 from small_machines import machine, turn_of
 
 from mechsym.errors import BadInput
-from mechsym.forces.shaking import BalanceWanted, orders, shaking, verdict, whole
+from mechsym.forces.loads import BalanceWanted, orders, shaking, verdict, whole
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters

@@ -8,7 +8,6 @@ import pytest
 
 from mechsym import cases, jobs
 from mechsym.errors import BadInput
-from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import (
     ContactPressure,
     Friction,
@@ -20,6 +19,7 @@ from mechsym.forces.friction import (
     ring_power,
     swept_volume,
 )
+from mechsym.forces.result import ComparisonSettings, compare
 from mechsym.jobs.machine import turn
 from mechsym.quantities.results import tell
 

@@ -12,7 +12,6 @@ from small_machines import machine, smooth_gas, turn_of
 from mechsym.cases.settings import Operation
 from mechsym.cycle.gas import at_same_travel, piston_travel
 from mechsym.errors import BadInput
-from mechsym.forces.comparison import ComparisonSettings, compare
 from mechsym.forces.friction import (
     ContactPressure,
     Friction,
@@ -24,6 +23,7 @@ from mechsym.forces.friction import (
     ring_power,
 )
 from mechsym.forces.loads import loads
+from mechsym.forces.result import ComparisonSettings, compare
 from mechsym.mechanisms.closing import RodlessFaces
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.mechanisms.hypocycloid import HypocycloidParameters

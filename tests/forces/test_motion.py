@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from mechsym import cases, cli
 from mechsym.cases.outcomes import of_motion
 from mechsym.errors import BadInput
-from mechsym.forces.driven import WORDS, numbers
+from mechsym.forces.driven import WORDS, numbers, rise_of
 from mechsym.jobs.forces import motion
 from mechsym.jobs.machine import mechanism_of
 from mechsym.mechanisms import evaluate, loops, state
@@ -228,7 +228,7 @@ def test_what_nothing_drives_moves_freely(tmp_path):
 @pytest.mark.parametrize("word", WORDS)
 def test_a_word_goes_from_rest_to_rest_with_its_slopes(word):
     x = np.linspace(0, 1, 4001)
-    s, ds, dds = WORDS[word](x)
+    s, ds, dds = rise_of(word)(x)
     assert (s[0], s[-1], ds[0], ds[-1]) == pytest.approx((0, 1, 0, 0), abs=1e-14)
     assert (dds[0], dds[-1]) == pytest.approx((0, 0), abs=1e-12)
     for value, slope in ((s, ds), (ds, dds)):
@@ -238,6 +238,7 @@ def test_a_word_goes_from_rest_to_rest_with_its_slopes(word):
     peaks = {
         "cycloid": 2 * np.pi,
         "3-4-5": 10 / np.sqrt(3),
+        "4-5-6-7": 84 * np.sqrt(5) / 25,
         "modified sine": 4 * np.pi**2 / (4 + np.pi),
         "trapezium": 16 / 3,
     }

@@ -8,8 +8,7 @@ import pytest
 from scipy.optimize import minimize
 
 from mechsym import cases
-from mechsym.forces.loads import loads
-from mechsym.forces.shaking import BalanceWanted, orders, shaking, verdict, whole
+from mechsym.forces.loads import BalanceWanted, loads, orders, shaking, verdict, whole
 from mechsym.jobs.machine import turn
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mechsym import cases
-from mechsym.hinge.drawing import elastic_hinge
 from mechsym.hinge.guide import closing, path
+from mechsym.hinge.plots import elastic_hinge
 from mechsym.jobs.hinge import hinge
 from mechsym.mechanisms.drawing import Circle, Line
 

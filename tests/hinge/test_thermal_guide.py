@@ -16,8 +16,7 @@ from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.torque import torque
 from mechsym.jobs import hinge as design
 from mechsym.jobs.machine import machine
-from mechsym.out.block import LawPoint
-from mechsym.out.laws import hinge_law
+from mechsym.out.block import LawPoint, hinge_law
 
 SPRING = '[spring]\nlaw = "air_thermal"\nA = "0.031 m^2"\nH = "1 m"\np0 = "5 MPa"\ntau = "0.139 s"\n'
 

@@ -12,7 +12,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.export import ready
-from mechsym.out.laws import block_of
+from mechsym.out.block import block_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 CASE = """mechanism = "./yoke.py"

@@ -7,7 +7,7 @@ import pytest
 from mechsym import cases, mechanisms
 from mechsym.errors import BadInput
 from mechsym.mechanisms import evaluate, state
-from mechsym.native import fallback
+from mechsym.native import evaluate as native
 
 
 @pytest.mark.parametrize("name", ["zotov-89", "chmielewski", "alpha-stirling", "nunes-hypocycloid"])
@@ -37,7 +37,7 @@ def test_many_points_agree_with_few(name, rng):
         letters = {n: rng.uniform(-1, 1, 150) for n in function.name_in()[: max(1, function.n_in() - 1)]}
         found, last = evaluate(mechanism, group, **letters), slice(100, 150)
         few = evaluate(mechanism, group, **{n: v[last] for n, v in letters.items()})
-        assert fallback.arrays(function) is not None and fallback.arrays(function) is fallback.arrays(function)
+        assert native.arrays(function) is not None and native.arrays(function) is native.arrays(function)
         for output, values in few.items():
             assert found[output].shape == (*values.shape[:-1], 150)
             size = np.abs(values).max(initial=0.0)
@@ -47,11 +47,11 @@ def test_many_points_agree_with_few(name, rng):
 def test_what_numpy_cannot_do_is_left_to_casadi():
     x = ca.SX.sym("x")
     inner = ca.Function("inner", [x], [ca.sin(x)], {"never_inline": True})
-    assert fallback.arrays(ca.Function("outer", [x], inner.call([x]))) is None
+    assert native.arrays(ca.Function("outer", [x], inner.call([x]))) is None
     long = x
-    for _ in range(fallback._LONGEST):
+    for _ in range(native._LONGEST):
         long = long * x + 1
-    assert fallback.arrays(ca.Function("long", [x], [long])) is None
+    assert native.arrays(ca.Function("long", [x], [long])) is None
 
 
 def test_unknown_groups_and_letters_are_refused():

@@ -12,7 +12,7 @@ from native.models import MECHANISMS, agree, chain, functions, interpreted
 
 from mechsym import native
 from mechsym.native import source
-from mechsym.native.fallback import numpy_function
+from mechsym.native.evaluate import numpy_function
 from mechsym.native.kernels import constant_table, kernels, split
 from mechsym.native.tape import cheaper, factored, read
 

@@ -13,7 +13,7 @@ from built_in import needed
 
 from mechsym import cases
 from mechsym.jobs.export import ready
-from mechsym.out.laws import block_of
+from mechsym.out.block import block_of
 from mechsym.out.text.dialects import of_block
 from mechsym.out.text.files import files
 

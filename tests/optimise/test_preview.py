@@ -53,6 +53,12 @@ def test_a_fit_beyond_its_budget_does_not_begin(tmp_path):
         raise fit(tmp_path / "t.csv", "--budget", "1 s").exception
 
 
+@pytest.mark.parametrize("words", [["audit", "--source", "zotov2024"], ["audit"], ["optimise", "nunes-hypocycloid"]])
+def test_sources_and_designs_beyond_their_budget_do_not_begin(words):
+    with pytest.raises(BadInput, match=r"takes about .* --budget"):
+        raise CliRunner().invoke(mechsym, [*words, "--budget", "1 s"]).exception
+
+
 @pytest.mark.parametrize(("text", "fits"), [("", False), ("2 h", False), ("2 h, 8 GB", True), ("8 GB, 120 min", True)])
 def test_a_budget_is_a_time_a_memory_or_both(text, fits):
     budget.choose(text)

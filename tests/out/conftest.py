@@ -3,8 +3,8 @@ from built_in import needed
 
 from mechsym import cases
 from mechsym.jobs.export import ready
+from mechsym.out.block import block_of
 from mechsym.out.fmi import fmu, write
-from mechsym.out.laws import block_of
 
 
 @pytest.fixture(scope="session")

@@ -19,8 +19,8 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.jobs.export import ready
+from mechsym.out.block import block_of
 from mechsym.out.fmi import fmu
-from mechsym.out.laws import block_of
 from mechsym.simulate import Settings, simulate
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")

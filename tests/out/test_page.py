@@ -17,7 +17,7 @@ from mechsym.cases.new_engine import write_engine
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.jobs.export import ready
-from mechsym.out.laws import block_of
+from mechsym.out.block import block_of
 from mechsym.out.web import LiveRun, page, with_live
 from mechsym.simulate import Settings, simulate
 
@@ -275,3 +275,28 @@ def test_a_system_without_a_process_left_has_failed_and_makes_no_report_without_
     monkeypatch.setattr(subprocess, "Popen", full)
     with pytest.raises(OSError, match=os.strerror(errno.EAGAIN)):
         page(block)
+
+
+@pytest.mark.slow
+def test_a_loop_by_constraint_passes_its_dead_point_in_the_browser_and_has_a_slider_for_each_letter(browser, tmp_path):
+    linkages = Path(__file__).parents[2] / "examples" / "mechanisms" / "linkages.py"
+    case = tmp_path / "swings.toml"
+    case.write_text(
+        f'mechanism = "{linkages}:chebyshev"\n[drive]\ntorque = "2 N*m"\n[simulation]\nt_end = "1 s"\n'
+        "tolerance = 1e-12\n"
+    )
+    done = CliRunner().invoke(mechsym, ["simulate", str(case), "--trust", "--json"])
+    told = json.loads(done.output)
+    assert {event["kind"] for event in told["events"]} == {"dead_point"}
+    done = CliRunner().invoke(mechsym, ["page", str(case), "--out", str(tmp_path / "p.html")])
+    assert done.exit_code == 0, done.output
+    tab = browser.new_context(offline=True).new_page()
+    tab.goto((tmp_path / "p.html").as_uri())
+    tab.wait_for_function("window.mechsym && window.mechsym.last")
+    found = tab.evaluate("mechsym.run({}, [1], [], 1, 1e-13)")
+    assert [found["phi"][0], found["phid"][0]] == pytest.approx(
+        [told["final_state"]["phi"], told["final_state"]["phid"]], rel=1e-9
+    )
+    letters = {e.get_attribute("id") for e in tab.query_selector_all("input[type=range]")}
+    assert letters >= {"slider_crank_inertia", "slider_coupler_mass", "slider_rocker_u"}
+    tab.context.close()

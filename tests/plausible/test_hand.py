@@ -10,13 +10,16 @@ _FAST = 6  # one light row of so many runs with the fast tests
 
 def rows(kind):
     of_peers = [
-        row for name in ("peers", "trackers", "office", "laws") for row in LISTS[name][kind] if half(row) == "seen"
+        row
+        for name in ("peers", "trackers", "office", "laws", "shop")
+        for row in LISTS[name][kind]
+        if half(row) == "seen"
     ]
     for row in (*LISTS["hand"][kind], *of_peers):
         command = row.get("run", row.get("line")).split()[0]
         light = (
             command in ("check", "forces", "cycle", "new")
-            and row not in LISTS["laws"][kind]
+            and row not in (*LISTS["laws"][kind], *LISTS["shop"][kind])
             and zlib.crc32(name(row).encode()) % _FAST == 0
         )
         marks = [] if light else [pytest.mark.slow, *([pytest.mark.heavy] if row in of_peers else [])]

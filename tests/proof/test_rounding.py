@@ -21,7 +21,7 @@ pytest.importorskip("flint")
 from mechsym.jobs.prove import GUIDES, of_guides_at, of_mechanism_at, ranges_of, usual_case  # noqa: E402
 from mechsym.native.evaluate import compiled  # noqa: E402
 from mechsym.native.source import prepared  # noqa: E402
-from mechsym.proof.balls import arb  # noqa: E402
+from mechsym.proof.balls import arb, outward  # noqa: E402
 from mechsym.proof.outputs import Subject, of_mechanism, prove  # noqa: E402
 from mechsym.proof.rounding import bounds  # noqa: E402
 
@@ -156,6 +156,14 @@ def test_without_python_flint_it_is_one_line():
     words = ["prove", "crosshead", "--samples", "10"]
     done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and "pip install 'mechsym[proof]'" in done.stderr and done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(("value", "digits", "up", "text"), [
+    (3.1768e-14, 2, True, "3.2e-14"), (3.1001, 2, True, "3.2"), (-68.02381, 6, False, "-68.0239"), (0.0, 2, True, "0"),
+    (-68.02381, 6, True, "-68.0238"),
+])  # fmt: skip
+def test_a_bound_is_printed_outwards(value, digits, up, text):
+    assert outward(value, digits, up) == text
 
 
 def test_an_operator_without_a_bound_is_refused():

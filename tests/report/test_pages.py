@@ -3,6 +3,7 @@
 Few commands in the slow suite, every command of every case where time does not count.
 """
 
+from pathlib import Path
 from shutil import which
 
 import pytest
@@ -19,6 +20,9 @@ SOME = (
     "hinge zotov-89", "forces alpha-stirling", "balance zotov-89", "page opposed-pistons", "reproduce moroianu2017",
     "report alpha-stirling --parts cycle,simulate", "report zotov-89 --parts cycle",
 )  # fmt: skip
+OWN = ("atkinson", "compressor", "scotch-yoke", "swash-plate", "watt-six-bar", "whitworth")
+FILES = Path(__file__).parents[2] / "examples" / "mechanisms"
+FIRST = [f"page {FILES / name}.toml" for name in OWN] + [f"page {name}" for name in cases.names()]
 EVERY = [f"{name} {case}" for case in cases.names() for name in ("report", "forces", "cycle", "balance", "page")]
 EVERY += ["codesign zotov-89", "study nunes2017-chapter-6", "hinge zotov-142", "audit zotov2024"]
 HEAD = ("hinge", "forces", "page", "report")  # pages on which a machine turns
@@ -30,6 +34,31 @@ def browser():
         opened = running.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         yield opened
         opened.close()
+
+
+@pytest.mark.parametrize(
+    "line", [one if "/" in one or "zotov-89" in one else pytest.param(one, marks=pytest.mark.heavy) for one in FIRST]
+)
+def test_a_machine_moves_on_the_first_screen_of_a_page_and_of_a_report(browser, tmp_path, line):
+    case = line.partition(" ")[2]
+    lines = {line: tmp_path / "page.html", f"report {case} --parts forces": tmp_path / "report.html"}
+    for one, file in lines.items():
+        done = CliRunner().invoke(mechsym, [*one.split(), "--out", str(file)])
+        assert done.exit_code in (0, 1, 2), done.output
+        for width, height in ((375, 812), (1400, 900)):
+            tab = browser.new_page(viewport={"width": width, "height": height})
+            tab.goto(file.as_uri())
+            scene = tab.locator(".turning .scene svg").first
+            box = scene.bounding_box()
+            assert box["y"] >= 0 and box["y"] + box["height"] <= height, (one, width)
+            poses = []
+            for angle in (3, 40):
+                tab.locator(".turn .angle").first.evaluate(
+                    f"e => {{ e.value = {angle}; e.dispatchEvent(new Event('input')); }}"
+                )
+                poses.append(scene.inner_html())
+            assert poses[0] != poses[1], one
+            tab.close()
 
 
 @pytest.mark.parametrize("line", [*SOME, *(pytest.param(one, marks=pytest.mark.heavy) for one in EVERY)])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import scipy
 
-from mechsym import mechanisms
+from mechsym import cases, jobs, mechanisms
 from mechsym.forces.summary import cams as cams_of
 from mechsym.forces.turn import crank_drive, turn
 from mechsym.mechanisms.record import bind
@@ -66,3 +66,14 @@ def test_a_flight_begins_and_ends_when_it_must(share):
     assert lands.t == pytest.approx(landing, abs=1e-9)
     slope = -y0 * w * np.sin(w * (landing - t0)) + v0 * np.cos(w * (landing - t0)) - e * omega * np.sin(omega * landing)
     assert lands.lost == pytest.approx(m1 * slope**2 / 2, rel=1e-8)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("share", "told"), [(0.95, False), (1.05, True)])
+def test_a_run_tells_where_a_held_follower_would_leave(tmp_path, share, told):
+    letters = "\n".join(f"{name} = {value!r}" for name, value in (P | {"I": 1e3}).items())
+    speed = f"[simulation]\nt_end = 0.02\nspeed_start = {float(share * JUMP)!r}\n"
+    case = tmp_path / "cam.toml"
+    case.write_text(f'mechanism = "{FILE}:harmonic"\n[parameters]\n{letters}\n{speed}')
+    lines = jobs.run(cases.load(str(case)), check="none").findings
+    assert any("would lift off" in line for line in lines) == told

@@ -15,8 +15,8 @@ from scipy.sparse.linalg import spsolve
 
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-from mechsym.sizing.crosshead import CrossheadLoads, CrossheadPart, checks, wear
 from mechsym.sizing.rules.crankshaft import rectangle_stress, specific_pressure, squeeze_time, wear_index
+from mechsym.sizing.slider_crank import CrossheadLoads, CrossheadPart, checks, wear
 
 PART = CrossheadPart(
     pin_diameter=0.22, pin_length=0.3, crank_pin_diameter=0.22, crank_pin_length=0.2, shoe_width=0.25, shoe_length=0.4,

@@ -14,9 +14,8 @@ from mechsym.sizing.checks import unsafe
 from mechsym.sizing.gear_design import candidates, faults
 from mechsym.sizing.hypocycloid import checks as hypocycloid_checks
 from mechsym.sizing.hypocycloid import checks as hypocycloid_design
-from mechsym.sizing.hypocycloid import masses as hypocycloid_masses
-from mechsym.sizing.hypocycloid.engine import shaft_length, spans
-from mechsym.sizing.hypocycloid.masses import hypocycloid_forces
+from mechsym.sizing.hypocycloid import engine as hypocycloid_masses
+from mechsym.sizing.hypocycloid.engine import hypocycloid_forces, shaft_length, spans
 
 COARSE = {"sizing.speed_step": "250 rpm"}
 

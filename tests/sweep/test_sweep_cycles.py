@@ -9,7 +9,7 @@ from mechsym.cycle.engine import over_speeds
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
 from mechsym.sweep import Plan, columns, failures, sweep
-from mechsym.sweep import cycles as maps
+from mechsym.sweep import points as maps
 from mechsym.sweep.outcomes import flat
 
 ENGINE = "nunes-slider-crank"

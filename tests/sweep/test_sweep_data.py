@@ -199,7 +199,7 @@ def test_a_map_may_be_empty_where_it_is_cut():
 def test_words_are_colours():
     figure = plots_sweep.picture(sweep(PICTURES["words and numbers"]))
     assert figure.axes[0].get_xlabel() == "c1 [N m s/rad]"
-    assert [t.get_text() for t in figure.legends[0].get_texts()][0] == "simulation, integrator = native"
+    assert [t.get_text() for t in figure.legends[0].get_texts()][0] == "integrator = native"
 
 
 def test_pictures_of_nothing():

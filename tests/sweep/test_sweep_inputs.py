@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from mechsym import cases, inputs
+from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
+from mechsym.files import inputs
 from mechsym.mechanisms import own
 from mechsym.native import cache
 from mechsym.report import case_report
@@ -193,9 +194,10 @@ def test_two_helpers_of_one_name_are_not_mixed_up(folder):
 OTHER_READERS = set(
     """
     app/commands.py app/saving.py app/server.py audit/theory/catalogue.py cases/numbers.py cli/__init__.py cli/audit.py
-    derive/build.py files.py inputs.py mechanisms/own.py mechanisms/record.py native/cache.py native/compiler.py
+    derive/build.py files/__init__.py files/inputs.py files/trust.py mechanisms/own.py mechanisms/record.py
+    native/cache.py native/compiler.py
     out/cad/step.py out/fmi/build.py out/pdf.py out/web/build.py papers/rows.py proof/motion.py sweep/store.py
-    transaction.py trust.py
+    transaction.py
 """.split()
 )
 

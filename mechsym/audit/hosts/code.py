@@ -11,7 +11,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from mechsym.errors import BadInput
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.quantities import record
 
 # languages whose statements end with the line

@@ -12,7 +12,7 @@ from mechsym.audit.read.reader import joined
 from mechsym.audit.row import Row, answer, answer_or_why, shared
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 
 SECONDS = 0.5  # that a formula takes at most in the mean: exact ones hundredths, misprints half a second [s]
 _TEXTS = ("text", "against", "case", "name", "claim", "convention", "theory")

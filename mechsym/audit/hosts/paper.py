@@ -37,7 +37,7 @@ from mechsym.audit.theory.record import Theory, dependencies, known
 from mechsym.audit.theory.tape import retaped
 from mechsym.audit.verdict import FINDINGS
 from mechsym.errors import BadInput
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result, tell
 

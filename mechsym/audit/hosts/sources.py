@@ -7,6 +7,8 @@ from typing import Protocol
 
 import numpy as np
 
+from mechsym import budget
+from mechsym.audit.hosts.formula import SECONDS
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.asked import question_of as question_asked
 from mechsym.audit.judge.certificate import script
@@ -110,7 +112,9 @@ def question_of(entry: Printed) -> Question:
 
 def rows(sources: Iterable[Audited], done: Callable[[], object] = lambda: None) -> list[Row]:
     """One row for each entry of the sources, in the order of the text."""
-    answers = []
+    answers, sources = [], list(sources)
+    count = sum(len(source.entries) for source in sources)
+    budget.require(f"{count} formulas of sources", SECONDS * count, 0.0, "name one --source")
     for source in sources:
         for entry in source.entries:
             answers.append(row(source.stem, entry))
@@ -147,26 +151,25 @@ def _at_the_data(question: Question, decision: Decision) -> str:
 
 
 def certificate_of_formula(asked: Asked, row: Row) -> str:
-    """The Coq file of a formula of one's own; refused where the verdict is not proved by polynomials."""
+    """The Coq file of a formula of one's own; refused where the verdict is not exact, or nothing proves it."""
     proof = None
-    if _is_proved(row):
+    if row["verdict"] == "exact":
         question = question_asked(asked, statement(asked.text))
         proof = script(question, question.formula.tree, "formula")
     if proof is None:
-        evidence = (row["evidence"] or {}).get("certificate") or "no proof"
         raise BadInput(
-            f"--certificate: the verdict is {row['verdict']} by {evidence}; only what is exact by polynomials, "
-            "in sines, cosines and square roots, has a Coq script"
+            f"--certificate: the verdict is {row['verdict']}; only what is exact and rational in letters, sines, "
+            "cosines, roots and powers has a Coq script"
         )
     return "\n".join([HEAD, _comment(row), proof])
 
 
 def certificate_of_sources(sources: Iterable[Audited], rows: Sequence[Row]) -> tuple[str, list[str]]:
-    """The Coq file of all exact verdicts of sources, and the equations that are proved and have no script."""
+    """The Coq file of all exact verdicts of sources, and the equations that are exact and have no script."""
     entries = [(source, number, entry) for source in sources for number, entry in enumerate(source.entries, start=1)]
     parts, without = [HEAD], []
     for (source, number, entry), row in zip(entries, rows, strict=True):
-        if not isinstance(entry, Printed) or not _is_proved(row):
+        if not isinstance(entry, Printed) or row["verdict"] != "exact":
             continue
         question = question_of(entry)
         proof = script(question, question.formula.tree, f"{source.name}_{number}")
@@ -175,10 +178,6 @@ def certificate_of_sources(sources: Iterable[Audited], rows: Sequence[Row]) -> t
         else:
             parts += [_comment(row), proof]
     return "\n".join(parts), without
-
-
-def _is_proved(row: Row) -> bool:
-    return row["verdict"] == "exact" and row["evidence"].get("certificate") == "polynomial"
 
 
 def _comment(row: Row) -> str:

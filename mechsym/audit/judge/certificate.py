@@ -21,6 +21,8 @@ from mechsym.audit.judge.coq import (
     bases,
     coq_text,
     is_half,
+    lowered,
+    not_zero,
     power_text,
     prime_factors,
     rational,
@@ -32,6 +34,7 @@ from mechsym.errors import BadInput
 
 _MOST = 1500  # operations, beyond which ring takes minutes
 _MULTIPLE = 8  # of an angle
+_UNOPENED = ("exp", "log", "acos", "atan")
 _SIGNS: dict[type, str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 
 
@@ -74,7 +77,7 @@ def _part(own: Script, tree: Node, authors: bool) -> CoqTerm:
         return CoqTerm(text=text, value=left.value - right.value)
     if isinstance(tree.op, ast.Mult):
         return CoqTerm(text=text, value=left.value * right.value)
-    _not_zero(own, right.value)
+    not_zero(own, right.value)
     return CoqTerm(text=text, value=left.value / right.value)
 
 
@@ -142,7 +145,7 @@ def _power(own: Script, base: CoqTerm, power: CoqTerm) -> CoqTerm:
         base = _function(own, "sqrt", base)
     whole = Fraction(exponent.numerator)
     if whole < 0:
-        _not_zero(own, base.value)
+        not_zero(own, base.value)
     return CoqTerm(text=power_text(base.text, whole, str), value=base.value ** int(whole))
 
 
@@ -155,11 +158,13 @@ def _real_power(own: Script, base: CoqTerm, power: CoqTerm) -> CoqTerm:
     exponents = sympy.expand(power.value)
     if len(exponents.free_symbols) == 1:
         exponents = sympy.apart(sympy.together(power.value))
-    value = Integer(1)
+    value, primes = Integer(1), []
     for whole, sign in ((above, 1), (below, -1)):
-        for factor, count in prime_factors(whole):
+        factors = list(prime_factors(whole))
+        for factor, count in factors:
             value *= _powers_of(own, factor, exponents * sign * count)
-    plain = coq_text(sympy.factor(base.value))
+        primes.append(" * ".join(f"({coq_text(factor)} ^ {count})" for factor, count in factors) or "1")
+    plain = f"({' / '.join(f'({product})' for product in primes)})"
     named = "" if plain == base.text else f"replace {base.text} with {plain} by (field; nonzero); "
     own.prove(text, coq_text(value), f"{named}logarithms")
     own.functions[text] = CoqTerm(text=coq_text(value), value=value)
@@ -185,15 +190,10 @@ def _powers_of(own: Script, base: Expr, exponent: Expr) -> Expr:
             known = own.new("P", own.put(f"(Rpower {coq_text(base)} {coq_text(sympy.together(kind))})"))
             own.powers[known] = (base, kind)
             own.suppose(f"0 < {known}")
+            if kind.is_Rational:
+                own.relations.append(known**kind.q - base**kind.p)
         value *= known**count.p
     return value
-
-
-def _not_zero(own: Script, value: Expr) -> None:
-    above, below = sympy.fraction(sympy.together(value))
-    for factor in bases(sympy.factor(above)):
-        if not factor.is_positive:
-            own.suppose(f"{coq_text(factor)} <> 0")
 
 
 def _function(own: Script, function: str, argument: CoqTerm) -> CoqTerm:
@@ -206,7 +206,7 @@ def _function(own: Script, function: str, argument: CoqTerm) -> CoqTerm:
 def _evaluated(own: Script, function: str, argument: CoqTerm, text: str) -> CoqTerm:
     if function == "tan":
         sine, cosine = (_function(own, f, argument) for f in ("sin", "cos"))
-        _not_zero(own, cosine.value)
+        not_zero(own, cosine.value)
         whole = CoqTerm(text=f"({sine.text} / {cosine.text})", value=sine.value / cosine.value)
         own.prove(text, whole.text, f"unfold tan; {own.rewritten}; reflexivity")
         return whole
@@ -228,15 +228,29 @@ def _evaluated(own: Script, function: str, argument: CoqTerm, text: str) -> CoqT
         own.prove(f"(cos {text})", f"(sqrt {inside.text})", "apply cos_of_asin; assumption")
         own.functions[f"(cos {angle})"] = _function(own, "sqrt", inside)
         return CoqTerm(text=str(angle), value=angle)
-    raise BadInput(f"{function} has no place in a certificate")
+    if function not in _UNOPENED:
+        raise BadInput(f"{function} has no place in a certificate")
+    return _unopened(own, function, argument, text)
+
+
+def _unopened(own: Script, function: str, argument: CoqTerm, text: str) -> CoqTerm:
+    # of which nothing is known but that it is the same of the same: exp of a product, the sine of a quotient
+    for kind, value, known in own.unopened:
+        if kind == function and sympy.cancel(value - argument.value) == 0:
+            own.prove(text, own.terms[known.text], "f_equal; field; nonzero")
+            return known
+    letter = own.new("E", own.put(text))
+    own.unopened.append((function, argument.value, CoqTerm(text=str(letter), value=letter)))
+    return own.unopened[-1][2]
 
 
 def _circular(own: Script, function: str, argument: CoqTerm, text: str) -> CoqTerm:
     terms = sympy.expand(argument.value).as_coefficients_dict()
     if len(terms) == 1 and next(iter(terms.values())) == 1 and next(iter(terms)).is_Symbol:
-        return _of_letter(own, function, next(iter(terms)))
+        return _same(own, function, next(iter(terms)), text)
     if any(not k.is_Symbol or not v.is_Integer for k, v in terms.items()) or sum(map(abs, terms.values())) > _MULTIPLE:
-        raise BadInput("a sine of this has no place in a certificate")
+        angle = _unopened(own, "angle", argument, argument.text)
+        return _same(own, function, angle.value, text)
     parts = [(k, 1 if v > 0 else -1) for k, v in sorted(terms.items(), key=str) for _ in range(abs(int(v)))]
     added = " + ".join(f"{k}" if sign > 0 else f"(- {k})" for k, sign in parts)
     sine, cosine = Integer(0), Integer(1)
@@ -251,6 +265,12 @@ def _circular(own: Script, function: str, argument: CoqTerm, text: str) -> CoqTe
         f"replace {argument.text} with ({added}) by (field; nonzero); {opened}; {own.rewritten}; field; nonzero",
     )
     return CoqTerm(text=coq_text(value), value=value)
+
+
+def _same(own: Script, function: str, angle: Symbol, text: str) -> CoqTerm:
+    # of an angle that is a letter in the end
+    own.prove(text, own.put(f"({function} {angle})"), "f_equal; field; nonzero")
+    return _of_letter(own, function, angle)
 
 
 def _of_letter(own: Script, function: str, angle: Symbol) -> CoqTerm:
@@ -269,7 +289,7 @@ def _root(own: Script, argument: CoqTerm, text: str) -> CoqTerm:
     above, below = sympy.fraction(sympy.together(argument.value))
     if not below.is_positive:
         raise BadInput("a root of a fraction of either sign has no certificate")
-    content, factors = sympy.factor_list(_lowered(own, sympy.expand(above * below)))
+    content, factors = sympy.factor_list(lowered(own, sympy.expand(above * below)))
     outside, inside, whole = Integer(1), Integer(1), Integer(1)
     if content > 0:
         factors = [*factors, *((Integer(p), k) for p, k in sympy.factorint(content).items())]
@@ -305,15 +325,6 @@ def _root_letter(own: Script, square: Expr) -> Expr:
     return own.functions[key].value
 
 
-def _lowered(own: Script, polynomial: Expr) -> Expr:
-    # c^2 as 1 - s^2
-    for relation in own.relations:
-        cosine = max(relation.free_symbols, key=lambda k: int(str(k)[1:]) if str(k)[0] == "c" else -1)
-        if str(cosine)[0] == "c" and relation.has(cosine**2):
-            polynomial = sympy.rem(polynomial, relation, cosine)
-    return sympy.expand(polynomial)
-
-
 def _lemma(own: Script, name: str, one: CoqTerm, other: CoqTerm) -> str:
     """A lemma of two rational expressions in letters, and how it is applied."""
     above, below = sympy.fraction(sympy.together(one.value - other.value))
@@ -335,7 +346,7 @@ def _lemma(own: Script, name: str, one: CoqTerm, other: CoqTerm) -> str:
     combination = " + ".join(f"({coq_text(q)}) * ({coq_text(r)})" for _, q, r in used) or "0"
     conditions = list(own.hypotheses)
     told = " ".join([one.text, other.text, *map(coq_text, relations), *conditions])
-    letters = [k for k in dict.fromkeys(re.findall(r"\b(?:[A-Za-z]\w*_|[AscDP]\d+)\b", told))]
+    letters = [k for k in dict.fromkeys(re.findall(r"\b(?:[A-Za-z]\w*_|[AEscDP]\d+)\b", told))]
     named = [f"H{i}" for i in range(len(relations))] + [f"N{i}" for i in range(len(conditions))]
     own.lemmas.append(
         "\n".join(
@@ -345,6 +356,12 @@ def _lemma(own: Script, name: str, one: CoqTerm, other: CoqTerm) -> str:
                 *(f"  {c} ->" for c in conditions),
                 f"  {one.text} = {other.text}.",
                 f"Proof.\n  intros {' '.join([*letters, *named])}.",
+                *(
+                    f"  assert ({coq_text(sympy.expand(d))} <> 0) by "
+                    f"(replace {coq_text(sympy.expand(d))} with {coq_text(d)} by ring; product)."
+                    for d in own.divisors
+                    if {str(k) for k in d.free_symbols} <= set(letters)
+                ),
                 "  apply Rminus_diag_uniq.",
                 f"  replace ({one.text} - {other.text}) with (({combination}) / ({coq_text(below)})).",
                 f"  - {''.join(f'rewrite H{i}; ' for i, _, _ in used)}unfold Rdiv; ring.\n  - field; nonzero.\nQed.",

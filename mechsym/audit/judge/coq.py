@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import field
 from fractions import Fraction
+from itertools import combinations
 from typing import TypeGuard
 
 import sympy
@@ -47,7 +48,8 @@ Ltac logarithms := unfold Rdiv; apply ln_inv; [ strictly | strictly | ];
   repeat first [ rewrite ln_mult by strictly | rewrite ln_Rinv by strictly | rewrite ln_of_pow by strictly
     | unfold Rpower; rewrite ln_exp | progress rewrite ?ln_1 ]; simpl INR; field; nonzero.
 Ltac circles := first
-  [ match goal with |- context [cos ?a] => solve [ generalize (sin2_cos2 a); unfold Rsqr; lra ] end
+  [ match goal with |- Rpower ?b ?e ^ ?k - ?c = 0 => solve [ apply Rminus_diag_eq; logarithms ] end
+  | match goal with |- context [cos ?a] => solve [ generalize (sin2_cos2 a); unfold Rsqr; lra ] end
   | match goal with |- context [sqrt ?u] =>
       solve [ let Q := fresh in assert (Q : 0 <= u) by assumption; generalize (sqrt_sqrt u Q); lra ] end ].
 """
@@ -81,6 +83,9 @@ class Script:
     relations: list[Expr] = field(default_factory=list)  #: What vanishes
     powers: dict[Symbol, tuple[Expr, Expr]] = field(default_factory=dict)  #: Letter of a power: base and exponent
     angles: list[tuple[Expr, CoqTerm]] = field(default_factory=list)  #: Arcsines, by what they are of
+    #: Functions that are taken as they are: which one, of what, and its letter
+    unopened: list[tuple[str, Expr, CoqTerm]] = field(default_factory=list)
+    divisors: dict[Expr, None] = field(default_factory=dict)  #: Factored, of several factors
     hypotheses: dict[str, None] = field(default_factory=dict)
     definitions: dict[str, str] = field(default_factory=dict)  #: Names of the tape and of the author, in their order
 
@@ -178,3 +183,29 @@ def coq_text(e: Expr) -> str:
 
 def _is_below(e: Expr) -> bool:
     return isinstance(e, Pow) and bool(e.exp.is_Integer and e.exp < 0)
+
+
+_CANCELLED = 4  # letters of a divisor, of which all products are tried
+
+
+def not_zero(own: Script, value: Expr) -> None:
+    """Suppose that a divisor is not zero, factor by factor."""
+    above = sympy.factor(sympy.fraction(sympy.together(value))[0])
+    factors = bases(above)
+    for factor in factors:
+        if not factor.is_positive:
+            own.suppose(f"{coq_text(factor)} <> 0")
+    # `field` asks for divisors less what cancels
+    sums = sympy.Mul(*(f for f in factors if f.is_Add))
+    plain = [f for f in factors if f.is_Symbol][:_CANCELLED]
+    for count in range(1, len(plain) + 1) if sums != 1 else ():
+        own.divisors.update((sympy.Mul(*some) * sums, None) for some in combinations(plain, count))
+
+
+def lowered(own: Script, polynomial: Expr) -> Expr:
+    """A polynomial with c^2 as 1 - s^2."""
+    for relation in own.relations:
+        cosine = max(relation.free_symbols, key=lambda k: int(str(k)[1:]) if str(k)[0] == "c" else -1)
+        if str(cosine)[0] == "c" and relation.has(cosine**2):
+            polynomial = sympy.rem(polynomial, relation, cosine)
+    return sympy.expand(polynomial)

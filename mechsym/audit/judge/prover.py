@@ -1,5 +1,6 @@
 """Is the formula exactly the derived quantity? Many digits at random states decide, a polynomial certificate proves."""
 
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 
@@ -42,9 +43,19 @@ class Judges:
     """The states that decide whether a formula is exact, made once per question."""
 
     question: Question
-    quick: Bench  #: In floats: refutes almost everything that is wrong
-    strict: Bench
+    values: Mapping[str, Sequence[Fraction]]
     angle: bool = False  #: Whether the quantity is an angle, the same after a whole turn
+
+    @cached_property
+    def quick(self) -> Bench:
+        """In floats: refutes almost everything that is wrong."""
+        return bench(self.question, float_values(self.values), FLOATS)
+
+    @cached_property
+    def strict(self) -> Bench:
+        """With many digits."""
+        with mpmath.workdps(WORKING_DIGITS):
+            return bench(self.question, digit_values(self.values), DIGITS, WORKING_DIGITS)
 
     @cached_property
     def turn(self) -> Bench:
@@ -59,15 +70,8 @@ class Judges:
 
 def judges(question: Question, seed: int = 1) -> Judges:
     """Random states for a question, the same in floats and with many digits."""
-    values = drawn(question, POINTS, seed)
-    with mpmath.workdps(WORKING_DIGITS):
-        strict = digit_values(values)
-    return Judges(
-        question=question,
-        quick=bench(question, float_values(values), FLOATS),
-        strict=bench(question, strict, DIGITS, WORKING_DIGITS),
-        angle=kind_of(question.theory, name(question.quantity)) == ANGLE,
-    )
+    angle = kind_of(question.theory, name(question.quantity)) == ANGLE
+    return Judges(question=question, values=drawn(question, POINTS, seed), angle=angle)
 
 
 @record

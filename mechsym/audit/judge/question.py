@@ -111,12 +111,12 @@ def small_rods(theory: Theory, values: Mapping[str, list[Fraction]], eps: Fracti
     return {k: [x * factor[k] for x in v] if k in factor else list(v) for k, v in values.items()}
 
 
-def float_values(values: Mapping[str, list[Fraction]]) -> dict[str, np.ndarray]:
+def float_values(values: Mapping[str, Sequence[Fraction]]) -> dict[str, np.ndarray]:
     """Exact values as floats, by letter."""
     return {k: np.array([float(x) for x in v]) for k, v in values.items()}
 
 
-def digit_values(values: Mapping[str, list[Fraction]]) -> dict[str, np.ndarray]:
+def digit_values(values: Mapping[str, Sequence[Fraction]]) -> dict[str, np.ndarray]:
     """Exact values as mpmath numbers of the working precision, by letter."""
     return {k: np.array([mpmath.mpf(x.numerator) / x.denominator for x in v]) for k, v in values.items()}
 

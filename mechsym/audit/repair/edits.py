@@ -1,19 +1,13 @@
 """Single edits of a printed formula: what an author, a typesetter or a scanner most often gets wrong."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import reduce
 from math import gcd
 
 from mechsym.audit.read.tree import Node, Path, binary, children, is_operation, number, replace, value_of, walk
 from mechsym.quantities import record
-
-# the simplest slip first; kinds of one rank compete by length
-RANKS = {
-    "sign": 0, "factor": 1, "argument": 1, "number": 1, "unit": 2, "letter": 3, "sine and cosine": 3, "power": 4,
-    "bracket": 5, "squares": 5, "operator": 5, "degrees": 5, "left out": 6, "put back": 6, "root": 7,
-    "inverted": 8, "everywhere": 9,
-}  # fmt: skip
 
 
 @record
@@ -43,6 +37,11 @@ def places(tree: Node) -> Iterator[Spot]:
         yield place
         below = [Spot(path=(*place.path, s), node=c, parent=place.node) for s, c in children(place.node)]
         waiting += reversed(below)
+
+
+def chained(operator: type[ast.operator], parts: Sequence[Node]) -> Node:
+    """Parts joined by one operator, from the left."""
+    return reduce(lambda left, right: binary(operator, left, right), parts)
 
 
 def apply(tree: Node, edit: Edit) -> Node:

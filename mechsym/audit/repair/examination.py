@@ -25,9 +25,9 @@ from mechsym.audit.judge.question import (
 from mechsym.audit.read.algebra import DIGITS, FLOATS
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, digest, function_of, walk
-from mechsym.audit.repair.candidates import confusable, listed_edits, matching_edits, repeated_edits
-from mechsym.audit.repair.edits import RANKS, Edit, apply, tidy
-from mechsym.audit.repair.slips import wider_edits
+from mechsym.audit.repair.edits import Edit, apply, tidy
+from mechsym.audit.repair.required import matching_edits, words_of
+from mechsym.audit.repair.rules import BITS, exchanged_edits, listed_edits, repeated_edits
 from mechsym.quantities import record
 
 SEARCH_DIGITS = 80
@@ -91,7 +91,8 @@ def slips(exam: Examination, tree: Node) -> tuple[list[Edit], list[Edit]]:
     """Slips of one place of a formula, and slips that are repeated wherever the same part stands."""
     said = digest(tree)
     if said not in exam.slips:
-        exam.slips[said] = listed_edits(exam.question, tree), repeated_edits(tree)
+        words = words_of(exam.question)
+        exam.slips[said] = listed_edits(tree, words), repeated_edits(tree, words)
     return exam.slips[said]
 
 
@@ -102,8 +103,9 @@ def exact_repair(exam: Examination, start: Repair, insert: bool = False) -> Repa
             return exact
     if insert:
         return None
-    wider = wider_edits(exam.question, start.tree, lambda letter: confusable(exam.question, letter))
-    return _exact(exam, start, wider, insert)
+    words = words_of(exam.question)
+    wider = [*exchanged_edits(start.tree, words.kind), *repeated_edits(start.tree, words, True)]
+    return _exact(exam, start, [*wider, *listed_edits(start.tree, words, True)], insert)
 
 
 def raising_repairs(exam: Examination, start: Repair) -> Iterator[list[Repair]]:
@@ -197,9 +199,9 @@ def fingerprint(exam: Examination, tree: Node) -> bytes:
         return np.where(np.isfinite(values) & (values != 0), np.round(values * scale), 0).tobytes()
 
 
-def simplicity(edit: Edit, tree: Node) -> tuple[int, int]:
-    """The simplest slip first, then the shortest formula."""
-    return RANKS[edit.kind], len(to_python(tree))
+def simplicity(edit: Edit, tree: Node) -> tuple[float, int]:
+    """The shortest description of a slip first, then the shortest formula [bits], [-]."""
+    return BITS[edit.kind], len(to_python(tree))
 
 
 def _rank(repair: Repair) -> tuple[float, ...]:

@@ -38,7 +38,7 @@ from mechsym.audit.theory.record import Letter, Theory
 from mechsym.audit.theory.tape import Entry, Root, TheoryTape, derivative, minus, over, plus, times
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.quantities import dimension, parse
 
 _ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "ln": "log"}

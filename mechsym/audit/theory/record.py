@@ -162,6 +162,13 @@ def dependencies(theory: Theory, wanted: Iterable[str]) -> set[str]:
     return reached
 
 
+def related(theory: Theory, quantity: str) -> list[str]:
+    """Results that are made of no other letters than a quantity, itself left out."""
+    own = dependencies(theory, [quantity]) & theory.letters.keys()
+    results = [k for k in theory.results if k != quantity]
+    return [k for k in results if dependencies(theory, [k]) & theory.letters.keys() <= own]
+
+
 def parts(theory: Theory, tree: Node) -> bool:
     """Whether a letter with one value per part stands outside every sum()."""
     if isinstance(tree, ast.Name):

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, GasExchange, HeatSink, Surroundings, charge
+from mechsym.cycle.breathing.flow import PERIOD, Breath, Breathing, GasExchange, HeatSink, Surroundings, charge
 from mechsym.cycle.breathing.run import Cylinder, breathe
 from mechsym.cycle.breathing.turbocharger import Boost, Boosted, atmosphere, boosted
 from mechsym.cycle.chamber import Chamber, ChamberParameters, Motion, chamber, piston_force, travel, volume

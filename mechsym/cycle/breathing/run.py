@@ -27,8 +27,17 @@ from collections.abc import Callable, Sequence
 import casadi as ca
 import numpy as np
 
-from mechsym.cycle.breathing.flow import curtain_area, orifice_flow, valve_lift
-from mechsym.cycle.breathing.records import PERIOD, Breath, Breathing, FreshCharge, HeatSink, Surroundings
+from mechsym.cycle.breathing.flow import (
+    PERIOD,
+    Breath,
+    Breathing,
+    FreshCharge,
+    HeatSink,
+    Surroundings,
+    curtain_area,
+    orifice_flow,
+    valve_lift,
+)
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.run import METHOD
 from mechsym.cycle.heat import Adiabatic, GasAtWall, heat_flux, motored_swirl
@@ -172,7 +181,15 @@ def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps
     phi = cylinder.breathing.inlet_closes + np.linspace(0.0, PERIOD, steps + 1)
     fold, room = _fold(cylinder), _rooms(cylinder, phi)
     closed = float(room[0])
-    state = _start(cylinder, outside, closed)
+    # first guess of all states, shape (states, speeds)
+    b, c, (p_in, T_in, p_out) = cylinder.breathing, cylinder.charge, outside
+    rows: list[np.ndarray] = []
+    for p, V, T, burnt in (
+        (p_in, b.plenum_volume, T_in, 0.0), (p_in, closed, T_in, 0.0), (p_out, b.manifold_volume, _HOT * T_in, 1.0)
+    ):  # fmt: skip
+        mass = p * V / (c.R * T)
+        rows += [mass, p * V / (c.gamma - 1), burnt * mass]
+    state = np.vstack([*rows, np.zeros((_SUMS, outside.shape[1]))])
     past: list[tuple[np.ndarray, np.ndarray]] = []
     for count in range(_CYCLES + 1):
         history = fold(state, _given(cylinder, state, closed, speeds, outside), steps)
@@ -260,12 +277,17 @@ def _summed(
     sums, trapped = dict(zip(STATES[9:], history[-1, 9:].tolist(), strict=True)), float(history[0, 3])
     fresh, drawn = trapped - float(history[0, 5]), sums["m_in"] - sums["b_in"]
     leaving = _leaving(cylinder, outside, pressures["manifold"], history[:, 7] / (history[:, 6] * cv))
+    first, last = history[0], history[-1]
+    mass, energy, _ = (last[:9] - first[:9]).reshape(3, 3).sum(axis=0)
+    left = energy - sums["H_in"] + sums["H_out"] - sums["heat"] + sums["wall_heat"] + sums["work"]
     return Breath(
         omega=omega, phi=phi, pressures=pressures, temperature=temperature, room=room, trapped=trapped,
         residual=1 - fresh / trapped,
         volumetric_efficiency=drawn / (p_in * float(np.ptp(room)) / (c.R * T_in)), drawn=drawn,
         trapping_efficiency=fresh / drawn, T_exhaust=leaving, work=sums["work"], pumping=sums["pumping"],
-        heat=sums["heat"], wall_heat=sums["wall_heat"], closure=closure, **_residuals(history, sums),
+        heat=sums["heat"], wall_heat=sums["wall_heat"], closure=closure,
+        mass_residual=float(abs(mass - sums["m_in"] + sums["m_out"])) / float(first[3]),
+        energy_residual=float(abs(left)) / float(first[4]),
     )  # fmt: skip
 
 
@@ -276,28 +298,6 @@ def _leaving(cylinder: Cylinder, outside: np.ndarray, p: np.ndarray, T: np.ndarr
     flow = ca.Function("flow", [state], [orifice_flow(1.0, (state[0], state[1]), behind, c.gamma, c.R)])
     out = np.maximum(np.asarray(flow(np.vstack([p, T]))).ravel(), 0.0)
     return float(np.sum(out * T) / np.sum(out))
-
-
-def _residuals(history: np.ndarray, sums: dict[str, float]) -> dict[str, float]:
-    first, last = history[0], history[-1]
-    mass, energy, _ = (last[:9] - first[:9]).reshape(3, 3).sum(axis=0)
-    left = energy - sums["H_in"] + sums["H_out"] - sums["heat"] + sums["wall_heat"] + sums["work"]
-    return {
-        "mass_residual": float(abs(mass - sums["m_in"] + sums["m_out"])) / float(first[3]),
-        "energy_residual": float(abs(left)) / float(first[4]),
-    }
-
-
-def _start(cylinder: Cylinder, outside: np.ndarray, closed: float) -> np.ndarray:
-    """First guess of all states, shape (states, speeds)."""
-    b, c, (p_in, T_in, p_out) = cylinder.breathing, cylinder.charge, outside
-    rows: list[np.ndarray] = []
-    for p, V, T, burnt in (
-        (p_in, b.plenum_volume, T_in, 0.0), (p_in, closed, T_in, 0.0), (p_out, b.manifold_volume, _HOT * T_in, 1.0)
-    ):  # fmt: skip
-        mass = p * V / (c.R * T)
-        rows += [mass, p * V / (c.gamma - 1), burnt * mass]
-    return np.vstack([*rows, np.zeros((_SUMS, outside.shape[1]))])
 
 
 _ROUNDS, _BESIDE, _WORTH = 12, 1e-6, 0.5

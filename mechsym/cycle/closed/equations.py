@@ -15,8 +15,7 @@ from typing import Annotated, Any, NamedTuple
 import casadi as ca
 
 from mechsym.cycle.chamber import Chamber, volume, volume_and_slope, wall_area
-from mechsym.cycle.heat import GasAtWall, Law, heat_flux, motored_swirl
-from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.cycle.heat import ConstantGamma, GasAtWall, Law, NasaMixture, heat_flux, motored_swirl, properties
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
 from mechsym.quantities import record
 from mechsym.quantities.units import Kelvin, Pascal, Radian, Scalar
@@ -108,7 +107,16 @@ def rates(
     now = contents(closed, phase, phi)
     gas = properties(closed.gas, t, now.burnt)
     p = now.mass * gas.gas_constant * t / v
-    loss = _heat_loss(closed, phase, p, t, v, gas.gas_constant)
+    chamber = closed.chamber
+    swirl: Scalar = 0.0
+    if phase != "before":
+        v_ref = volume(chamber, closed.closes)
+        motored = closed.pressure * (v_ref / v) ** _MOTORED_EXPONENT
+        scale = chamber.displacement * closed.temperature / (closed.pressure * v_ref)
+        swirl = motored_swirl(closed.law, p, motored, scale)
+    speed = chamber.stroke * closed.omega / ca.pi
+    state = GasAtWall(p, t, v, gas.gas_constant, chamber.bore, speed, swirl)
+    loss = heat_flux(closed.law, state) * wall_area(chamber, v) / closed.omega
     released = closed.heat * now.burnt_slope
     brought = (closed.fuel_energy - gas.energy) * now.mass_slope
     gain = released - loss - p * dv + brought - now.mass * gas.energy_slope * now.burnt_slope
@@ -138,16 +146,3 @@ def scalars(closed: Closed, t_end: Kelvin[Scalar]) -> tuple[Scalar, ...]:
         "stroke": closed.chamber.stroke,
     }
     return tuple(values[name] for name in SCALARS)
-
-
-def _heat_loss(closed: Closed, phase: str, p: Scalar, t: Scalar, v: Scalar, gas_constant: Scalar) -> Scalar:
-    chamber = closed.chamber
-    swirl: Scalar = 0.0
-    if phase != "before":
-        v_ref = volume(chamber, closed.closes)
-        motored = closed.pressure * (v_ref / v) ** _MOTORED_EXPONENT
-        scale = chamber.displacement * closed.temperature / (closed.pressure * v_ref)
-        swirl = motored_swirl(closed.law, p, motored, scale)
-    speed = chamber.stroke * closed.omega / ca.pi
-    state = GasAtWall(p, t, v, gas_constant, chamber.bore, speed, swirl)
-    return heat_flux(closed.law, state) * wall_area(chamber, v) / closed.omega

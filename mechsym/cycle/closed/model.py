@@ -35,9 +35,8 @@ from mechsym.cycle.breathing.flow import curtain_area, orifice_flow, valve_lift
 from mechsym.cycle.chamber import ChamberParameters, Motion, chamber, volume, volume_and_slope
 from mechsym.cycle.closed.equations import Build, Closed, contents
 from mechsym.cycle.friction import Friction
-from mechsym.cycle.heat import Law
+from mechsym.cycle.heat import ConstantGamma, Law, NasaMixture, properties
 from mechsym.cycle.kinds.spark_ignition import SparkIgnition, charge, latent_heat, timing, vapour_energy
-from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
 from mechsym.errors import BadInput
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pascal, Scalar
@@ -111,9 +110,17 @@ def open_function(build: Build, names: Sequence[str]) -> ca.Function:
         every = ca.repmat(design, 1, steps + 1), ca.repmat(t_end, 1, steps + 1)
         phi, p, swept = node.map(steps + 1)(at, history, *every)
         angles, pressures = [*angles, phi.T], [*pressures, p.T]
-        works.append(ca.dot(ca.DM(_simpson(steps)).T, p * swept))
+        weights = np.where(np.arange(steps + 1) % 2, 4.0, 2.0)
+        weights[[0, -1]] = 1.0
+        works.append(ca.dot(ca.DM(weights / (3 * steps)).T, p * swept))
         state = history[:, -1]
-    rest = ca.Function("rest", [z, t, u], _behind_dead_centre(closed, u, t))
+    # work of the stroke that draws in, from the pressure at its start, and on to inlet closing [J]; gamma [-]
+    gamma, least, full = _expanding(closed, t)[1], closed.chamber.clearance, volume(closed.chamber, math.pi)
+    filled = least * (u / closed.pressure) ** (1 / gamma)
+    drawn = (u * least - closed.pressure * filled) / (gamma - 1) + closed.pressure * (full - filled)
+    rest = ca.Function(
+        "rest", [z, t, u], [drawn, closed.pressure * (volume(closed.chamber, closed.closes) - full), gamma]
+    )
     drawn, closing, gamma = rest(design, t_end, pressures[-1][-1])
     outputs = [ca.vertcat(*angles), ca.vertcat(*pressures), works[0] + works[1] + drawn + closing, works[1] + drawn,
                gamma]  # fmt: skip
@@ -146,14 +153,6 @@ def _slope(closed: Closed, valve: Blowdown, phi: Scalar, u: Scalar, t: Scalar) -
     return (gamma - 1) / 2 * u * flow / (now * closed.omega)
 
 
-def _behind_dead_centre(closed: Closed, p: Scalar, t: Scalar) -> list[Scalar]:
-    """Work of the stroke that draws in, from the pressure at its start, and on to inlet closing [J]; gamma [-]."""
-    gamma, least, full = _expanding(closed, t)[1], closed.chamber.clearance, volume(closed.chamber, math.pi)
-    filled = least * (p / closed.pressure) ** (1 / gamma)
-    drawn = (p * least - closed.pressure * filled) / (gamma - 1) + closed.pressure * (full - filled)
-    return [drawn, closed.pressure * (volume(closed.chamber, closed.closes) - full), gamma]
-
-
 def _step(slope: ca.Function, h: float) -> ca.Function:
     r"""One step of Rodas3 for one state: of order three, L-stable, so that a wide valve needs no short steps.
 
@@ -178,12 +177,6 @@ _RODAS3 = (
     ((2.0, 0.0), (1.0, -1.0), 1.0, 0.0),
     ((2.0, 0.0, 1.0), (1.0, -1.0, -8 / 3), 1.0, 0.0),
 )
-
-
-def _simpson(steps: int) -> np.ndarray:
-    weights = np.where(np.arange(steps + 1) % 2, 4.0, 2.0)
-    weights[[0, -1]] = 1.0
-    return weights / (3 * steps)
 
 
 def check_blowdown(valve: Blowdown, intake_pressure: Pascal) -> None:
@@ -226,7 +219,10 @@ def at_design(engine: ClosedEngine, design: Mapping[str, Scalar]) -> ClosedEngin
             parameters = {**parts["motion"].parameters, key: value}
             parts["motion"] = dataclasses.replace(parts["motion"], parameters=parameters)
         elif isinstance(getattr(parts.get(section), key, None), (int, float)) and section != "motion":
-            parts[section] = _replaced(parts[section], key, value)
+            # dataclasses.replace would run the range checks, which cannot compare symbols
+            twin = copy.copy(parts[section])
+            object.__setattr__(twin, key, value)
+            parts[section] = twin
         else:
             raise BadInput(f"{name!r} is not a number of the engine; names are {', '.join(design_names(engine))}")
     return ClosedEngine(**parts)
@@ -273,10 +269,3 @@ def closed_period(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Closed:
         fuel_entry="premixed" if cycle.vaporisation == "none" else "vaporised",
         wiebe=(cycle.wiebe_a, cycle.wiebe_m, 1.0, 0.0, 0.0), blowdown=engine.blowdown,
     )  # fmt: skip
-
-
-def _replaced(record: object, key: str, value: object) -> object:
-    # dataclasses.replace would run the range checks, which cannot compare symbols
-    twin = copy.copy(record)
-    object.__setattr__(twin, key, value)
-    return twin

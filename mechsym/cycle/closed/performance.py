@@ -82,15 +82,25 @@ def performance(engine: ClosedEngine, design: Mapping[str, Scalar]) -> Performan
     phi, p, t = dense(result)
     p_max, p_max_angle = peak(phi, p)
     here = at_design(engine, {k: np.asarray(v, float) for k, v in design.items()})
-    along = _along(engine, design, phi, p)
+    columns = [np.repeat(np.broadcast_to(np.asarray(v, float), phi.shape[:1]), phi.shape[1]) for v in design.values()]
+    function = force_function(engine, tuple(design))
+    points = [*columns, phi.ravel(), p.ravel()]
+    if phi.shape[0] >= MANY:
+        values = compiled(function).batch(*points)
+    else:
+        values = np.array([np.asarray(v) for v in function.call([np.array(columns), *(a[None] for a in points[-2:])])])
+    along = {k: v.reshape(phi.shape) for k, v in zip(function.name_out(), values, strict=True)}
     largest = {name: peak(phi, values)[0] for name, values in along.items()}
     angles = burnt_angles(here.cycle, scalars["omega"])
+    fuel, released, heat = (scalars[k] for k in ("fuel_heat", "heat_released", "latent_heat"))
+    carried = scalars["energy_end"] - scalars["energy_start"] - scalars["exchange_work"]
     return Performance(
-        **figures(here.friction_pressure, scalars, p_max), **_shares(scalars),
-        pumping_mep=pumping / scalars["displacement"],
+        **figures(here.friction_pressure, scalars, p_max), heat=(scalars["wall_heat"] + heat) / fuel,
+        work=scalars["work"] / fuel, exhaust=(carried - scalars["fuel_energy"] - heat) / fuel,
+        unburnt=1 - released / fuel, pumping_mep=pumping / scalars["displacement"],
         p_max=p_max, p_max_angle=p_max_angle, burnt=angles, t_max=t.max(axis=1), knock=_knock(engine, design, result),
         torque_max=largest.pop("torque"), force_max=largest.pop("force"),
-        energy_residual=result.residual * scalars["heat_released"] / scalars["fuel_heat"], loads=largest,
+        energy_residual=result.residual * released / fuel, loads=largest,
     )  # fmt: skip
 
 
@@ -135,17 +145,6 @@ def peak(phi: Radian[Array], y: Pure[Array]) -> tuple[Pure[Array], Radian[Array]
     return np.where(higher, value, y[row, top]), np.where(higher, vertex, phi[row, top])
 
 
-def _shares(scalars: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    fuel, released, heat = (scalars[k] for k in ("fuel_heat", "heat_released", "latent_heat"))
-    carried = scalars["energy_end"] - scalars["energy_start"] - scalars["exchange_work"]
-    return {
-        "heat": (scalars["wall_heat"] + heat) / fuel,
-        "work": scalars["work"] / fuel,
-        "exhaust": (carried - scalars["fuel_energy"] - heat) / fuel,
-        "unburnt": 1 - released / fuel,
-    }
-
-
 def burnt_angles(cycle: SparkIgnition, omega: RadPerSecond[Array]) -> dict[str, np.ndarray]:
     """CA10, CA50 and CA90 of a spark-ignition cycle, whose values may be arrays over the speeds [deg]."""
     start, duration = timing(cycle, omega)
@@ -159,17 +158,6 @@ def _knock(engine: ClosedEngine, design: Mapping[str, Scalar], result: ClosedRun
     here = at_design(engine, {k: np.atleast_1d(np.asarray(v, float))[:, None] for k, v in design.items()})
     nodes = {"p": result.p, "t": result.t, **result.scalars}
     return knock_of_runs(nodes, here.gas, np.ravel(here.cycle.octane))
-
-
-def _along(engine: ClosedEngine, design: Mapping[str, Scalar], phi: np.ndarray, p: np.ndarray) -> dict[str, np.ndarray]:
-    columns = [np.repeat(np.broadcast_to(np.asarray(v, float), phi.shape[:1]), phi.shape[1]) for v in design.values()]
-    function = force_function(engine, tuple(design))
-    points = [*columns, phi.ravel(), p.ravel()]
-    if phi.shape[0] >= MANY:
-        values = compiled(function).batch(*points)
-    else:
-        values = np.array([np.asarray(v) for v in function.call([np.array(columns), *(a[None] for a in points[-2:])])])
-    return {k: v.reshape(phi.shape) for k, v in zip(function.name_out(), values, strict=True)}
 
 
 def force_function(engine: ClosedEngine, names: tuple[str, ...]) -> ca.Function:

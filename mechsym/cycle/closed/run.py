@@ -130,21 +130,17 @@ def closed_map(build: Build, names: Sequence[str]) -> Map:
         state, found = np.array(start(designs)), []
         for phase in PHASES:
             history = np.concatenate([state[None], folds[phase](state, designs, steps_of(phase, steps))])
-            found.append(_nodes(nodes[phase].batch, designs, history))
+            # nodes at all states, shape (nodes, steps + 1, designs)
+            count, _, n = history.shape
+            s = np.repeat(np.arange(count) / (count - 1), n)
+            states = history.transpose(1, 0, 2).reshape(history.shape[1], -1)
+            found.append(nodes[phase].batch(*np.tile(designs, count), s, *states).reshape(-1, count, n))
             state = history[-1]
         curves = dict(zip(NODES, np.concatenate(found, axis=1).transpose(0, 2, 1), strict=True))
         sums = dict(zip(("work", "wall_heat"), state[1:, :, None], strict=True))
         return curves | sums | dict(zip(SCALARS, np.array(books(designs, state[:1]))[:, :, None], strict=True))
 
     return run
-
-
-def _nodes(batch: Callable[..., np.ndarray], designs: np.ndarray, history: np.ndarray) -> np.ndarray:
-    """Nodes at all states, shape (nodes, steps + 1, designs)."""
-    count, _, n = history.shape
-    s = np.repeat(np.arange(count) / (count - 1), n)
-    states = history.transpose(1, 0, 2).reshape(history.shape[1], -1)
-    return batch(*np.tile(designs, count), s, *states).reshape(-1, count, n)
 
 
 def steps_of(phase: str, steps: int) -> int:

@@ -93,7 +93,7 @@ KINDS: dict[str, Kind] = {
         two_turns=True,
     ),
     "gas-exchange": Kind(
-        cycle="mechsym.cycle.breathing.records:GasExchange",
+        cycle="mechsym.cycle.breathing.flow:GasExchange",
         gas="mechsym.cycle.breathing.engine:BreathingGas",
         needs=("chamber", "breathing"),
         reads=("heat_transfer", "boost"),

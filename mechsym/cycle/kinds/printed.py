@@ -22,9 +22,8 @@ import numpy as np
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel, volume, wall_area
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.closed.performance import Performance, burnt_angles, figures
-from mechsym.cycle.heat import GasAtWall, Law, heat_flux
+from mechsym.cycle.heat import ConstantGamma, GasAtWall, Law, heat_flux
 from mechsym.cycle.kinds.spark_ignition import Charge, SparkIgnition, charge, timing
-from mechsym.cycle.mixture import ConstantGamma
 from mechsym.errors import BadInput
 from mechsym.native.march import marcher
 from mechsym.quantities import record
@@ -174,12 +173,14 @@ def performance_printed(engine: ClosedEngine, omega: RadPerSecond[Array]) -> Per
     }
     angle = np.radians(result.theta_deg - 360.0)[:, None]
     force = piston_force(room, angle, omega, result.p)
+    energy = (result.p[-1] * result.v[-1] - result.p[0] * result.v[0]) / (gas.gamma - 1)
+    heat = result.heat_released - result.wall_heat - result.latent_heat
     return Performance(
         **found, **shares, unburnt=1 - sum(shares.values()), p_max=p_max, p_max_angle=angle[top, 0],
         pumping_mep=np.zeros(omega.shape), burnt=burnt_angles(engine.cycle, omega),
         t_max=result.t.max(axis=0), knock=np.full(omega.shape, np.nan),
         torque_max=crank_torque(room, result).max(axis=0), force_max=force.max(axis=0),
-        energy_residual=_residual(result, gas, work) / fuel_heat, loads=_loads(engine, angle, omega, result),
+        energy_residual=(energy + work - heat.sum(axis=0)) / fuel_heat, loads=_loads(engine, angle, omega, result),
     )  # fmt: skip
 
 
@@ -187,12 +188,6 @@ def _gas(engine: ClosedEngine) -> ConstantGamma:
     if not isinstance(engine.gas, ConstantGamma):
         raise BadInput("method = 'nunes2017_printed' marches with a constant gamma; set gas.model = 'constant_gamma'")
     return engine.gas
-
-
-def _residual(result: March, gas: ConstantGamma, work: np.ndarray) -> np.ndarray:
-    energy = (result.p[-1] * result.v[-1] - result.p[0] * result.v[0]) / (gas.gamma - 1)
-    heat = result.heat_released - result.wall_heat - result.latent_heat
-    return energy + work - heat.sum(axis=0)
 
 
 def _loads(engine: ClosedEngine, angle: np.ndarray, omega: np.ndarray, result: March) -> dict[str, np.ndarray]:

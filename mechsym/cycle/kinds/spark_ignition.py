@@ -18,7 +18,7 @@ from typing import Annotated, NamedTuple
 import numpy as np
 
 from mechsym.cycle.chamber import Chamber, volume
-from mechsym.cycle.mixture import ConstantGamma, NasaMixture, properties
+from mechsym.cycle.heat import ConstantGamma, NasaMixture, properties
 from mechsym.errors import BadInput
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Pure, Radian, RadPerSecond, Scalar

@@ -155,7 +155,12 @@ def rates(
     dp = -sum(f / side.passing for f, side in zip(push, sides, strict=True)) / capacity
     inflow = [f + side.volume * dp / s.gamma for f, side in zip(push, sides, strict=True)]
     dm = [f / (s.R * side.passing) for f, side in zip(inflow, sides, strict=True)]
-    heats = _heats(s, dp, dm, sides)
+    # first law of each exchanger; its gas has constant temperature, so its energy follows the pressure alone
+    cp = s.gamma * s.R / (s.gamma - 1)
+    heater, cooler = (cp * (side.passing - side.wall) * flow for side, flow in zip(sides, dm, strict=True))
+    hot, cold = dm[0] + s.V_h * dp / (s.R * s.T_h), dm[1] + s.V_k * dp / (s.R * s.T_k)
+    regenerator = s.V_r * dp / (s.gamma - 1) + cp * (s.T_h * hot + s.T_k * cold)
+    heats = [heater - s.V_h * dp, regenerator, cooler - s.V_k * dp, *(side.heat for side in sides)]
     works = [p * side.slope for side in sides]
     slopes = [dp, *dm, *(side.dtheta for side in sides), *heats, *works, p / (2 * ca.pi)]
     return ca.vertcat(*slopes), ca.vertcat(*inflow)
@@ -175,15 +180,6 @@ def _side(s: FiveSpaces, j: int, inward: bool, phi: Scalar, y: Scalar) -> _Side:
         volume=volume, slope=ca.jacobian(volume, phi), wall=wall, passing=wall if inward else own, heat=heat,
         dtheta=dtheta,
     )  # fmt: skip
-
-
-def _heats(s: FiveSpaces, dp: Scalar, dm: list[Scalar], sides: list[_Side]) -> list[Scalar]:
-    # first law of each exchanger; its gas has constant temperature, so its energy follows the pressure alone
-    cp = s.gamma * s.R / (s.gamma - 1)
-    heater, cooler = (cp * (side.passing - side.wall) * flow for side, flow in zip(sides, dm, strict=True))
-    hot, cold = dm[0] + s.V_h * dp / (s.R * s.T_h), dm[1] + s.V_k * dp / (s.R * s.T_k)
-    regenerator = s.V_r * dp / (s.gamma - 1) + cp * (s.T_h * hot + s.T_k * cold)
-    return [heater - s.V_h * dp, regenerator, cooler - s.V_k * dp, *(side.heat for side in sides)]
 
 
 _POINTS = 2880

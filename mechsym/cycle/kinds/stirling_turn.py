@@ -174,7 +174,10 @@ def turn(spaces: FiveSpaces, steps: int = STEPS) -> StirlingTurn:
 
 def solver(build: Build, design: np.ndarray, steps: int = STEPS) -> Callable[[np.ndarray], StirlingTurn]:
     """A function of the design to its turn, each started from the one before. design: where it starts [any]."""
-    order, unknown = first_guess(_numbers(build, design))
+    found = build(ca.DM(design))
+    names = [f.name for f in dataclasses.fields(FiveSpaces) if f.name != "volumes"]
+    numbers: dict[str, Scalar] = {name: float(getattr(found, name)) for name in names}
+    order, unknown = first_guess(dataclasses.replace(found, **numbers))
     parts = _functions(build, len(design), order, steps)
     last = [unknown]
 
@@ -309,10 +312,3 @@ class _Basis:
         scale = ca.Function("scale", [self.z], [ca.vertcat(self.mass, s.mean_pressure)])(z)
         masses = state[1:3] / scale[0] - start[1:3]
         return ca.vertcat(masses, state[len(STATES) - 1] / scale[1] - 1)
-
-
-def _numbers(build: Build, design: np.ndarray) -> FiveSpaces:
-    found = build(ca.DM(design))
-    names = [f.name for f in dataclasses.fields(FiveSpaces) if f.name != "volumes"]
-    numbers: dict[str, Scalar] = {name: float(getattr(found, name)) for name in names}
-    return dataclasses.replace(found, **numbers)

@@ -20,9 +20,8 @@ import scipy
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.run import ClosedRun, run
-from mechsym.cycle.heat import Law, Woschni
+from mechsym.cycle.heat import T_REFERENCE, ConstantGamma, Law, NasaMixture, Woschni, properties
 from mechsym.cycle.kinds.two_stroke import burnt_angles, scavenging_pressure
-from mechsym.cycle.mixture import T_REFERENCE, ConstantGamma, NasaMixture, properties
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput
@@ -125,10 +124,18 @@ def as_diagram(cycle: TwoStrokeZone) -> dict[str, str | float]:
 
 def _pressure(cycle: TwoStrokeZone, zone: Zone) -> Pressure:
     p_max, phi_p_max = peak(zone.absolute, _TURN, zone.kinks)
+    found, result = shares(cycle, zone), zone.result
+    excess = result.scalars["mass"][0] / zone.fuel / _STOICHIOMETRIC
+    facts = (
+        f"fuel {zone.fuel * 1e3:.4g} g a cycle, excess air {excess:.2f}, indicated efficiency {found['work']:.3f}",
+        f"heat to the walls {100 * found['heat']:.1f} % of the fuel ({_of_walls(zone.walls)}), highest mean "
+        f"temperature {result.t.max():.0f} K",
+        f"first law closed to {abs(result.residual[0]):.1g} of the heat released",
+    )
     return Pressure(
         kind="two-stroke-zone", period=_TURN, kinks=zone.kinks, absolute=zone.absolute, p_max=p_max,
         phi_p_max=phi_p_max, mean_indicated=zone.mean_indicated,
-        t_max=float(zone.result.t.max()), facts=_facts(cycle, zone),
+        t_max=float(zone.result.t.max()), facts=facts,
         phases={"exhaust closes": cycle.evc, "combustion starts": cycle.soc, "end of combustion":
                 cycle.soc + cycle.duration, "exhaust opens": cycle.evo, "scavenge ports open": cycle.spo},
     )  # fmt: skip
@@ -181,17 +188,6 @@ def shares(cycle: TwoStrokeZone, zone: Zone) -> dict[str, Pure]:
     work = zone.mean_indicated * zone.cylinder.displacement / heat
     lost, unburnt = float(scalars["wall_heat"][0]) / heat, 1 - float(scalars["heat_released"][0]) / heat
     return {"heat": lost, "work": work, "exhaust": 1 - lost - work - unburnt, "unburnt": unburnt}
-
-
-def _facts(cycle: TwoStrokeZone, zone: Zone) -> tuple[str, ...]:
-    found, result = shares(cycle, zone), zone.result
-    excess = result.scalars["mass"][0] / zone.fuel / _STOICHIOMETRIC
-    return (
-        f"fuel {zone.fuel * 1e3:.4g} g a cycle, excess air {excess:.2f}, indicated efficiency {found['work']:.3f}",
-        f"heat to the walls {100 * found['heat']:.1f} % of the fuel ({_of_walls(zone.walls)}), highest mean "
-        f"temperature {result.t.max():.0f} K",
-        f"first law closed to {abs(result.residual[0]):.1g} of the heat released",
-    )
 
 
 def _of_walls(law: Law | None) -> str:

@@ -219,15 +219,13 @@ def align(
 def _named(diagram: Diagram, cylinder: Chamber, at: np.ndarray, mean: np.ndarray) -> DeadCentre | None:
     """The dead centre that does not come from the record's own line."""
     if diagram.alignment == "given":
-        return given(diagram.tdc_offset + _period_before(diagram, peak_angle(at, mean)))
+        period = period_of(diagram)
+        return given(
+            diagram.tdc_offset + (period * round((peak_angle(at, mean) - 12 * _DEG - diagram.tdc_offset) / period))
+        )
     if diagram.alignment == "motored_peak":
         return behind_peak(peak_angle(at, mean), diagram.loss_angle)
     return carried(motored_file(diagram, cylinder), at, mean) if diagram.motored else None
-
-
-def _period_before(diagram: Diagram, top: float) -> float:
-    period = period_of(diagram)
-    return period * round((top - 12 * _DEG - diagram.tdc_offset) / period)
 
 
 def _refuse_far(diagram: Diagram, found: DeadCentre, top: float) -> None:

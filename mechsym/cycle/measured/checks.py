@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -48,17 +48,13 @@ def diagram_doubts(
     diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles, phi_p_max: Radian
 ) -> tuple[Doubt, ...]:
     """What is unusual in a measured diagram. phi_p_max: angle of the highest pressure, from firing TDC."""
-    found = [
-        _scale(diagram, measured),
-        _floor(measured),
-        _drift(measured),
-        _exponent(diagram, cylinder, measured),
-        _width(measured),
-    ]
-    found += [_agreement(measured), _free(diagram, cylinder, measured), _spread(measured), _loss_angle(measured)]
-    found.append(_geometry(diagram, cylinder, measured))
+    found = [_scale(diagram, measured), *_of_sensor(diagram, cylinder, measured), _agreement(measured)]
+    found += [_free(diagram, cylinder, measured), *_of_angles(measured), _geometry(diagram, cylinder, measured)]
     if not measured.alignment.motored:
-        found += [_peak(phi_p_max), *_combustion(diagram, cylinder, measured)]
+        usual = (_PEAK[0] / _DEG, _PEAK[1] / _DEG)
+        why = "no combustion peaks there: the dead centre is wrong, or most cycles misfire"
+        found.append(_doubt("peak_angle", "crank angle of the highest pressure [deg]", phi_p_max / _DEG, usual, why))
+        found += _combustion(diagram, cylinder, measured)
     return tuple(doubt for doubt in found if doubt is not None)
 
 
@@ -82,39 +78,37 @@ def _scale(diagram: Diagram, measured: MeasuredCycles) -> Doubt | None:
     return _doubt("scale", "compression line at BDC by inlet_pressure [-]", ratio, USUAL_SCALE, why)
 
 
-def _floor(measured: MeasuredCycles) -> Doubt | None:
+def _of_sensor(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Iterator[Doubt | None]:
     # a sensor that is saturated below shows one value until compression has come up to it
     phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
     rising = mean[(phi > -math.pi) & (phi < -math.pi / 3)]
     flat = np.count_nonzero(rising <= rising.min() + 1e-4 * np.ptp(mean)) * float(phi[1] - phi[0])
     why = "compression raises the pressure there: the sensor is saturated below, and the work is as wrong"
-    return _doubt("floor", "crank angle without any rise in compression [deg]", flat / _DEG, (0, _FLOOR / _DEG), why)
-
-
-def _drift(measured: MeasuredCycles) -> Doubt | None:
+    yield _doubt("floor", "crank angle without any rise in compression [deg]", flat / _DEG, (0, _FLOOR / _DEG), why)
     # signal at the dead centre before compression against the charge line drawn on to there
     phi, mean = around_compression(measured.phi, measured.cycles.mean(axis=0), measured.period)
-    off = float(mean[np.abs(phi + math.pi) < 0.1].mean() - measured.bottom)
+    off = float(mean[np.abs(phi + math.pi) < 0.1].mean() - measured.bottom) / measured.bottom
+    limit = 0.04 * float(np.ptp(mean)) / measured.bottom + _DRIFT
     why = "the sensor drifts within the cycle: pressures of the gas exchange and the net work are as wrong"
-    swing = float(np.ptp(mean))
-    limit = (-0.04 * swing / measured.bottom - _DRIFT, 0.04 * swing / measured.bottom + _DRIFT)
-    return _doubt(
-        "drift", "signal at BDC less the charge line there, by the latter [-]", off / measured.bottom, limit, why
-    )
-
-
-def _exponent(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doubt | None:
-    found = mean_exponent(cylinder, measured.alignment.fit.shape, *between(diagram))
+    yield _doubt("drift", "signal at BDC less the charge line there, by the latter [-]", off, (-limit, limit), why)
+    exponent = mean_exponent(cylinder, measured.alignment.fit.shape, *between(diagram))
     why = "dead centre, offset or compression ratio is wrong"
-    return _doubt("compression_exponent", "exponent of the compression line [-]", found, _EXPONENT, why)
-
-
-def _width(measured: MeasuredCycles) -> Doubt | None:
+    yield _doubt("compression_exponent", "exponent of the compression line [-]", exponent, _EXPONENT, why)
     half = (measured.tdc_uncertainty or 0.0) / _DEG
     why = "the record says little of its dead centre; a motored record of the same encoder (--motored) says more"
-    return _doubt(
-        "dead_centre_width", "half the 95 % interval of the dead centre [deg]", half, (0.0, _WIDEST / _DEG), why
-    )
+    quantity = "half the 95 % interval of the dead centre [deg]"
+    yield _doubt("dead_centre_width", quantity, half, (0.0, _WIDEST / _DEG), why)
+
+
+def _of_angles(measured: MeasuredCycles) -> Iterator[Doubt | None]:
+    off = (measured.alignment.spread or 0.0) / _DEG
+    why = "the angles were spread evenly over each turn, the shaft does not turn evenly; take the angles by teeth"
+    yield _doubt("even_angles", "how far the angles of the file may be off [deg]", off, (0.0, 0.5), why)
+    loss = measured.alignment.dead_centre.loss_angle
+    if loss is not None:
+        why = "heat and blow-by let a motored engine peak 0.2 to 2 deg before its dead centre, never behind it"
+        usual = (_LOSS_ANGLE[0] / _DEG, _LOSS_ANGLE[1] / _DEG)
+        yield _doubt("loss_angle", "from the motored peak to the dead centre [deg]", loss / _DEG, usual, why)
 
 
 def _agreement(measured: MeasuredCycles) -> Doubt | None:
@@ -141,13 +135,8 @@ def _free(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doub
     spread = math.sqrt(float(fit.covariance[0, 0] + measured.alignment.fit.covariance[0, 0]))
     limit = _Z * spread / _DEG
     why = "with the exponent free the dead centre is elsewhere: drift, early burning, or another compression ratio"
-    return _doubt(
-        "free_exponent",
-        "dead centre with a free exponent less the one used [deg]",
-        fit.tdc / _DEG,
-        (-limit, limit),
-        why,
-    )
+    quantity = "dead centre with a free exponent less the one used [deg]"
+    return _doubt("free_exponent", quantity, fit.tdc / _DEG, (-limit, limit), why)
 
 
 def _geometry(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doubt | None:
@@ -170,27 +159,6 @@ def _geometry(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> 
     why = "the line is bent as by another compression ratio, rod or stroke: one of them is wrong, or the sensor drifts"
     quantity = "compression ratio that the line asks for [-]"
     return _doubt("geometry", quantity, 1 + less * math.exp(-asked), (low, high), why)
-
-
-def _spread(measured: MeasuredCycles) -> Doubt | None:
-    off = (measured.alignment.spread or 0.0) / _DEG
-    why = "the angles were spread evenly over each turn, the shaft does not turn evenly; take the angles by teeth"
-    return _doubt("even_angles", "how far the angles of the file may be off [deg]", off, (0.0, 0.5), why)
-
-
-def _loss_angle(measured: MeasuredCycles) -> Doubt | None:
-    loss = measured.alignment.dead_centre.loss_angle
-    if loss is None:
-        return None
-    why = "heat and blow-by let a motored engine peak 0.2 to 2 deg before its dead centre, never behind it"
-    usual = (_LOSS_ANGLE[0] / _DEG, _LOSS_ANGLE[1] / _DEG)
-    return _doubt("loss_angle", "from the motored peak to the dead centre [deg]", loss / _DEG, usual, why)
-
-
-def _peak(phi_p_max: float) -> Doubt | None:
-    usual = (_PEAK[0] / _DEG, _PEAK[1] / _DEG)
-    why = "no combustion peaks there: the dead centre is wrong, or most cycles misfire"
-    return _doubt("peak_angle", "crank angle of the highest pressure [deg]", phi_p_max / _DEG, usual, why)
 
 
 def _combustion(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> list[Doubt | None]:

@@ -33,9 +33,9 @@ import scipy
 from mechsym.cycle.chamber import Chamber, dvolume_dphi
 from mechsym.cycle.measured.diagram import Diagram, period_of
 from mechsym.errors import BadInput
+from mechsym.files.tables import numbers_of, split_table, text_of
 from mechsym.quantities import parse, record
 from mechsym.quantities.units import Array, Pascal, Radian, RadPerSecond
-from mechsym.tables import numbers_of, split_table, text_of
 
 # Units of a pressure and of an angle; `rad` and `Pa` are the SI units they become
 _UNITS = {

@@ -149,7 +149,11 @@ def joint_fit(
     floor = max(sigma / swing, 1e-5)
     tried = [_solve(phi, mean / swing, cylinder, between, floor, prior, start, inside) for start in starts]
     at = min(tried, key=lambda found: _cost(found, floor, prior))
-    noise = max(floor, _correlated(at[2], at[3]))
+    # noise by which n independent residuals would say as little as these, which hang together
+    left = at[2]
+    power = float(left @ left)
+    r = min(max(float(left[:-1] @ left[1:]) / power, 0.0), 0.98) if power > 0 else 0.0
+    noise = max(floor, math.sqrt(power / max(float(at[3].sum()) - 5.0, 1.0) * (1 + r) / (1 - r)))
     at = _solve(phi, mean / swing, cylinder, between, noise, prior, at[0], inside)
     return _result(at, swing, noise, prior, between)
 
@@ -265,7 +269,10 @@ def _line(
     log_p, slopes = log_pressure(cylinder, angle, ChargeShape(n0=x[1], n1=x[2], loss=x[3], sharpness=x[4]))
     rise = np.exp(log_p)
     linear = np.stack([rise, np.ones_like(rise), angle - REFERENCE], axis=-1)
-    size, offset, drift = _linear(linear * root[:, None], y * root, noise)
+    held = np.array([0.0, 0.0, noise / _DRIFT])
+    size, offset, drift = np.linalg.lstsq(
+        np.vstack([(linear * root[:, None]), held]), np.append((y * root), 0.0), rcond=None
+    )[0]
     jacobian = np.hstack([size * rise[:, None] * slopes, linear]) * root[:, None]
     left = (y - linear @ np.array([size, offset, drift])) * root
     return np.array([*x, size, offset, drift]), left, weight[inside], jacobian
@@ -276,18 +283,6 @@ def _known(prior: Prior, start: float) -> tuple[np.ndarray, np.ndarray]:
     tdc = prior.tdc or (start, math.inf)
     pairs = [tdc, prior.n0, prior.n1, prior.loss, prior.sharpness, (0.0, math.inf), (0.0, math.inf), (0.0, _DRIFT)]
     return np.array([m for m, _ in pairs]), np.array([1 / s for _, s in pairs])
-
-
-def _linear(columns: np.ndarray, y: np.ndarray, noise: float) -> np.ndarray:
-    held = np.array([0.0, 0.0, noise / _DRIFT])
-    return np.linalg.lstsq(np.vstack([columns, held]), np.append(y, 0.0), rcond=None)[0]
-
-
-def _correlated(left: np.ndarray, weight: np.ndarray) -> float:
-    """Noise by which n independent residuals would say as little as these, which hang together."""
-    power = float(left @ left)
-    r = min(max(float(left[:-1] @ left[1:]) / power, 0.0), 0.98) if power > 0 else 0.0
-    return math.sqrt(power / max(float(weight.sum()) - 5.0, 1.0) * (1 + r) / (1 - r))
 
 
 def _cost(at: _Solved, noise: float, prior: Prior) -> float:

@@ -219,15 +219,26 @@ def diagram_facts(
     """
     p_mi = cycle_work(measured, cylinder)
     smoothed = [] if residual is None else [_smoothing_fact(diagram, measured, residual)]
+    shape = measured.alignment.fit.shape
+    found = mean_exponent(cylinder, shape, *between(diagram))
+    how = {
+        "none": "none, the file is taken as absolute",
+        "gauge": f"the file is taken as gauge, over {_pressure(diagram.p_back)} absolute",
+        "inlet": "inlet_pressure at the dead centre before compression (assumed)",
+        "polytropic": f"every cycle's compression line follows the exponent {diagram.n_c:g} (assumed)",
+        "joint": "offset of every cycle's compression line in the joint fit",
+    }[diagram.pegging]
     return (
         read_and_used(diagram, measured),
         *(f"the file says: {comment}" for comment in measured.comments),
         f"{Path(measured.file).name}: {len(p_mi)} cycles; net mean indicated pressure {_pressures(p_mi)}, "
         f"peaks {_pressures(measured.cycles.max(axis=1))} absolute",
         _alignment_fact(measured, work_per_angle(measured, cylinder) * math.radians(1.0)),
-        _pegging_fact(diagram, measured),
+        f"pegging: {how}; {_pressures(measured.offsets)} were taken off the cycles",
         _scale_fact(diagram, measured),
-        _exponent_fact(diagram, cylinder, measured),
+        f"compression exponent {found:.3f} (expected {diagram.n_c:.2f} +- {_Z * Prior().n0[1]:.2f}), losses "
+        f"{100 * shape.loss:.0f} % of the pressure per radian at TDC (expected {100 * Prior().loss[0]:.0f} +- "
+        f"{100 * _Z * Prior().loss[1]:.0f} %)",
         *smoothed,
         _weak_fact(p_mi),
         f"under the piston: {_pressure(diagram.p_back)} absolute",
@@ -278,17 +289,6 @@ def _alignment_fact(measured: MeasuredCycles, per_degree: float) -> str:
     )
 
 
-def _pegging_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
-    how = {
-        "none": "none, the file is taken as absolute",
-        "gauge": f"the file is taken as gauge, over {_pressure(diagram.p_back)} absolute",
-        "inlet": "inlet_pressure at the dead centre before compression (assumed)",
-        "polytropic": f"every cycle's compression line follows the exponent {diagram.n_c:g} (assumed)",
-        "joint": "offset of every cycle's compression line in the joint fit",
-    }[diagram.pegging]
-    return f"pegging: {how}; {_pressures(measured.offsets)} were taken off the cycles"
-
-
 def _scale_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
     start = f"the compression line starts from {_pressure(measured.bottom, 3)} absolute at BDC"
     if diagram.scale in ("checked", "as_given"):
@@ -300,16 +300,6 @@ def _scale_fact(diagram: Diagram, measured: MeasuredCycles) -> str:
         f"{_pressure(diagram.exhaust_pressure, 3)} in the middle of the exhaust stroke"
     )  # fmt: skip
     return f"scaled by {measured.scale:.4f} (assumed: {assumed}); {start}; all pressures and the work are as uncertain"
-
-
-def _exponent_fact(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> str:
-    shape = measured.alignment.fit.shape
-    found = mean_exponent(cylinder, shape, *between(diagram))
-    return (
-        f"compression exponent {found:.3f} (expected {diagram.n_c:.2f} +- {_Z * Prior().n0[1]:.2f}), losses "
-        f"{100 * shape.loss:.0f} % of the pressure per radian at TDC (expected {100 * Prior().loss[0]:.0f} +- "
-        f"{100 * _Z * Prior().loss[1]:.0f} %)"
-    )
 
 
 def _smoothing_fact(diagram: Diagram, measured: MeasuredCycles, residual: float) -> str:

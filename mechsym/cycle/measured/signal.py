@@ -129,7 +129,10 @@ def _refuse_flat(file: str, angle: np.ndarray, rows: np.ndarray, resolution: flo
     for number, row in enumerate(rows, start=1):
         top = int(np.argmax(row))
         near = np.take(row, top + reach, mode="wrap")
-        first, length = _longest_run(near)
+        # start and number of samples of the longest piece of equal values
+        edges = np.flatnonzero(np.concatenate([[True], np.diff(near) != 0, [True]]))
+        longest = int(np.argmax(np.diff(edges)))
+        first, length = int(edges[longest]), int(edges[longest + 1] - edges[longest])
         flat = length * step
         # a peak is round: beside a flat top that is the sensor's the pressure falls in steps far above the resolution
         ends = np.take(near, [max(first - 1, 0), min(first + length, near.size - 1)])
@@ -145,13 +148,6 @@ def _refuse_flat(file: str, angle: np.ndarray, rows: np.ndarray, resolution: flo
                 f"{file}: the sensor is {what} at {near[first] / 1e5:.5g} bar for {math.degrees(flat):.1f} deg of "
                 f"cycle {number}, where the pressure must change; record again with a wider range, or cut the cycle out"
             )
-
-
-def _longest_run(values: np.ndarray) -> tuple[int, int]:
-    """Start and number of samples of the longest piece of equal values."""
-    edges = np.flatnonzero(np.concatenate([[True], np.diff(values) != 0, [True]]))
-    longest = int(np.argmax(np.diff(edges)))
-    return int(edges[longest]), int(edges[longest + 1] - edges[longest])
 
 
 _USUAL = 0.01  # of the swing, assumed: thermal shock is stated as some tenths of a bar

@@ -36,8 +36,6 @@ from mechsym.hinge.torque import Hinge
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Kelvin, Metre, Pascal, Pure, Radian, RadPerSecond, Scalar, Volume
 
-R_NITROGEN = 296.8  # [J/kg/K]
-
 
 def thermal_pressure(
     z: Metre[Scalar], H: Metre[Scalar], p0: Pascal[Scalar], pa: Pascal[Scalar], warmth: Pure[Scalar]
@@ -223,12 +221,16 @@ class AirThermal(Spring):
         else:
             loss = -float((absolute + np.roll(absolute, -1)) / 2 @ (np.roll(height, -1) - height)) * self.A
         excess = np.maximum(absolute - self.pa, 0.0)
+        # slope of the straight line through ln p over ln V; 1 for a spring that does not move
+        v, p = np.log(height), np.log(absolute)
+        v, p = v - v @ weights / weights.sum(), p - p @ weights / weights.sum()
+        square = float((v * v) @ weights)
         return GasTurn(
             temperature=T,
             warmth=T / self.wall_temperature,
             pressure=absolute - self.pa,
             loss=loss,
-            n_effective=_index(height, absolute, weights),
+            n_effective=1.0 if square <= 1e-30 else -float((v * p) @ weights) / square,
             leaked=float(self.leak * (excess @ weights) / omega),
         )
 
@@ -239,14 +241,6 @@ class AirThermal(Spring):
     def heat(self, warm: Scalar) -> Scalar:
         """In proportion to the difference of temperature [W]."""
         return self.capacity * (warm - 1) / self.tau
-
-
-def _index(height: np.ndarray, pressure: np.ndarray, weights: np.ndarray) -> float:
-    """Slope of the straight line through ln p over ln V; 1 for a spring that does not move."""
-    v, p = np.log(height), np.log(pressure)
-    v, p = v - v @ weights / weights.sum(), p - p @ weights / weights.sum()
-    square = float((v * v) @ weights)
-    return 1.0 if square <= 1e-30 else -float((v * p) @ weights) / square
 
 
 @record
@@ -284,7 +278,11 @@ def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParamete
             f"spring.tau = {spring.tau:g} s: at {wanted.omega * ratio:.4g} rad/s the gas always has the temperature of "
             f"the wall; write law = 'air_absolute' with n = 1, or give at least {_FASTEST / wanted.omega / ratio:.2g} s"
         )
-    theta = _nodes(wanted.torque.x * ratio, min(_STEP, _STABLE * x))
+    breaks = wanted.torque.x * ratio
+    step = min(_STEP, _STABLE * x)
+    pairs = zip(breaks, breaks[1:], strict=False)
+    parts = [np.linspace(a, b, int(np.ceil((b - a) / step)) + 1)[:-1] for a, b in pairs]
+    theta = np.append(np.concatenate(parts), breaks[-1])
     middle = (theta[1:] + theta[:-1]) / 2
     task = _Task(
         spring=spring, theta=theta, at=wanted.torque(theta / ratio) / ratio,
@@ -303,12 +301,6 @@ def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParamete
     curve = scipy.interpolate.CubicHermiteSpline(theta, rho, slope)
     path = scipy.interpolate.PPoly(curve.c, curve.x, extrapolate="periodic")
     return TrackPath(status="cut", rho=path, closure=gap)
-
-
-def _nodes(breaks: np.ndarray, step: float) -> np.ndarray:
-    pairs = zip(breaks, breaks[1:], strict=False)
-    parts = [np.linspace(a, b, int(np.ceil((b - a) / step)) + 1)[:-1] for a, b in pairs]
-    return np.append(np.concatenate(parts), breaks[-1])
 
 
 def _periodic(task: _Task) -> tuple[float, _March]:

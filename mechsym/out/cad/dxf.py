@@ -7,7 +7,6 @@ the second roller has layers of its own with the ending _2.
 import io
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,9 +14,6 @@ from mechsym.errors import MissingExtra
 from mechsym.files import write_text
 from mechsym.out.cad.curve import Groove, nurbs, rotation
 from mechsym.quantities.units import Metre
-
-if TYPE_CHECKING:
-    from ezdxf.layouts import Modelspace
 
 _MM = 1e3
 _COLOURS = {"CENTRES": 5, "INNER": 1, "OUTER": 3, "HOLES": 6, "ROLLERS": 4, "AXES": 8, "TEXT": 7}
@@ -53,23 +49,19 @@ def text(track: Groove, bore: Metre, lines: Sequence[str]) -> str:
         space.add_circle((0, 0), _MM * bore / 2, dxfattribs={"layer": "HOLES"})
     sizes = ((layer, _MM * c.length, _MM**2 * c.area) for layer, c in curves.items())
     exact = [f"{layer}: exact length {length:.3f} mm, area {area:.3f} mm²" for layer, length, area in sizes]
-    _frame(space, track, [*lines, *exact])
+    reach = 1.1 * _MM * float(np.max(np.hypot(*track.outer.points.T)))
+    for ends in (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach))):
+        space.add_line(*ends, dxfattribs={"layer": "AXES"})
+    height = reach / 40
+    for row, line in enumerate([*lines, *exact]):
+        place = (-reach, -reach - 1.6 * height * (row + 1))
+        space.add_text(line, height=height, dxfattribs={"layer": "TEXT"}).set_placement(place)
     # classes are listed by name: ezdxf takes them from a set in any order
     for name in sorted(document.entitydb.dxf_types_in_use()):
         document.classes.add_class(name)
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue()
-
-
-def _frame(space: "Modelspace", track: Groove, lines: Sequence[str]) -> None:
-    reach = 1.1 * _MM * float(np.max(np.hypot(*track.outer.points.T)))
-    for ends in (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach))):
-        space.add_line(*ends, dxfattribs={"layer": "AXES"})
-    height = reach / 40
-    for row, line in enumerate(lines):
-        place = (-reach, -reach - 1.6 * height * (row + 1))
-        space.add_text(line, height=height, dxfattribs={"layer": "TEXT"}).set_placement(place)
 
 
 def write(track: Groove, path: Path, bore: float, lines: Sequence[str]) -> Path:

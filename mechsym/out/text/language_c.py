@@ -32,6 +32,12 @@ def model(block: Block) -> str:
         "NY": len(block.outputs), "NC": len(block.curves), "NS": len(times), "NK": len(block.kinks),
         "NA": sum(len(k.angles) for k in block.kinks), "NE": len(block.stops),
     }  # fmt: skip
+    q = [s.name for s in block.states]
+    rows = [(q.index(k.coordinate), k) for k in block.kinks]
+    own = [f"{{{i}, {len(k.angles)}, {number(C99, k.period)}, kinks_{n}}}" for n, (i, k) in enumerate(rows)]
+    angles = [array(f"kinks_{n}", k.angles) for n, k in enumerate(block.kinks)]
+    text = ", ".join(own) or "{0, 0, 1.0, start_x}"
+    head = "struct kinks { int state, count; double period; const double *angles; };"
     return "\n".join(
         [
             f"/* {block.name}: {block.about} */".replace("  ", " "),
@@ -43,7 +49,7 @@ def model(block: Block) -> str:
             array("start_p", [s.start for s in block.parameters]),
             array("switch_time", times, "int"),
             curve_tables(block.curves),
-            _kinks(block),
+            "\n".join([*angles, head, f"static const struct kinks kinks[] = {{{text}}};"]),
             _stops(block),
             *(function(read(f), f.name()) for f in (block.rates, block.observed)),
             *(function(read(forward(f)), f"{f.name()}_forward") for f in (block.rates, block.observed)),
@@ -82,16 +88,6 @@ def curve_tables(curves: Sequence[Curve]) -> str:
     )
     text = ",\n".join(entries)
     return "\n".join(lines) + f"\n{head}static const struct curve curves[] = {{\n{text}}};"
-
-
-def _kinks(block: Block) -> str:
-    q = [s.name for s in block.states]
-    rows = [(q.index(k.coordinate), k) for k in block.kinks]
-    own = [f"{{{i}, {len(k.angles)}, {number(C99, k.period)}, kinks_{n}}}" for n, (i, k) in enumerate(rows)]
-    angles = [array(f"kinks_{n}", k.angles) for n, k in enumerate(block.kinks)]
-    text = ", ".join(own) or "{0, 0, 1.0, start_x}"
-    head = "struct kinks { int state, count; double period; const double *angles; };"
-    return "\n".join([*angles, head, f"static const struct kinks kinks[] = {{{text}}};"])
 
 
 def _stops(block: Block) -> str:

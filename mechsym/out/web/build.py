@@ -18,9 +18,8 @@ from mechsym.jobs.problem import Ready
 from mechsym.mechanisms.turning import rules
 from mechsym.native.compiler import NoCompiler, call, forecast
 from mechsym.native.integrators import dop853_numbers
-from mechsym.out.block import Block, Port
+from mechsym.out.block import Block, Port, block_of
 from mechsym.out.fmi.describe import variables
-from mechsym.out.laws import block_of
 from mechsym.out.text.language_c import model
 from mechsym.page import page as template
 from mechsym.quantities import record
@@ -106,6 +105,8 @@ def _data(block: Block) -> Json:
     ends = [stop.of for stop in block.stops if stop.name == "stall"]
     speed = next((s for s in block.states if s.name in ends), block.states[len(block.states) // 2])
     letters = [p for p in block.parameters if not p.about and p.name not in _SLIDERS]  # of the declaration itself
+    if any(p.name.startswith("gas") for p in block.parameters):
+        letters = []  # an engine turns by its gas; fields take its letters
     sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
     sliders += [_slider(p, *_LETTER) for p in letters if p.start]
     if speed.start:  # an elastic shaft starts without twist

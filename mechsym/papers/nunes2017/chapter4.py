@@ -19,7 +19,7 @@ from mechsym.cycle.engine import columns, over_speeds
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.size import printed_parts
 from mechsym.quantities import RPM, record
-from mechsym.sizing.hypocycloid.masses import PrintedMasses
+from mechsym.sizing.hypocycloid.engine import PrintedMasses
 from mechsym.sizing.rules import bearings, gears, materials
 from mechsym.sizing.rules.bearings import Bearing
 from mechsym.sizing.rules.gear_bending import bending_geometry_factor

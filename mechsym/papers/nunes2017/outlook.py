@@ -16,7 +16,7 @@ from mechsym.cases import load
 from mechsym.cycle.breathing.engine import BreathingEngine
 from mechsym.cycle.breathing.engine import figures as breathing_figures
 from mechsym.cycle.breathing.engine import run as breathing_run
-from mechsym.cycle.breathing.records import Breathing, GasExchange
+from mechsym.cycle.breathing.flow import Breathing, GasExchange
 from mechsym.cycle.breathing.turbocharger import Boost, atmosphere, compressor_temperature, turbine_ratio
 from mechsym.cycle.engine import columns, over_design
 from mechsym.files import Json

@@ -1,1 +1,1 @@
-"""The hypocycloid engine as a whole: engine, masses and forces, checks, design."""
+"""The hypocycloid engine as a whole: engine, its masses and forces; checks and design."""

@@ -9,33 +9,27 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Kilogram, Pure, Watt
+from mechsym.sizing import crank_design
 from mechsym.sizing.bearing_design import Choice, check_bearing, choices, choose, seat_diameter
 from mechsym.sizing.checks import Check, at_least, at_most, at_speed, round_up, unsafe, weakest
-from mechsym.sizing.crank_design import (
-    check_crank,
-    check_cylinder,
-    check_output,
-    check_piston,
-    size_cylinder,
-    size_output,
-    size_piston,
-)
 from mechsym.sizing.gear_design import candidates, check_gears, face_width
 from mechsym.sizing.hypocycloid.engine import (
+    Moving,
     PartForces,
     Parts,
+    PrintedMasses,
     Stock,
     bending_moment,
     chosen,
     crank_loads,
-    cylinder_loads,
+    moving,
+    part_masses,
     seats,
     shaft,
     shaft_length,
     spans,
     tooth_loads,
 )
-from mechsym.sizing.hypocycloid.masses import Moving, PrintedMasses, moving, part_masses
 from mechsym.sizing.rows import SizeRow, fact, size_rows
 from mechsym.sizing.rules.masses import power_to_weight
 from mechsym.sizing.rules.turning_shaft import Section, endurance_limit, fatigue_factor, inner_slope
@@ -49,18 +43,17 @@ def check_all(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> l
     used = {
         place: stock.material(getattr(wants, place)) for place in ("piston", "cylinder", "gears", "crankshaft", "shaft")
     }
-    cylinder = cylinder_loads(forces)
     crank = crank_loads(parts, forces, wants, stock)
     teeth = tooth_loads(parts, forces, wants, stock)
     places = chosen(parts.bearings, stock)
     return [
-        *check_piston(parts.piston, cylinder, wants, used["piston"]),
-        *check_cylinder(parts.cylinder, cylinder, wants, used["cylinder"], parts.piston.height),
+        *crank_design.check_piston(parts.piston, forces, wants, used["piston"]),
+        *crank_design.check_cylinder(parts.cylinder, forces, wants, used["cylinder"], parts.piston.height),
         *check_gears(parts.gears, teeth, wants, used["gears"]),
         *_check_pitch(parts.gears, forces.e),
-        *check_crank(parts.crank, crank, wants, used["crankshaft"]),
+        *crank_design.check_crank(parts.crank, crank, wants, used["crankshaft"]),
         *check_pinion_shaft(parts, forces, wants, stock),
-        *check_output(parts.crank.output, crank, wants, used["shaft"]),
+        *crank_design.check_output(parts.crank.output, crank, wants, used["shaft"]),
         *[c for key, seat in seats(parts, forces, stock).items() for c in check_bearing(places[key], seat, wants)],
         _check_room(parts, wants, forces.e, places),
     ]
@@ -229,15 +222,16 @@ def size_hypocycloid(
 def size(parts: Parts, forces: PartForces, printed: PrintedMasses, wants: Wants, stock: Stock) -> Parts:
     """One round: every part sized for the forces, in the order in which they lean on each other."""
     material = {key: stock.material(getattr(wants, key)) for key in ("piston", "cylinder", "gears", "shaft")}
-    loads = cylinder_loads(forces)
     cap = stock.bearing(parts.bearings.rod).outside
     reach = wants.reach - 2 * forces.e - forces.gap / 2 - cap / 2
-    piston = size_piston(loads, wants, material["piston"], reach)
-    parts = replace(parts, piston=piston, cylinder=size_cylinder(loads, wants, material["cylinder"], piston.height))
+    piston = crank_design.size_piston(forces, wants, material["piston"], reach)
+    parts = replace(
+        parts, piston=piston, cylinder=crank_design.size_cylinder(forces, wants, material["cylinder"], piston.height)
+    )
     parts = replace(parts, gears=_gears(parts, forces, wants, stock))
     parts = _journals(parts, forces, wants, stock)
     crank = crank_loads(parts, forces, wants, stock)
-    output = size_output(crank, wants, material["shaft"], 5e-3)
+    output = crank_design.size_output(crank, wants, material["shaft"], 5e-3)
     parts = _outboard(parts, forces, wants, stock, output)
     return replace(parts, crank=replace(parts.crank, shaft_length=round(shaft_length(parts, stock), 9)))
 
@@ -298,7 +292,7 @@ def _shares(parts: Parts, forces: PartForces, wants: Wants, stock: Stock) -> tup
     share = weakest(rows)
     if share < 1 - 1e-9:  # the cheap checks first
         return share, 0.0
-    rows = check_crank(parts.crank, crank_loads(parts, forces, wants, stock), wants, crankshaft)
+    rows = crank_design.check_crank(parts.crank, crank_loads(parts, forces, wants, stock), wants, crankshaft)
     rows += check_pinion_shaft(parts, forces, wants, stock)
     return 1.0, weakest(rows)
 

@@ -19,7 +19,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.quantities import RPM, choice, parse, quantity, record
 from mechsym.quantities.units import Array, Newton, Pure, Radian, RadPerSecond, Scalar
 from mechsym.sizing.checks import require

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.quantities import parse, quantity, record
 
 

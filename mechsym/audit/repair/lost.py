@@ -8,7 +8,6 @@ give them all at once, and only whole or half exponents with a simple number c a
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import TypeGuard
 
 import mpmath
 import numpy as np
@@ -30,9 +29,8 @@ from mechsym.audit.read.tree import (
     value_of,
     walk,
 )
-from mechsym.audit.repair.edits import Edit, Spot, is_product, is_term, places, scaled
-from mechsym.audit.repair.required import Required, quotient
-from mechsym.audit.theory.record import dependencies
+from mechsym.audit.repair.edits import Edit, Spot, chained, is_exponent, is_product, is_term, places, scaled
+from mechsym.audit.theory.record import dependencies, related
 from mechsym.quantities import record
 
 MAX_WORDS = 26
@@ -52,10 +50,17 @@ class Vocabulary:
     signs: np.ndarray  #: shape (k, n): Signs of their values [-]
     logs: np.ndarray  #: shape (k, n): Logarithms of their absolute values [-]
     basis: tuple[int, ...]  #: Words that are no products of powers of earlier ones
+    near: int  #: How many of them are what the quantity is made of
 
 
+Required = Mapping[Path, Sequence[Values]]  # what each part would have to be, the nearest to the print first
 Words = list[tuple[Node, Fraction]]  # with their exponents
 Product = tuple[Fraction, Words]
+
+
+def quotient(asked: Bench, above: Values, below: Values) -> Values:
+    """Quotient of values state by state, nan where it has none."""
+    return asked.algebra.operations[ast.Div](above, below)
 
 
 def candidate_words(question: Question, tree: Node) -> list[Node]:
@@ -64,6 +69,9 @@ def candidate_words(question: Question, tree: Node) -> list[Node]:
     needed = dependencies(theory, [question.quantity])
     angles = [theory.angle, *(k for k in theory.tape if f"cos_{k}" in theory.tape)]
     printed = [n for _, n in walk(tree) if isinstance(n, (ast.Name, ast.Call)) or is_operation(n, ast.Add, ast.Sub)]
+    # of H**(1 - n), H**n may have been lost
+    powers = [n for _, n in walk(tree) if is_operation(n, ast.Pow) and value_of(n.right) is None]
+    printed += [binary(ast.Pow, n.left, name(k)) for n in powers for k in letters(n.right)]
     turning = [a for a in angles if needed & {a, f"sin_{a}", f"cos_{a}"} and a not in own]
     multiples = [m for a in turning for m in (name(a), binary(ast.Mult, number(2), name(a)))]
     circular = [call(f, m) for m in multiples for f in ("sin", "cos")]
@@ -83,6 +91,12 @@ def candidate_words(question: Question, tree: Node) -> list[Node]:
     return list(distinct.values())
 
 
+def far_words(question: Question) -> list[Node]:
+    """Results that the quantity is not made of, and that are made of what it is made of."""
+    near = {*dependencies(question.theory, [question.quantity]), *question.formula.letters}
+    return [name(k) for k in related(question.theory, question.quantity) if k not in near]
+
+
 def _complexity(node: Node) -> int:
     # letters before sin(phi), sin(phi) before sin(2*phi), brackets last
     if isinstance(node, ast.Call):
@@ -90,17 +104,19 @@ def _complexity(node: Node) -> int:
     return 3 if isinstance(node, ast.BinOp) else 0
 
 
-def vocabulary(asked: Bench, words: Sequence[Node]) -> Vocabulary:
-    """The words that have values at the states of a bench."""
+def vocabulary(asked: Bench, words: Sequence[Node], far: Sequence[Node] = ()) -> Vocabulary:
+    """The words that have values at the states of a bench, and other results, of which nothing but one is made."""
     usable: list[Node] = []
     basis: list[int] = []
     signs, logs = [], []
     independent = [np.ones(len(asked.expected))]
-    for word in words:
+    near = 0
+    for word in (*words, *far):
         sign, log = logarithm(asked, value(asked, word))
         if not np.all(np.isfinite(log)) or np.ptp(log) < 1e-9:
             continue
-        if len(basis) < min(MAX_WORDS, len(log) - 4) and not _depends(log, independent):
+        near += word not in far
+        if len(basis) < min(MAX_WORDS, len(log) - 4) and word not in far and not _depends(log, independent):
             basis.append(len(usable))
             independent.append(log)
         usable.append(word)
@@ -112,6 +128,7 @@ def vocabulary(asked: Bench, words: Sequence[Node]) -> Vocabulary:
         signs=np.array(signs).reshape(shape),
         logs=np.array(logs).reshape(shape),
         basis=tuple(basis),
+        near=near,
     )
 
 
@@ -136,13 +153,15 @@ def product(asked: Bench, words: Vocabulary, values: Values) -> Product | None:
     signs, logs = logarithm(asked, values)
     if not np.all(np.isfinite(logs)):
         return None
-    return _single(words, signs, logs) or _several(words, signs, logs)
+    near = range(words.near)
+    far = range(words.near, len(words.words))
+    return _single(words, near, signs, logs) or _several(words, signs, logs) or _single(words, far, signs, logs)
 
 
-def _single(words: Vocabulary, signs: np.ndarray, logs: np.ndarray) -> Product | None:
-    for exponent in (1, -1, 2, -2):
-        rest = logs - exponent * words.logs
-        for k in np.flatnonzero(np.ptp(rest, axis=1) < _CLOSE):
+def _single(words: Vocabulary, chosen: range, signs: np.ndarray, logs: np.ndarray) -> Product | None:
+    for exponent in (1, -1, 2, -2) if chosen else ():
+        rest = logs - exponent * words.logs[chosen.start : chosen.stop]
+        for k in chosen.start + np.flatnonzero(np.ptp(rest, axis=1) < _CLOSE):
             constant = _constant(words, [int(k)], np.array([float(exponent)]), signs, logs)
             if constant is not None:
                 return constant, [(words.words[k], Fraction(exponent))]
@@ -207,15 +226,8 @@ def product_tree(factor: Fraction, words: Sequence[tuple[Node, Fraction]]) -> No
         above.insert(0, number(factor.numerator))
     if factor.denominator != 1:
         below.insert(0, number(factor.denominator))
-    top = _multiply(above)
-    return binary(ast.Div, top, _multiply(below)) if below else top
-
-
-def _multiply(factors: list[Node]) -> Node:
-    tree = factors[0]
-    for factor in factors[1:]:
-        tree = binary(ast.Mult, tree, factor)
-    return tree
+    top = chained(ast.Mult, above)
+    return binary(ast.Div, top, chained(ast.Mult, below)) if below else top
 
 
 def _power(word: Node, exponent: Fraction) -> Node:
@@ -227,41 +239,59 @@ def _power(word: Node, exponent: Fraction) -> Node:
 
 
 def insertions(
-    asked: Bench, tree: Node, wishes: Required, memo: Mapping[Node, Values], words: Vocabulary
+    asked: Bench,
+    tree: Node,
+    wishes: Required,
+    memo: Mapping[Node, Values],
+    words: Vocabulary,
+    solve: np.ndarray | None = None,
 ) -> Iterator[Edit]:
-    """Terms and factors, made of words, with which a part of the formula is what it is required to be."""
+    """Terms and factors, made of words, with which a part of the formula is what it is required to be.
+
+    solve: shape (words + 1, states), exponents of words from logarithms [-]; with it all parts are looked at together,
+    and only what a few words of the basis make is believed.
+    """
     # what is put back must not be more than what stands there, or any formula could be mended
     most = sum(not children(p.node) for p in places(tree))
     nodes = {p.path: p.node for p in places(tree)}
+    gaps: list[tuple[Spot, bool, Values]] = []
     for place in places(tree):
-        # a number that is a term of its own may have lost a letter
-        bare = place.parent is not None and is_operation(place.parent, ast.Add, ast.Sub)
-        if place.path not in wishes or value_of(place.node) is not None and not bare:
+        # a number that is a term of its own may have lost a letter, one that a function is of a term
+        bare = isinstance(place.parent, ast.Call) or place.parent and is_operation(place.parent, ast.Add, ast.Sub)
+        if value_of(place.node) is not None and not bare or solve is not None and is_exponent(place):
             continue
         old = memo[place.node]
-        for wish in wishes[place.path]:
+        for wish in wishes.get(place.path, ()):
+            factor = quotient(asked, wish, old)
             if is_product(place):
-                yield from lost_factor(nodes, place, product(asked, words, quotient(asked, wish, old)), most)
-            if is_term(place):
-                yield from lost_term(place, product(asked, words, wish - old), most)
+                gaps.append((place, True, factor))
+            # a multiple of what stands there is no term of its own
+            shares = np.asarray(factor, dtype=float)
+            if is_term(place) and not np.ptp(shares) <= _CLOSE * np.abs(np.median(shares)):
+                gaps.append((place, False, wish - old))
+    for place, factor, gap in gaps if solve is None else _screened(asked, gaps, solve, min(4, most)):
+        lost = product(asked, words, gap)
+        if lost is None or not lost[1] or sum(not children(n) for w, _ in lost[1] for _, n in walk(w)) > most:
+            continue
+        if not factor:
+            yield Edit(kind="put back", path=place.path, new=_plus(place.node, *lost))
+        elif not _cancels(nodes, place.path, lost[1]):
+            yield Edit(kind="put back", path=place.path, new=_times(place.node, *lost))
 
 
-def lost_factor(nodes: Mapping[Path, Node], place: Spot, lost: Product | None, most: int) -> Iterator[Edit]:
-    """A factor put back, where it is one."""
-    if _is_little(lost, most) and not _cancels(nodes, place.path, lost[1]):
-        yield Edit(kind="put back", path=place.path, new=_times(place.node, *lost))
-
-
-def lost_term(place: Spot, lost: Product | None, most: int) -> Iterator[Edit]:
-    """A term put back, where it is one."""
-    if _is_little(lost, most):
-        yield Edit(kind="put back", path=place.path, new=_plus(place.node, *lost))
-
-
-def _is_little(lost: Product | None, most: int) -> TypeGuard[Product]:
-    if lost is None or not lost[1]:
-        return False
-    return sum(not children(node) for word, _ in lost[1] for _, node in walk(word)) <= most
+def _screened(
+    asked: Bench, gaps: list[tuple[Spot, bool, Values]], solve: np.ndarray, most: int
+) -> list[tuple[Spot, bool, Values]]:
+    if not gaps or len(solve) < 2:
+        return []
+    missing = np.array([np.broadcast_to(gap, np.shape(asked.expected)) for *_, gap in gaps])
+    logs = np.log(np.abs(missing))
+    good = np.all(np.isfinite(logs), axis=1)
+    halves = 2 * (np.where(good[:, None], logs, 0.0) @ solve.T)[:, 1:]
+    whole = np.round(halves)
+    used = np.count_nonzero(whole, axis=1)
+    few = good & (np.abs(halves - whole).max(axis=1) < 1e-4) & (used >= 1) & (used <= most)
+    return [gaps[i] for i in np.flatnonzero(few)]
 
 
 def _cancels(nodes: Mapping[Path, Node], path: Path, used: Words) -> bool:

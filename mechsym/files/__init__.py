@@ -1,4 +1,8 @@
-"""Writing results so that nothing half-written is ever seen."""
+"""Files: results are written so that nothing half-written is ever seen.
+
+inputs.py   files that are read, told to the results that hang on them
+tables.py   tables of the user's, refused with their line        trust.py   which Python files a command runs
+"""
 
 import contextlib
 import contextvars
@@ -98,7 +102,7 @@ def publish() -> None:
         block.publish()
 
 
-#: Lists of the files that are read, each by name with its digest, which `mechsym.inputs` opens and fills
+#: Lists of the files that are read, each by name with its digest, which `mechsym.files.inputs` opens and fills
 read_lists: contextvars.ContextVar[tuple[dict[str, str], ...]] = contextvars.ContextVar("read_lists", default=())
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from mechsym.errors import BadInput, suggest
-from mechsym.inputs import read_text
+from mechsym.files.inputs import read_text
 from mechsym.quantities import parse
 
 _DELIMITERS = (";", "\t", ",")
