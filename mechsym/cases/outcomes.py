@@ -9,8 +9,9 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cases.laws import by_links, fired, linked
-from mechsym.cycle.gas import Gas, pistons_of, travel_of
+from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds import kind_of
+from mechsym.cycle.motion import pistons_of, travel_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.result import Forces

@@ -83,7 +83,7 @@ ENTRIES: dict[str, Any] = {
     "guide": "mechsym.hinge.choices:GuideParameters",
     "rollers": "mechsym.hinge.rollers:RollerParameters",
     "losses": "mechsym.hinge.rollers:HingeLosses",
-    "codesign": "mechsym.codesign.points:CoDesignSettings",
+    "codesign": "mechsym.codesign.settings:CoDesignSettings",
     "limits": "mechsym.hinge.choices:Limits",
     "friction": "mechsym.forces.friction:Friction",
     "rings": (

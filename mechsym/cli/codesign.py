@@ -14,9 +14,9 @@ from mechsym.quantities.display import figure, quantity_text
 
 if TYPE_CHECKING:
     from mechsym.codesign.front import Rival
-    from mechsym.codesign.points import CoDesignSettings
     from mechsym.codesign.realise import RealisedNumbers
     from mechsym.codesign.result import CoDesignLosses, CoDesignNumbers
+    from mechsym.codesign.settings import CoDesignSettings
     from mechsym.jobs.codesign import Beside
 
 _MOST = 100  # values of one option

@@ -14,7 +14,8 @@ import numpy as np
 import scipy
 
 from mechsym import periodic
-from mechsym.codesign.points import CoDesignSettings, Function, Point
+from mechsym.codesign.points import Function, Point
+from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import Hardware
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.pressure import unfired, unfired_kinks

@@ -29,7 +29,8 @@ import casadi as ca
 import numpy as np
 
 from mechsym.codesign import unknowns
-from mechsym.codesign.points import FREE, Point, Samples, sample
+from mechsym.codesign.points import Point, Samples, sample
+from mechsym.codesign.settings import FREE
 from mechsym.codesign.task import Active, CoDesign, CoDesignTask, Track, limit_rows
 from mechsym.codesign.unknowns import Basis, Gathered, GuideSymbols, basis, curve, guides
 from mechsym.codesign.verify import passed

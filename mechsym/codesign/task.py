@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import scipy
 
-from mechsym.codesign.points import FREE, Point
+from mechsym.codesign.points import Point
+from mechsym.codesign.settings import FREE
 from mechsym.errors import BadInput
 from mechsym.hinge.choices import CENTRE, Limits, Rows, Station, asked
 from mechsym.hinge.rollers import HingeLosses

@@ -19,7 +19,8 @@ import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym.codesign.points import FREE, Point, Samples
+from mechsym.codesign.points import Point, Samples
+from mechsym.codesign.settings import FREE
 from mechsym.codesign.task import MOST_MASS, CoDesignTask, Hardware, Path, path_of, roller_inertia
 from mechsym.hinge import rollers as law
 from mechsym.hinge.choices import ROOM

@@ -26,8 +26,8 @@ _NAMES = {
     "gas_in_cylinder": "mechsym.cycle.kinds:gas_in_cylinder",
     "gas_of_engine": "mechsym.cycle.engine:gas_of_engine",
     "over_speeds": "mechsym.cycle.engine:over_speeds",
-    "piston_motion": "mechsym.cycle.gas:piston_motion",
-    "piston_travel": "mechsym.cycle.gas:piston_travel",
+    "piston_motion": "mechsym.cycle.motion:piston_motion",
+    "piston_travel": "mechsym.cycle.motion:piston_travel",
 }
 __all__ = sorted(_NAMES)
 __getattr__ = lazily(__name__, _NAMES)

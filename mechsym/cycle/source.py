@@ -19,7 +19,8 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Chamber, Motion, chamber_over, piston_force, travel
 from mechsym.cycle.friction import Friction, NoFriction, brake_figures, friction_pressure
-from mechsym.cycle.gas import Gas, piston_motion, piston_travel, pistons_of, slopes
+from mechsym.cycle.gas import Gas
+from mechsym.cycle.motion import piston_motion, piston_travel, pistons_of, slopes
 from mechsym.cycle.pressure import Pressure
 from mechsym.errors import BadInput
 from mechsym.files import Json

@@ -20,7 +20,8 @@ import numpy as np
 
 from mechsym import mechanisms
 from mechsym.cycle.friction import Friction as CycleFriction
-from mechsym.cycle.gas import at_same_travel, piston_travel
+from mechsym.cycle.gas import at_same_travel
+from mechsym.cycle.motion import piston_travel
 from mechsym.errors import BadInput
 from mechsym.forces import textbook
 from mechsym.forces.friction import Friction, Losses, NoRings, Rings, losses

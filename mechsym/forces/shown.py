@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cycle.gas import travel_of
+from mechsym.cycle.motion import travel_of
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces import plots, summary
 from mechsym.forces.loads import polar

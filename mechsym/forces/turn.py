@@ -18,7 +18,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.cycle.gas import from_top, slopes, top_of
+from mechsym.cycle.motion import from_top, slopes, top_of
 from mechsym.errors import BadInput
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.arrays import along

@@ -12,11 +12,12 @@ from mechsym.codesign import loss, machines, scenarios
 from mechsym.codesign.certificate import floor, rollers_inertia
 from mechsym.codesign.front import cut_for_one, front, peers, ripple_map, springs_of, worth_it
 from mechsym.codesign.machines import hardware, point
-from mechsym.codesign.points import CoDesignSettings, Point, bare_flywheel
+from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import Count, counts, rank
 from mechsym.codesign.realise import RealisedNumbers, chosen, realise
 from mechsym.codesign.result import CoDesignResult
+from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesignTask
 from mechsym.codesign.verify import Verified, spread, verify
 from mechsym.cycle.kinds import kind_of

@@ -13,8 +13,8 @@ from mechsym.cases.settings import Speeds
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.columns import CycleFigures
 from mechsym.cycle.friction import Friction, MechanismFriction, NoFriction
-from mechsym.cycle.gas import from_top, slopes
 from mechsym.cycle.kinds import KINDS, four_stroke, kind_of
+from mechsym.cycle.motion import from_top, slopes
 from mechsym.cycle.source import Progress, unseen
 from mechsym.errors import BadInput
 from mechsym.files import Json

@@ -18,9 +18,10 @@ from mechsym.cases.settings import guesses
 from mechsym.cycle.chamber import Chamber, motion_over, piston_area
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.friction import Friction, NoFriction
-from mechsym.cycle.gas import Gas, pistons_of, top_of, travel_of
+from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds import kind_of, source_of, with_diagram
 from mechsym.cycle.measured.diagram import Diagram
+from mechsym.cycle.motion import pistons_of, top_of, travel_of
 from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.cycle.source import EngineParts, GasSource
 from mechsym.errors import BadInput

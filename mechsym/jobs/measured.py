@@ -12,7 +12,6 @@ from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.new_diagram import TraceSizes, diagram_case
 from mechsym.cycle.chamber import Chamber, chamber_over
-from mechsym.cycle.gas import piston_travel
 from mechsym.cycle.kinds import with_diagram
 from mechsym.cycle.measured.alignment import DeadCentre, between
 from mechsym.cycle.measured.checks import brake_doubt, diagram_doubts, exponent_doubts, speed_doubt
@@ -23,6 +22,7 @@ from mechsym.cycle.measured.heat_release import Combustion, CombustionFigures
 from mechsym.cycle.measured.joint_fit import Prior
 from mechsym.cycle.measured.measure import cycle_work, diagram_facts, measured_cycles, read_and_used
 from mechsym.cycle.measured.shared_centre import USUAL, SensorLag, encoder_records, lag_of, shared_centre, without_lag
+from mechsym.cycle.motion import piston_travel
 from mechsym.errors import BadInput
 from mechsym.files import write_text
 from mechsym.jobs.gas import of, one_cylinder

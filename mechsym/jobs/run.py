@@ -17,8 +17,8 @@ from mechsym.cases.outcomes import of_run
 from mechsym.cases.settings import count_loop, guesses, settings_of, simulation_of
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.performance import performance
-from mechsym.cycle.gas import piston_motion, travel_of
 from mechsym.cycle.kinds import kind_of
+from mechsym.cycle.motion import piston_motion, travel_of
 from mechsym.errors import BadInput
 from mechsym.forces.turn import gas_faces
 from mechsym.jobs.cycle import engine

@@ -1,5 +1,6 @@
 """The outputs of generated functions, each with a proven bound of its rounding and the largest error that was seen."""
 
+import heapq
 import itertools
 import math
 import sys
@@ -27,6 +28,7 @@ _PIECES = (64, 16)  # of a turn: where one angle turns, and where several do
 _DEEPEST = 12  # how often a piece is halved before it is told as singular
 _SEED = 20260
 _NEAR = 9.5  # bound by the largest error seen, above which a box is halved
+_MOST = 256  # parts of a box that are tried for a nearer bound
 _PER_SAMPLE = 1e-4  # of each function [s]
 
 
@@ -202,20 +204,32 @@ _MORE: dict[str, Callable[..., Ball]] = {
 }  # fmt: skip
 
 
-def _bounded(
-    tape: Tape, box: Box, along: Sequence[int], goals: Sequence[float], depth: int = 0
-) -> list[list[tuple[Box, Rounded]]]:
-    """For each output the parts of a box with what holds there; a box is halved until no bound is above its goal."""
-    values, widest = bounds(tape, box, along)
-    if depth == _DEEPEST or all(v.error <= goal for v, goal in zip(values, goals, strict=True)):
-        return [[(box, v)] for v in values]
-    middle = (box[widest][0] + box[widest][1]) / 2
-    halves = (
-        _bounded(tape, (*box[:widest], end, *box[widest + 1 :]), along, goals, depth + 1)
-        for end in ((box[widest][0], middle), (middle, box[widest][1]))
-    )
-    parts = [a + b for a, b in zip(*halves, strict=True)]
-    return [[(box, v)] if v.error <= goal else p for v, goal, p in zip(values, goals, parts, strict=True)]
+def _bounded(tape: Tape, box: Box, along: Sequence[int], goals: Sequence[float]) -> list[list[tuple[Box, Rounded]]]:
+    """For each output the parts of a box with what holds there; the part farthest above its goal is halved first."""
+    parts: list[list[tuple[Box, Rounded]]] = [[] for _ in goals]
+    waiting: list[tuple[float, int, int, Box, int, list[Rounded], list[int]]] = []
+    count = itertools.count()
+
+    def enter(part: Box, outputs: Sequence[int], depth: int) -> None:
+        values, widest = bounds(tape, part, along)
+        above = [i for i in outputs if values[i].error > goals[i]]
+        for i in set(outputs) - set(above):
+            parts[i].append((part, values[i]))
+        if above:
+            worst = max(values[i].error / goals[i] for i in above)
+            heapq.heappush(waiting, (-worst, next(count), depth, part, widest, values, above))
+
+    enter(box, range(len(goals)), 0)
+    while waiting:
+        worst, number, depth, part, k, values, above = heapq.heappop(waiting)
+        if depth == _DEEPEST or (number >= _MOST and math.isfinite(worst)):
+            for i in above:
+                parts[i].append((part, values[i]))
+            continue
+        middle = (part[k][0] + part[k][1]) / 2
+        for half in ((part[k][0], middle), (middle, part[k][1])):
+            enter((*part[:k], half, *part[k + 1 :]), above, depth + 1)
+    return parts
 
 
 def _within(point: np.ndarray, box: Box) -> bool:

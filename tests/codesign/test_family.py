@@ -7,7 +7,7 @@ import pytest
 
 from mechsym import cases
 from mechsym.codesign.machines import cycle_at, places, scavenge_pressure
-from mechsym.codesign.points import CoDesignSettings
+from mechsym.codesign.settings import CoDesignSettings
 from mechsym.errors import BadInput
 
 RPM = math.pi / 30

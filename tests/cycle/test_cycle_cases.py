@@ -13,7 +13,7 @@ from mechsym.cli.cycle import cycle
 from mechsym.cycle.closed.model import at_design, design_names
 from mechsym.cycle.columns import crossovers
 from mechsym.cycle.engine import curves, over_speeds
-from mechsym.cycle.gas import piston_motion
+from mechsym.cycle.motion import piston_motion
 from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.quantities import RPM

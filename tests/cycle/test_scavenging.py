@@ -15,8 +15,8 @@ from mechsym.cli import mechsym
 from mechsym.cycle.breathing.flow import dew_point, flow_area, in_series, remaining, trapped_temperature
 from mechsym.cycle.breathing.marine import scavenge
 from mechsym.cycle.chamber import chamber_over, travel
-from mechsym.cycle.gas import piston_travel
 from mechsym.cycle.kinds.two_stroke import solve
+from mechsym.cycle.motion import piston_travel
 from mechsym.errors import BadInput
 from mechsym.jobs.gas import gas, source
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from newton_euler import Oracle
 
-from mechsym.cycle.gas import top_of
+from mechsym.cycle.motion import top_of
 from mechsym.derive import Mechanism, derive
 from mechsym.derive.emit import module_text
 from mechsym.derive.textbook import disagreement

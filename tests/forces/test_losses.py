@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from small_machines import machine, smooth_gas, turn_of
 
 from mechsym.cases.settings import Operation
-from mechsym.cycle.gas import at_same_travel, piston_travel
+from mechsym.cycle.gas import at_same_travel
+from mechsym.cycle.motion import piston_travel
 from mechsym.errors import BadInput
 from mechsym.forces.friction import (
     ContactPressure,

@@ -78,12 +78,7 @@ def journal_load() -> Decided:
     room = chamber(machine.chamber, machine.motion)
     force = piston_force(room, theta[:, None], result.omega[None, :], result.p).T
     plain = float(journal_load_massless(force, theta).max())
-    # journal load with the teeth pushed apart: rod force along the cylinder, teeth across and along the crank
-    teeth = tooth_load_printed(force, theta)
-    apart = np.abs(teeth) * np.tan(_PRESSURE_ANGLE)
-    sine, cosine = np.sin(theta), np.cos(theta)
-    along = -force - teeth * sine - apart * cosine
-    full = float(np.hypot(along, teeth * cosine - apart * sine).max())
+    full = float(_with_separation(force, theta).max())
     assumed = float(force.max())
     note = (
         f"the tooth load stands on the journals too: F sqrt(1 + 3 sin^2 theta), at most {plain / 1e3:.1f} kN, "
@@ -91,6 +86,15 @@ def journal_load() -> Decided:
         f"{assumed / 1e3:.2f} kN (2 x {assumed / 2e3:.2f}) assumed"
     )
     return against(assumed, full, note)
+
+
+def _with_separation(force: np.ndarray, theta: np.ndarray) -> np.ndarray:
+    """Journal load with the teeth pushed apart: rod force along the cylinder, teeth across and along the crank."""
+    teeth = tooth_load_printed(force, theta)
+    apart = np.abs(teeth) * np.tan(_PRESSURE_ANGLE)
+    sine, cosine = np.sin(theta), np.cos(theta)
+    along = -force - teeth * sine - apart * cosine
+    return np.hypot(along, teeth * cosine - apart * sine)
 
 
 def journal_speed() -> Decided:
