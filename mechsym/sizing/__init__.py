@@ -19,7 +19,7 @@ from mechsym.quantities import lazily
 
 _NAMES = {
     "Check": "mechsym.sizing.checks:Check",
-    "Pressures": "mechsym.sizing.loads:Pressures",
+    "Pressures": "mechsym.sizing.crank_design:Pressures",
     "Stock": "mechsym.sizing.hypocycloid.engine:Stock",
     "Wants": "mechsym.sizing.wants:Wants",
     "hypocycloid_forces": "mechsym.sizing.hypocycloid.engine:hypocycloid_forces",
