@@ -12,7 +12,7 @@ from mechsym.cli import COMMANDS
 DOCS = Path(__file__).parent.parent / "docs"
 PAGES = [DOCS / "start.md", DOCS / "engine.md", *sorted((DOCS / "tutorials").glob("*.md"))]
 NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?(?![\w])")
-MASKED = re.compile(r"[\d.e-]+ s by the clock")
+MASKED = re.compile(r"[\d.e-]+ s by the clock|(?<=succeeded, )[\d.]+ s")
 _RELATIVE, _NOTHING = 2e-3, 1e-7  # what processors and libraries may differ by, and what is round-off
 
 
