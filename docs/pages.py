@@ -107,7 +107,7 @@ def commands() -> str:
     parts = [head, _SHARED]
     for title, names in GROUPS.items():
         parts.append(f"## {title}\n\n| command | does |\n|---|---|")
-        parts += [f"| [{name}]({name}.md) | {load(place).get_short_help_str(120)} |" for name, place in names.items()]
+        parts += [f"| [{name}]({name}.md) | {load(COMMANDS[name]).get_short_help_str(120)} |" for name in names]
         parts.append("")
     tree = "\n".join(COMMANDS)
     return "\n".join([*parts, f"```{{toctree}}\n:hidden:\n\n{tree}\n```"]) + "\n"

@@ -28,6 +28,7 @@ def pages(monkeypatch):
 
 def test_every_command_has_an_example_that_is_kept(pages):
     assert COMMANDS.keys() == pages.EXAMPLES.keys() >= pages.BEFORE.keys()
+    assert all(f"[{name}]({name}.md)" in pages.commands() for name in COMMANDS)
     for name, kept in pages.EXAMPLES.items():
         assert shlex.split(kept)[0] == name or f"mechsym {name}" in equations().recorded(kept), name
         assert f"$ mechsym {name}" in pages.example(name)
