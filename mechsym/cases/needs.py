@@ -228,7 +228,9 @@ def _prove(case: CaseFacts) -> list[str]:
     if case.held:
         return [f"{case.mechanism} has loops that close by constraint; prove encloses those that close in closed form"]
     if acting := [f"[{name}]" for name in ("cycle", "torque", "spring") if case.has(name)]:
-        return [f"{', '.join(acting)} acts by no smooth closed form that can be enclosed; leave it out"]
+        return [f"{', '.join(acting)}: no smooth closed form that can be enclosed; leave it out"]
+    if case.roles is not None and (jumping := [*case.roles.stops, *case.roles.frictions, *case.roles.cams]):
+        return [f"{jumping[0].name} is no smooth closed form; prove encloses what is smooth"]
     return _simulate(case)
 
 

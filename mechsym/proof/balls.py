@@ -77,4 +77,4 @@ def refuse_unknown(tape: Tape, known: Mapping[str, object], what: str) -> None:
     """Refuse operators that a proof has no rule for."""
     others = sorted({op for op, _ in tape.nodes} - {*known, "input", "constant"})
     if others:
-        raise BadInput(f"{what}: {', '.join(others)} is no smooth closed form that can be enclosed; leave it out")
+        raise BadInput(f"{what}: {', '.join(others)}: no smooth closed form that can be enclosed; leave it out")

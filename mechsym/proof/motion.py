@@ -84,7 +84,7 @@ def task_of(problem: Problem, mechanism: Mechanism, letters: Mapping[str, float]
         what = others or (
             ["a loop closed by constraints"] if mechanism.dependents else ["stops, curves or added inertia"]
         )
-        raise BadInput(f"{name}: {', '.join(what)} is no smooth closed form that can be enclosed; leave it out")
+        raise BadInput(f"{name}: {', '.join(what)}: no smooth closed form that can be enclosed; leave it out")
     n = len(mechanism.coordinates)
     steps = tuple(part.value for part in problem.parts if isinstance(part.value, Steps))
     t, x, w = ca.SX.sym("t"), ca.SX.sym("x", 2 * n), ca.SX.sym("w", len(steps))

@@ -28,6 +28,7 @@ _PIECES = (64, 16)  # of a turn: where one angle turns, and where several do
 _DEEPEST = 12  # how often a piece is halved before it is told as singular
 _SEED = 20260
 _NEAR = 9.5  # bound by the largest error seen, above which a box is halved
+_ENOUGH = 1000  # samples, from which the largest error seen is near the largest that there is
 _MOST = 256  # parts of a box that are tried for a nearer bound
 _PER_SAMPLE = 1e-4  # of each function [s]
 
@@ -164,7 +165,8 @@ def prove(
     exact = subject.exact or (lambda *values: evaluate(tape, VALUES | _MORE, values))
     points, which = points_in(subject.boxes, samples, _SEED)
     off, sizes = errors(code or compiled(subject.function, "strict").batch, exact, points, progress)
-    goals = [min(_NEAR * row.max(), sys.float_info.max) or sys.float_info.max for row in off]
+    finest = [_NEAR * row.max() if samples >= _ENOUGH else 0.0 for row in off]
+    goals = [min(goal, sys.float_info.max) or sys.float_info.max for goal in finest]
     rows = [_bounded(tape, box, subject.along, goals) for box in subject.boxes]
 
     def place(which: int, box: Box) -> str:

@@ -197,7 +197,7 @@ def test_chaos_is_refused_by_the_digits_that_it_needs():
 def test_what_is_no_smooth_closed_form_is_refused():
     calm = pendulum(0.1, 1.0)
     pushed = Part(name="push", input="M", value=lambda t, q, u: 1.0)
-    with pytest.raises(BadInput, match="push is no smooth closed form"):
+    with pytest.raises(BadInput, match="push: no smooth closed form"):
         task_of(dataclasses.replace(calm, parts=(pushed,)), calm.mechanism, {})
     timed = Part(name="push", input="M", value=FormulaForce(function=lambda t, q, u: t))
     with pytest.raises(BadInput, match="follows the time"):
