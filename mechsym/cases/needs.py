@@ -275,7 +275,7 @@ COMMANDS: Mapping[str, Command] = {
         reads=lambda case: facts.cycle(case) | {"optimise"},
     ),
     "page": Command(asks=_export, reads=facts.page),
-    "prove": Command(asks=_prove, reads=facts.run),
+    "prove": Command(asks=_prove, reads=facts.simulate),
     "report": Command(asks=lambda case: [], reads=_reads_report),
     "simulate": Command(asks=_simulate, reads=facts.simulate),
     "size": Command(asks=_size, reads=facts.size),

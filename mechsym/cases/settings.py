@@ -132,6 +132,7 @@ def guesses(case: Case) -> dict[str, float]:
 
     Of coordinates that loops hold they are guesses [rad] or [m]; `simulation.phi_start` goes before the pose.
     """
-    section, run = case.sections.get("start"), case.sections.get("simulation")
-    posed = {} if run is not None and run.phi_start else mechanisms.listing(case.mechanism).get("pose", {})
+    section, posed = case.sections.get("start"), mechanisms.listing(case.mechanism).get("pose", {})
+    if posed and case.sections.get("simulation") is not None and case.need("simulation").phi_start:
+        posed = {}
     return posed | ({} if section is None else {k: v for k, v in asdict(section).items() if v is not None})
