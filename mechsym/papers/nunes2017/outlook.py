@@ -218,8 +218,7 @@ def _losses() -> list[Row]:
         "and rings assumed, the same for both"
     )
     return [
-        claim(item.format(rpm), "significantly reduced", change[rpm], change[rpm] < 0, note)
-        for rpm in (4000, 8000)
+        claim(item.format(rpm), "significantly reduced", change[rpm], change[rpm] < 0, note) for rpm in (4000, 8000)
     ]
 
 
