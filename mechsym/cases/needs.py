@@ -229,8 +229,10 @@ def _prove(case: CaseFacts) -> list[str]:
         return [f"{case.mechanism} has loops that close by constraint; prove encloses those that close in closed form"]
     if acting := [f"[{name}]" for name in ("cycle", "torque", "spring") if case.has(name)]:
         return [f"{', '.join(acting)}: no smooth closed form that can be enclosed; leave it out"]
-    if case.roles is not None and (jumping := [*case.roles.stops, *case.roles.frictions, *case.roles.cams]):
-        return [f"{jumping[0].name} is no smooth closed form; prove encloses what is smooth"]
+    if events := _events(case):
+        return events
+    if case.roles is not None and case.roles.cams:
+        return [f"{case.roles.cams[0].name} is no smooth closed form; prove encloses what is smooth"]
     return _simulate(case)
 
 
