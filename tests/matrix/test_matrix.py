@@ -27,9 +27,13 @@ ENTRIES = [entry for entry in entries() if not entry.heavy]
 RECORDS = {entry.name: read(RECORDED, entry) for entry in ENTRIES if kept(RECORDED, entry).exists()}
 
 
-@pytest.mark.parametrize(
-    "entry", [pytest.param(e, id=e.name, marks=[] if e.name in QUICK else pytest.mark.slow) for e in ENTRIES]
-)
+def marks(name):
+    if name in QUICK:
+        return []
+    return [pytest.mark.slow, pytest.mark.heavy] if name == "none/audit-zotov" else [pytest.mark.slow]
+
+
+@pytest.mark.parametrize("entry", [pytest.param(e, id=e.name, marks=marks(e.name)) for e in ENTRIES])
 def test_a_command_gives_what_is_on_record(entry, prepared):
     now = json.loads(json.dumps(record(entry, prepared)))
     assert [*differences(RECORDS[entry.name], now, scales=Scales(now, entry.line.split()[0]))] == [], (

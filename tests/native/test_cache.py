@@ -11,8 +11,7 @@ from pathlib import Path
 import casadi as ca
 import pytest
 
-from mechsym import native
-from mechsym.files import transaction
+from mechsym import native, transaction
 from mechsym.native import cache, compiler
 from mechsym.native.compiler import NoCompiler
 

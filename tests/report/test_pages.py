@@ -3,6 +3,7 @@
 Few commands in the slow suite, every command of every case where time does not count.
 """
 
+import re
 from pathlib import Path
 from shutil import which
 
@@ -37,7 +38,8 @@ def browser():
 
 
 @pytest.mark.parametrize(
-    "line", [one if "/" in one or "zotov-89" in one else pytest.param(one, marks=pytest.mark.heavy) for one in FIRST]
+    "line",
+    [one if re.search("zotov-89|watt|scotch", one) else pytest.param(one, marks=pytest.mark.heavy) for one in FIRST],
 )
 def test_a_machine_moves_on_the_first_screen_of_a_page_and_of_a_report(browser, tmp_path, line):
     case = line.partition(" ")[2]
