@@ -84,7 +84,10 @@ def test_sweep_check_and_report(case, tmp_path):
 
 @pytest.mark.parametrize("line", [
     "size CASE", "export CASE --to c --out c", "guide CASE --sheet sheet.svg",
-    "codesign CASE --curve constant_speed --loads 1 --speeds 80,100 --ripple 5% --losses none",
+    pytest.param(
+        "codesign CASE --curve constant_speed --loads 1 --speeds 80,100 --ripple 5% --losses none",
+        marks=pytest.mark.heavy,
+    ),
     "fmu CASE --platforms none --out machine.fmu",
 ])  # fmt: skip
 @pytest.mark.slow

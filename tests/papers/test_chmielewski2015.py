@@ -51,6 +51,7 @@ def test_convergence_of_both_models():
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_194_rad_s_from_90_s_on_is_not_reproduced(found):
     for start in ("Fig. 10: mean crank speed", "Fig. 10: the same", "Fig. 10: mean speed that"):
         row = one(found, start)
@@ -59,6 +60,7 @@ def test_194_rad_s_from_90_s_on_is_not_reproduced(found):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_the_speed_is_held_where_the_paper_lets_it_rise_and_rises_where_it_settles(found):
     assert abs(one(found, "speed up to 85 s")["computed"]) < 1.0
     assert one(found, "Fig. 10: speed above")["computed"] > 10
@@ -67,12 +69,14 @@ def test_the_speed_is_held_where_the_paper_lets_it_rise_and_rises_where_it_settl
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_torque_step_and_dependence_on_the_step_are_reproduced(found):
     assert one(found, "Fig. 5")["verdict"] == "reproduced"
     assert one(found, "the result depends on the step")["verdict"] == "reproduced"
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_more_than_one_fixed_step_gives_194_so_it_cannot_be_told(found):
     peaks = [s.peak for s in paper.step_study()[1:]]
     assert peaks == pytest.approx([194, 194], abs=2)
