@@ -13,7 +13,7 @@ import mechsym  # noqa: E402
 project = "mechsym"
 author = "The mechsym team"
 version = release = mechsym.__version__
-extensions = ["myst_parser", "equations"]
+extensions = ["myst_parser", "directives"]
 html_theme = "furo"
 html_title = f"mechsym {mechsym.__version__}"
 html_static_path = ["static"]
