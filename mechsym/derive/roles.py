@@ -155,7 +155,7 @@ class Roles(Letters):
         if at and at not in _BEARING_PLACES:
             refuse(f"the bearing {name!r} is at {at!r}; there are {', '.join(_BEARING_PLACES)}")
         held = None if radius is None else radius.name
-        named = ({"at": at} if at else {}) | self._sizes(name, throw=(throw, "m"))
+        named: Json = ({"at": at} if at else {}) | self._sizes(name, throw=(throw, "m"))
         named |= {"ways": [float(way) for way in ways]} if ways else {}
         self._role("bearing", name=name, reactions=pair, turns=turned, radius=held, **named)
 

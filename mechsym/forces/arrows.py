@@ -78,13 +78,15 @@ def _of_sketch(shown: Json, drive: CrankDrive, phi: np.ndarray, R: Mapping[str, 
     rods = {of: at for of, at in corners(shown, "rod") if of and np.ptp(at[:, 0].real) == 0}  # beside their neighbours
     at_end = [(of, at) for of, at in free if of not in rods or not np.allclose(at.real, rods[of][0, 0].real)]
     numbered, pins = any(of for of, _ in at_end), [role for role in bearings.values() if role.at == "piston_pins"]
-    for held in (pins, [role for role in drive.roles.guides if role.at and role.reaction]):
+    guides = [role for role in drive.roles.guides if role.at and role.reaction]
+    kinds: tuple[Sequence[_Role], ...] = (pins, guides)
+    for held in kinds:
         for n in dict.fromkeys(_number(role) if numbered else 0 for role in held):
             own = [at for of, at in at_end if of == n]
             alike = [role for role in held if not numbered or _number(role) == n]
             # of a rod that hangs on another the pin of its piston is drawn last
-            for role, at in zip(alike, reversed(own) if numbered else own, strict=False):
-                yield _load(role, at, turned * _force(role, R))
+            for one, at in zip(alike, reversed(own) if numbered else own, strict=False):
+                yield _load(one, at, turned * _force(one, R))
     for n, rod in rods.items():
         yield from _beside(n, rod, bearings, R)
 
@@ -112,10 +114,10 @@ def _number(role: _Role) -> int:
 
 def _force(role: _Role, R: Mapping[str, np.ndarray]) -> np.ndarray:
     """In the frame, x + i y: on a piston from its rod and guide, on a crank from its rod and its main bearing [N]."""
-    guide = isinstance(role, GuideRole)
-    parts = [(role.reaction, role.way)] if guide else zip(role.reactions, role.ways, strict=False)
-    sign = -1.0 if not guide and role.throw is not None else 1.0  # of a crank pin the reaction is that on the rod
-    found: np.ndarray = sign * sum(R[name] * np.exp(1j * way) for name, way in parts if name)
+    if isinstance(role, GuideRole):
+        return R[role.reaction or ""] * np.exp(1j * role.way)
+    sign = 1.0 if role.throw is None else -1.0  # of a crank pin the reaction is that on the rod
+    found: np.ndarray = sum(sign * R[n] * np.exp(1j * way) for n, way in zip(role.reactions, role.ways, strict=False))
     return found
 
 

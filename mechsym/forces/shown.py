@@ -18,7 +18,7 @@ from mechsym.mechanisms.drawing import Shapes, drawn
 from mechsym.mechanisms.turning import rules, scene
 from mechsym.page import Card, Finding, Picture, View, card, page, shows, title_mark
 from mechsym.page.finding import NOT_MET
-from mechsym.quantities.display import figure, quantity_text
+from mechsym.quantities.display import figure, key_words, quantity_text
 from mechsym.quantities.results import tell, units_of
 from mechsym.style import svg
 
@@ -104,8 +104,12 @@ def _pictures(result: Forces) -> tuple[Picture, ...]:
                     see="Brake power and what friction takes add up to the net indicated power."))  # fmt: skip
     if result.comparison is not None:
         peers = result.comparison
-        rows.append(Picture(name="comparison", draw=lambda: plots.comparison(peers),
-                            see="The mechanisms at equal stroke, mass and indicator diagram."))  # fmt: skip
+        by_force = sorted(peers, key=lambda peer: peer.side_force_max)
+        ends = [f"{quantity_text(one.side_force_max, 'N', 4)} ({key_words(one.mechanism)})"
+                for one in (by_force[0], by_force[-1])]  # fmt: skip
+        see = "The mechanisms at equal stroke, mass and indicator diagram: the largest force on a guide is "
+        see += f"{' to '.join(ends)}."
+        rows.append(Picture(name="comparison", draw=lambda: plots.comparison(peers), see=see))
     return tuple(rows)
 
 
