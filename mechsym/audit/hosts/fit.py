@@ -34,7 +34,7 @@ _UNITS = tuple(
 
 
 @record
-class Fit:
+class Fitted:
     """A claim in the letters of a theory."""
 
     theory: Theory
@@ -56,7 +56,7 @@ def _word_list(text: str) -> tuple[str, ...]:
     return words(text)
 
 
-class Vocabulary:
+class Lexicon:
     """What the letters and quantities of a theory are called."""
 
     def __init__(self, theory: Theory) -> None:
@@ -125,7 +125,7 @@ def _stands_in(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
     return any(said[i : i + n] == phrase for i in range(min(6, len(said) - n + 1)))
 
 
-def fit(claim: Claim, vocabulary: Vocabulary) -> Fit | None:
+def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
     """A claim in a theory's letters; None where a name in it means nothing there."""
     theory = vocabulary.theory
     rank, called = _called(claim, vocabulary)
@@ -154,10 +154,12 @@ def fit(claim: Claim, vocabulary: Vocabulary) -> Fit | None:
     if len(set(meanings.values())) < len(used) or len(used) < 2:
         return None
     meanings = {k: _in_degrees(k, v, tree, theory) for k, v in meanings.items()}
-    return Fit(theory=theory, claim=claim, tree=tree, meanings=meanings, quantities=called if rank else (), strong=strong)
+    return Fitted(
+        theory=theory, claim=claim, tree=tree, meanings=meanings, quantities=called if rank else (), strong=strong
+    )
 
 
-def _called(claim: Claim, vocabulary: Vocabulary) -> tuple[int, list[str]]:
+def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
     # quantities that the name or the comment of a claim says
     about = claim.about if claim.name != "return" else f"{claim.scope} {claim.about}"
     name = claim.scope if claim.name == "return" else claim.name
@@ -178,7 +180,7 @@ def _in_degrees(letter: str, meaning: str, tree: Node, theory: Theory) -> str:
     return meaning
 
 
-def formula(fitted: Fit) -> Formula:
+def formula(fitted: Fitted) -> Formula:
     """A fit as the auditor's formula. Raises BadInput."""
     theory = fitted.theory
     renamed = {k: safe(k) for k in letters(fitted.tree) if k != "pi"}
@@ -186,20 +188,18 @@ def formula(fitted: Fit) -> Formula:
         fitted.tree, lambda n: trees.name(renamed.get(n.id, n.id)) if isinstance(n, ast.Name) else None
     )
     trees.check(tree)
-    own = {
-        renamed[k]: read_expression(v, [*known(theory), "pi"], theory.tape)[0] for k, v in fitted.meanings.items()
-    }
+    own = {renamed[k]: read_expression(v, [*known(theory), "pi"], theory.tape)[0] for k, v in fitted.meanings.items()}
     return Formula(tree=tree, letters=own)
 
 
 def safe(letter: str) -> str:
     """A program's name as a letter that a formula may hold."""
-    plain = letter.replace("__v", "_").replace(OF, "_").strip("_") or "x"
+    plain = letter.replace("__v", "_").replace("__w", "_").replace(OF, "_").strip("_") or "x"
     return f"{plain}_own" if plain in RESERVED or plain in ("lambda", "in", "is", "if", "as", "or") else plain
 
 
 @record
-class Compared:
+class Nearness:
     """Numbers of a formula beside those of a quantity, at random states."""
 
     away: float  #: Largest difference by the quantity's largest size [-]
@@ -232,7 +232,7 @@ class States:
         return tuple(np.broadcast_to(v, (count,)) for v in both)  # type: ignore[return-value]
 
 
-def compared(form: Formula, states: States, quantity: str) -> Compared | None:
+def compared(form: Formula, states: States, quantity: str) -> Nearness | None:
     """A formula's numbers beside a quantity's; None where there are none."""
     try:
         printed, expected = states.values(states.random, form, quantity)
@@ -248,7 +248,7 @@ def compared(form: Formula, states: States, quantity: str) -> Compared | None:
     middle = float(np.median(ratios))
     constant = bool(np.all(np.abs(ratios - middle) <= _SAME * (1 + abs(middle)))) and middle != 0
     away = min(float(np.max(np.abs(p - e))), float(np.max(np.abs(p + e)))) / float(np.max(np.abs(e)))
-    return Compared(away=away, ratio=middle if constant else None, shift=turns is not None and _shifted(*turns))
+    return Nearness(away=away, ratio=middle if constant else None, shift=turns is not None and _shifted(*turns))
 
 
 def _shifted(printed: np.ndarray, expected: np.ndarray) -> bool:
@@ -265,7 +265,7 @@ def of_units(ratio: float | None) -> bool:
     return ratio is not None and any(abs(ratio / u - 1) < 1e-5 for u in _UNITS)
 
 
-def nearest(fitted: Fit, form: Formula, states: States) -> Iterator[tuple[float, str]]:
+def nearest(fitted: Fitted, form: Formula, states: States) -> Iterator[tuple[float, str]]:
     """Quantities whose numbers a formula comes near to, the nearest first."""
     theory = fitted.theory
     used = {m for t in form.letters.values() for m in letters(t)}

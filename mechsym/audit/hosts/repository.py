@@ -9,7 +9,7 @@ from dataclasses import field
 from functools import cache
 from pathlib import Path
 
-from mechsym.audit.hosts.fit import Fit, States, Vocabulary, compared, fit, formula, nearest, of_units, safe
+from mechsym.audit.hosts.fit import Fitted, Lexicon, States, compared, fit, formula, nearest, of_units, safe
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, inlined, read_program, text_of
@@ -24,7 +24,18 @@ from mechsym.audit.theory.tape import TheoryTape, derivative
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
-_LEFT_OUT = {".git", "node_modules", ".venv", "venv", "__pycache__", "build", "dist", "third_party", ".tox", "site-packages"}
+_LEFT_OUT = {
+    ".git",
+    "node_modules",
+    ".venv",
+    "venv",
+    "__pycache__",
+    "build",
+    "dist",
+    "third_party",
+    ".tox",
+    "site-packages",
+}
 _NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
 _MOST_FILES = 20_000
 
@@ -60,10 +71,10 @@ def programs(place: Path) -> list[Path]:
     return files
 
 
-def audited(place: Path, asked: Asked) -> Iterator[File]:
-    """Every program of a folder, read and judged."""
+def audited(place: Path, asked: Asked, chosen: Sequence[Path]) -> Iterator[File]:
+    """Every chosen program of a folder, read and judged."""
     root = place if place.is_dir() else place.parent
-    for path in programs(place):
+    for path in chosen:
         shown = path.relative_to(root).as_posix()
         try:
             reading = read_program(text_of(path), path.suffix.lower())
@@ -74,9 +85,9 @@ def audited(place: Path, asked: Asked) -> Iterator[File]:
 
 
 @cache
-def _vocabularies(theory: str, case: str) -> tuple[Vocabulary, ...]:
+def _vocabularies(theory: str, case: str) -> tuple[Lexicon, ...]:
     chosen = [named(Path(theory).stem, case, theory)] if theory else [named(one, case) for one in shipped()]
-    return tuple(Vocabulary(one) for one in chosen)
+    return tuple(Lexicon(one) for one in chosen)
 
 
 def _judged(shown: str, reading: Reading, asked: Asked) -> File:
@@ -98,27 +109,36 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
         if row["verdict"] == "derivative":
             rows.append(_placed(row, claim, shown))
     return File(
-        path=shown, scopes=reading.scopes, assigned=reading.assigned, formulas=len(claims), matched=matched,
-        judged=judged, rows=rows,
-    )  # fmt: skip
+        path=shown,
+        scopes=len(reading.names),
+        assigned=reading.assigned,
+        formulas=len(claims),
+        matched=matched,
+        judged=judged,
+        rows=rows,
+    )
 
 
 def _placed(row: Row, claim: Claim, shown: str) -> Row:
     printed = f"{base(claim.name).replace(OF, chr(46))} = {_shown(claim.tree)}"
     told = "|".join([shown, claim.scope, claim.name, row["claim"], printed])
     return row | {
-        "file": shown, "line": claim.line, "scope": claim.scope, "equation": claim.name, "printed": printed,
+        "file": shown,
+        "line": claim.line,
+        "scope": claim.scope,
+        "equation": claim.name,
+        "printed": printed,
         "fingerprint": hashlib.sha256(told.encode()).hexdigest()[:24],
-    }  # fmt: skip
+    }
 
 
 def _shown(tree: Node) -> str:
-    return re.sub(r"__v\d+", "", to_python(tree)).replace(OF, ".")
+    return re.sub(r"__[vw]\d+", "", to_python(tree)).replace(OF, ".")
 
 
-def _outcome(claim: Claim, vocabularies: Sequence[Vocabulary]) -> Row | None:
+def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
     """The best of what theories say of a claim: it agrees with one, or it is a slip away from just one."""
-    doubts: list[tuple[float, Fit, Formula, str]] = []
+    doubts: list[tuple[float, Fitted, Formula, str]] = []
     matched = False
     for vocabulary in vocabularies:
         fitted = fit(claim, vocabulary)
@@ -144,7 +164,7 @@ def _outcome(claim: Claim, vocabularies: Sequence[Vocabulary]) -> Row | None:
     return {"verdict": "", "claim": ""}
 
 
-def _met(fitted: Fit, form: Formula, states: States) -> Iterator[tuple[float, str]]:
+def _met(fitted: Fitted, form: Formula, states: States) -> Iterator[tuple[float, str]]:
     seen = set()
     for quantity in fitted.quantities:
         met = compared(form, states, quantity)
@@ -158,21 +178,25 @@ def _met(fitted: Fit, form: Formula, states: States) -> Iterator[tuple[float, st
                 yield away, quantity
 
 
-def _told_enough(away: float, fitted: Fit, quantity: str) -> bool:
+def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
     many, strong = len(fitted.meanings), fitted.strong
     if quantity in fitted.quantities:
         return many == strong or many > 4 and strong > 1 or away <= _NEAR and many > 2 and strong > 0
     return away <= _NEAR and many > 2 and strong > 1
 
 
-def _slip(away: float, fitted: Fit, form: Formula, quantity: str) -> Row | None:
+def _slip(away: float, fitted: Fitted, form: Formula, quantity: str) -> Row | None:
     # a formula that one slip takes away from a quantity
     theory = fitted.theory
     own = {safe(k): v for k, v in fitted.meanings.items()}
     asked = Asked(
-        text=to_python(form.tree), against=f"{theory.name}.{quantity}", letters=own, name=fitted.claim.name,
-        hidden="noted", given=theory,
-    )  # fmt: skip
+        text=to_python(form.tree),
+        against=f"{theory.name}.{quantity}",
+        letters=own,
+        name=fitted.claim.name,
+        hidden="noted",
+        given=theory,
+    )
     row = answer_or_why(asked)
     if row["verdict"] in ("exact", "truncation", "convention"):
         return row | {"verdict": "agrees"}
@@ -182,7 +206,7 @@ def _slip(away: float, fitted: Fit, form: Formula, quantity: str) -> Row | None:
     return None
 
 
-def _renamed(row: Row, fitted: Fit) -> Row:
+def _renamed(row: Row, fitted: Fitted) -> Row:
     # the program's own names again
     names = {safe(k): base(k).replace(OF, ".") for k in fitted.meanings if safe(k) != k}
     if not names:
@@ -197,7 +221,9 @@ def _is_local(row: Row) -> bool:
     return not re.search(r"repaired by (?:left out|lost|missing|term)", row["note"])
 
 
-_SLOPE = re.compile(r"^(?:d_?(?P<of>\w+?)_?d_?(?P<by>\w+)|(?:d_|d|deriv_|grad_)(?P<f>\w+)|(?P<g>\w+?)_?(?:prime|deriv|derivative))$")
+_SLOPE = re.compile(
+    r"^(?:d_?(?P<of>\w+?)_?d_?(?P<by>\w+)|(?:d_|d|deriv_|grad_)(?P<f>\w+)|(?P<g>\w+?)_?(?:prime|deriv|derivative))$"
+)
 
 
 def _pair(claim: Claim, claims: Sequence[Claim]) -> Row | None:
@@ -227,28 +253,37 @@ def _slopes(reading: Reading) -> Iterator[tuple[Claim, Row]]:
         (parameters, whole), (again, slope) = reading.functions[of], reading.functions[claim.scope]
         if len(parameters) != 1 or len(again) != 1:
             continue
-        named_alike = trees.substitute(
-            slope, lambda n: trees.name(parameters[0]) if isinstance(n, ast.Name) and n.id == again[0] else None
-        )
+        named_alike = _with_name(slope, again[0], parameters[0])
         if set(letters(named_alike)) <= set(letters(whole)) and parameters[0] in letters(named_alike):
             row = _derived(whole, named_alike, parameters[0], claim.scope, of)
             if row is not None:
                 yield claim, row
 
 
+def _with_name(tree: Node, old: str, new: str) -> Node:
+    return trees.substitute(tree, lambda n: trees.name(new) if isinstance(n, ast.Name) and n.id == old else None)
+
+
 def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | None:
     free = {safe(k): Letter(unit="-", value=1.0) for k in letters(whole) if k != "pi"}
-    plain = trees.substitute(whole, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None)
-    slope = trees.substitute(slope, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None)
+    plain = trees.substitute(
+        whole, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
+    )
+    slope = trees.substitute(
+        slope, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
+    )
     letter = safe(by)
     if letter not in free:
         return None
     try:
         rate = derivative(plain, lambda k: trees.number(int(k == letter)))
         theory = Theory(
-            name="itself", letters=free, tape=TheoryTape({"of_itself": plain, "slope": rate}, free, "", declared=True),
-            results=("of_itself", "slope"), data="the program itself",
-        )  # fmt: skip
+            name="itself",
+            letters=free,
+            tape=TheoryTape({"of_itself": plain, "slope": rate}, free, "", declared=True),
+            results=("of_itself", "slope"),
+            data="the program itself",
+        )
         trees.check(slope)
         met = compared(Formula(tree=slope), States(theory), "slope")
     except (BadInput, RecursionError):
@@ -260,7 +295,11 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
     if row["verdict"] in ("exact", "truncation", "convention", "untestable"):
         return row | {"verdict": "agrees"}
     told = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"
-    return row | {"verdict": "derivative", "claim": f"the derivative of {of} by {base(by)}", "note": f"{told}; {row['note']}"}
+    return row | {
+        "verdict": "derivative",
+        "claim": f"the derivative of {of} by {base(by)}",
+        "note": f"{told}; {row['note']}",
+    }
 
 
 def findings(files: Sequence[File]) -> list[Row]:
@@ -272,8 +311,12 @@ def counts(files: Sequence[File]) -> Mapping[str, int]:
     """How much was read, matched and judged."""
     read = [f for f in files if not f.why]
     return {
-        "files": len(files), "read": len(read), "scopes": sum(f.scopes for f in read),
-        "assignments": sum(f.assigned for f in read), "formulas": sum(f.formulas for f in read),
-        "matched": sum(f.matched for f in read), "judged": sum(f.judged for f in read),
+        "files": len(files),
+        "read": len(read),
+        "scopes": sum(f.scopes for f in read),
+        "assignments": sum(f.assigned for f in read),
+        "formulas": sum(f.formulas for f in read),
+        "matched": sum(f.matched for f in read),
+        "judged": sum(f.judged for f in read),
         "findings": sum(len(f.rows) for f in read),
-    }  # fmt: skip
+    }

@@ -211,9 +211,7 @@ def _square_sum(a: Node, b: Node) -> Node:
     return plus(*(binary(ast.Pow, e, number(2)) for e in (a, b)))
 
 
-_KEYS = (
-    "name", "about", "source", "angle", "small", "rods", "letters", "define", "units", "conditions", "symbols", "words",
-)  # fmt: skip
+_KEYS = tuple("name about source angle small rods letters define units conditions symbols words".split())
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)?\s*(.*?)\s*$")
 

@@ -10,14 +10,15 @@ from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.grammars import GRAMMARS, read_grammar
 from mechsym.audit.read.programs.modelica import read_modelica
 from mechsym.audit.read.programs.python import read_python
-from mechsym.audit.read.programs.statements import Branch, Let, Loop, Opaque, Program, Scope, Spelled, Statement
+from mechsym.audit.read.programs.statements import Let, Opaque, ProgramText, Repeated, Scope, Spelled, Statement
 from mechsym.audit.read.tree import Node
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 ENDS = (".py", ".mo", *GRAMMARS)  #: Of the names of files that are read
 LONGEST = 1_000_000  #: Of a file [bytes]
-_AGAIN = "__v"  # before the number of a name's later values
+# before the number of a name's later values: changed with regard to the one before, or given in branches alone
+_AGAIN, _ANEW = "__v", "__w"
 
 
 @record
@@ -39,7 +40,7 @@ class Claim:
 class Reading:
     """The claims of a file."""
 
-    scopes: int
+    names: Sequence[str]  #: Of its scopes
     assigned: int  #: Assignments and returned values, numbers and what is no arithmetic among them
     claims: Sequence[Claim]
     functions: Mapping[str, tuple[tuple[str, ...], Node]]
@@ -47,7 +48,12 @@ class Reading:
 
 def base(letter: str) -> str:
     """The name in the program of a letter in a claim."""
-    return letter.partition(_AGAIN)[0]
+    return letter.partition(_AGAIN)[0].partition(_ANEW)[0]
+
+
+def is_changed(letter: str) -> bool:
+    """Whether a letter is what a loop or a branch made of an earlier value."""
+    return _AGAIN in letter
 
 
 def text_of(path: Path) -> str:
@@ -81,7 +87,7 @@ def read_program(text: str, suffix: str) -> Reading:
         raise BadInput("nested too deep to be read") from None
 
 
-def _reading(program: Program) -> Reading:
+def _reading(program: ProgramText) -> Reading:
     functions: dict[str, tuple[tuple[str, ...], Node]] = {}
     abouts = {**_said(program.comments), **program.abouts}
     for _ in range(2):  # functions of functions
@@ -100,16 +106,19 @@ def _reading(program: Program) -> Reading:
             globals_ = build
         claims += build.claims
     assigned = sum(_count(scope.body) for scope in program.scopes)
-    return Reading(scopes=len(program.scopes), assigned=assigned, claims=claims, functions=functions)
+    return Reading(names=[s.name for s in program.scopes], assigned=assigned, claims=claims, functions=functions)
 
 
 def _count(body: Sequence[Statement]) -> int:
     return sum(
-        1 if isinstance(s, Let) else _count(s.body) if isinstance(s, Loop) else sum(map(_count, s.arms)) for s in body
+        1 if isinstance(s, Let) else _count(s.body) if isinstance(s, Repeated) else sum(map(_count, s.arms))
+        for s in body
     )
 
 
-_TELLS = re.compile(r"^[\s%#*!/<>@:.\-\\]*(?:param\w*\s+(?:\[\w+\]\s*)?)?([A-Za-z_]\w*)\s*(?:\([^()]*\))?\s*(?:\[[^\]]*\])?\s*[:=\-]+\s*(\S.{2,90})")
+_TELLS = re.compile(
+    r"^[\s%#*!/<>@:.\-\\]*(?:param\w*\s+(?:\[\w+\]\s*)?)?([A-Za-z_]\w*)\s*(?:\([^()]*\))?\s*(?:\[[^\]]*\])?\s*[:=\-]+\s*(\S.{2,90})"
+)
 
 
 def _said(comments: Mapping[int, str]) -> dict[str, str]:
@@ -121,7 +130,9 @@ def _said(comments: Mapping[int, str]) -> dict[str, str]:
     return said
 
 
-def _as_function(program: Program, scope: Scope, functions: Mapping[str, tuple[tuple[str, ...], Node]]) -> Node | None:
+def _as_function(
+    program: ProgramText, scope: Scope, functions: Mapping[str, tuple[tuple[str, ...], Node]]
+) -> Node | None:
     # what a call stands for, where a scope is straight to its one value
     if not scope.name or not scope.parameters or not scope.body or not all(isinstance(s, Let) for s in scope.body):
         return None
@@ -135,7 +146,7 @@ def _as_function(program: Program, scope: Scope, functions: Mapping[str, tuple[t
     if last.name != "return" and sum(isinstance(s, Let) for s in scope.body) > 3:
         return None
     whole = inlined(build.claims[-1].tree, build.values)
-    return whole if whole is not None and not any(_AGAIN in k for k in trees.letters(whole)) else None
+    return whole if whole is not None and not any(base(k) != k for k in trees.letters(whole)) else None
 
 
 def inlined(tree: Node, values: Mapping[str, Node], keep: Mapping[str, object] | None = None) -> Node | None:
@@ -161,7 +172,11 @@ class _Build:
     """The statements of one scope gone through, with what each name stands for at the time."""
 
     def __init__(
-        self, program: Program, functions: Mapping[str, tuple[tuple[str, ...], Node]], abouts: Mapping[str, str], scope: Scope
+        self,
+        program: ProgramText,
+        functions: Mapping[str, tuple[tuple[str, ...], Node]],
+        abouts: Mapping[str, str],
+        scope: Scope,
     ) -> None:
         self.program, self.scope, self.abouts = program, scope, dict(abouts)
         self.spelled = Spelled(curved=program.curved, functions=functions)
@@ -175,24 +190,24 @@ class _Build:
         for statement in body:
             if isinstance(statement, Let):
                 self._let(statement, case)
-            elif isinstance(statement, Loop):
+            elif isinstance(statement, Repeated):
                 self._loop(statement, case)
             else:
-                before, changed = dict(self.names), set()
+                before = dict(self.names)
                 for arm in statement.arms:
                     self.names = dict(before)
                     self.run(arm, case + 1)
-                    changed |= {name for s in _lets(arm) for name in [s.name]}
                 self.names = before
-                for name in sorted(changed):
-                    self._fresh(name)
+                lets = [let for arm in statement.arms for let in _lets(arm)]
+                again = {*before, *self.scope.parameters, *(let.name for let in lets if _uses_itself(let))}
+                for name in sorted({let.name for let in lets}):
+                    self._fresh(name, _AGAIN if name in again else _ANEW)
 
-    def _loop(self, loop: Loop, case: int) -> None:
+    def _loop(self, loop: Repeated, case: int) -> None:
         seen: set[str] = set()
         carried = set()
         for let in _lets(loop.body):
-            used = {n.id for n in ast.walk(let.value) if isinstance(n, ast.Name)} if let.value is not None else {let.name}
-            carried |= used - seen
+            carried |= _used(let) - seen
             seen.add(let.name)
         again = sorted({let.name for let in _lets(loop.body)} & carried)
         for name in again:
@@ -204,10 +219,10 @@ class _Build:
         for name in again:
             self._fresh(name)
 
-    def _fresh(self, name: str) -> str:
+    def _fresh(self, name: str, mark: str = _AGAIN) -> str:
         count = self.counts[name] = self.counts.get(name, 0) + 1
         known = name in self.names or count > 1
-        self.names[name] = f"{name}{_AGAIN}{count}" if known or name in self.values else name
+        self.names[name] = f"{name}{mark}{count}" if known or name in self.values else name
         return self.names[name]
 
     def _let(self, let: Let, case: int) -> None:
@@ -218,7 +233,9 @@ class _Build:
         except (Opaque, BadInput, RecursionError):
             tree = None
         if tree is not None:
-            tree = trees.substitute(tree, lambda n: trees.name(self.names[n.id]) if isinstance(n, ast.Name) and n.id in self.names else None)
+            tree = trees.substitute(
+                tree, lambda n: trees.name(self.names[n.id]) if isinstance(n, ast.Name) and n.id in self.names else None
+            )
         about = self._about(let)
         if let.name == "return":
             if tree is not None:
@@ -242,17 +259,33 @@ class _Build:
     def _claim(self, let: Let, tree: Node, about: str, case: int) -> None:
         self.claims.append(
             Claim(
-                scope=self.scope.name, name=let.name, tree=tree, line=let.line, about=about, case=case,
-                values=self.values, abouts=self.abouts, parameters=self.scope.parameters,
-            )  # fmt: skip
+                scope=self.scope.name,
+                name=let.name,
+                tree=tree,
+                line=let.line,
+                about=about,
+                case=case,
+                values=self.values,
+                abouts=self.abouts,
+                parameters=self.scope.parameters,
+            )
         )
+
+
+def _used(let: Let) -> set[str]:
+    # without a value it is changed in place
+    return {n.id for n in ast.walk(let.value) if isinstance(n, ast.Name)} if let.value is not None else {let.name}
+
+
+def _uses_itself(let: Let) -> bool:
+    return let.name in _used(let)
 
 
 def _lets(body: Sequence[Statement]) -> Iterator[Let]:
     for statement in body:
         if isinstance(statement, Let):
             yield statement
-        elif isinstance(statement, Loop):
+        elif isinstance(statement, Repeated):
             yield from _lets(statement.body)
         else:
             for arm in statement.arms:

@@ -8,42 +8,61 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from mechsym.audit.read.programs.statements import Branch, Let, Loop, Opaque, Program, Scope, Statement, letter_of
+from mechsym.audit.read.programs.statements import (
+    Branch,
+    Let,
+    Opaque,
+    ProgramText,
+    Repeated,
+    Scope,
+    Statement,
+    letter_of,
+)
 from mechsym.errors import BadInput
 
 if TYPE_CHECKING:
     from tree_sitter import Node, Parser
 
-_C = dict.fromkeys((".c", ".h", ".cpp", ".cc", ".cxx", ".hpp"), "cpp")
+_ENDS = {
+    "cpp": ".c .h .cpp .cc .cxx .hpp",
+    "java": ".java .cs",
+    "javascript": ".js .mjs .ts",
+    "matlab": ".m",
+    "julia": ".jl",
+    "fortran": ".f90 .f95 .f03 .f08",
+}
 #: Grammar by the end of a file's name
-GRAMMARS = {
-    **_C, ".java": "java", ".cs": "java", ".js": "javascript", ".mjs": "javascript", ".ts": "javascript", ".m": "matlab",
-    ".jl": "julia", ".f90": "fortran", ".f95": "fortran", ".f03": "fortran", ".f08": "fortran",
-}  # fmt: skip
+GRAMMARS = {end: language for language, ends in _ENDS.items() for end in ends.split()}
 _CURVED = ("matlab", "fortran")
 _WHOLE = ("cpp", "java", "fortran")  # 1/2 is 0
 _DEEPEST = 300  # brackets within brackets
-_FUNCTIONS = {
-    "function_definition", "method_declaration", "function_declaration", "method_definition", "function", "subroutine",
-    "constructor_declaration", "short_function_definition", "program",
-}  # fmt: skip
+_FUNCTIONS = set(
+    """
+    function_definition method_declaration function_declaration method_definition function subroutine
+    constructor_declaration short_function_definition program
+    """.split()
+)
 _LAMBDAS = {"lambda_expression", "lambda", "arrow_function", "arrow_function_expression", "function_expression"}
 _ASSIGNED = {"assignment_expression", "assignment", "assignment_statement", "init_declarator", "variable_declarator"}
 _CHANGED = {"augmented_assignment_expression", "compound_assignment_expression", "update_expression"}
 _RETURNS = {"return_statement"}
-_BRANCHES = {
-    "if_statement", "switch_statement", "switch_expression", "select_case_statement", "try_statement", "ternary_if",
-    "where_statement",
-}  # fmt: skip
-_CLAUSES = {
-    "else_clause", "elseif_clause", "case_statement", "switch_case", "switch_default", "case_clause", "catch_clause",
-    "otherwise_clause", "switch_block_statement_group", "switch_rule",
-}  # fmt: skip
+_BRANCHES = set(
+    """
+    if_statement switch_statement switch_expression select_case_statement try_statement ternary_if
+    where_statement
+    """.split()
+)
+_CLAUSES = set(
+    """
+    else_clause elseif_clause case_statement switch_case switch_default case_clause catch_clause
+    otherwise_clause switch_block_statement_group switch_rule
+    """.split()
+)
 _INSIDE = {"compound_statement", "switch_body", "switch_block"}
 _LOOPS = {"for_statement", "while_statement", "do_statement", "do_loop", "do_loop_statement", "enhanced_for_statement"}
-_BINARY = {
-    "binary_expression", "binary_operator", "math_expression", "juxtaposition_expression", "parenthesized_expression",
-}  # fmt: skip
+_BINARY = set(
+    "binary_expression binary_operator math_expression juxtaposition_expression parenthesized_expression".split()
+)
 _NAMES = {"identifier", "field_identifier", "property_identifier", "name", "type_member", "this"}
 _SUFFIX = re.compile(r"(?<=[\d.])(?:[fFlLuU]+|_\w+)$")
 _SIGNS = {"^": "**", ".^": "**", ".*": "*", "./": "/", ".**": "**", "×": "*", "÷": "/"}
@@ -65,7 +84,7 @@ def _parser(language: str) -> "Parser":
         return Parser(Language(module.language()))
 
 
-def read_grammar(text: str, suffix: str) -> Program:
+def read_grammar(text: str, suffix: str) -> ProgramText:
     """The scopes of a file by the grammar of its suffix. Raises BadInput: the grammar is not installed."""
     language = GRAMMARS[suffix]
     root = _parser(language).parse(text.encode("utf-8", "replace")).root_node
@@ -80,13 +99,11 @@ class _Reading:
         self.alone: set[int] = set()
         self.within: list[str] = []
 
-    def program(self, root: "Node") -> Program:
+    def program(self, root: "Node") -> ProgramText:
         self._find_comments(root)
         body = self.statements(root, 0)
         self.scopes.insert(0, Scope(name="", line=1, parameters=(), body=body))
-        return Program(
-            scopes=self.scopes, comments=self.comments, alone=frozenset(self.alone), curved=self.curved
-        )
+        return ProgramText(scopes=self.scopes, comments=self.comments, alone=frozenset(self.alone), curved=self.curved)
 
     def _find_comments(self, root: "Node") -> None:
         waiting = [root]
@@ -120,7 +137,7 @@ class _Reading:
         elif kind in _BRANCHES:
             yield Branch(arms=list(self._arms(node, depth)))
         elif kind in _LOOPS:
-            yield Loop(index=self._index(node), body=self.statements(node, depth + 1))
+            yield Repeated(index=self._index(node), body=self.statements(node, depth + 1))
         elif kind == "preproc_def":
             yield from self._defined(node)
         else:
@@ -198,10 +215,17 @@ class _Reading:
             head = _child(head, -1) or head
         if not name:
             named = head.child_by_field_name("name") or head.child_by_field_name("declarator")
-            named = named or _first(node, "name", "identifier")
+            signed = next((c for c in node.named_children if c.type == "signature"), node)
+            named = named or _first(signed, "name", "identifier")
             name = re.split(r"::|\.", _text(named))[-1] if named is not None else ""
         listed = head.child_by_field_name("parameters") or _first(
-            node, "function_arguments", "arguments", "parameters", "argument_list", "parameter_list", "formal_parameters"
+            node,
+            "function_arguments",
+            "arguments",
+            "parameters",
+            "argument_list",
+            "parameter_list",
+            "formal_parameters",
         )
         parameters = [p for p in map(self._parameter, listed.named_children)] if listed is not None else []
         if listed is None and node.named_child_count and node.type in _LAMBDAS:
@@ -215,6 +239,15 @@ class _Reading:
             value = value or _child(node, -1)
             if value is not None:
                 body = [Let(name="return", value=self.expression(value), line=node.start_point[0] + 1)]
+        last = _child(node, -1)
+        if (
+            self.language == "julia"
+            and last is not None
+            and last.type.endswith("_expression")
+            and node.type in _FUNCTIONS
+        ):
+            if not last.type.startswith("compound_assignment"):
+                body.append(Let(name="return", value=self.expression(last), line=last.start_point[0] + 1))
         self.within.pop()
         scope = Scope(
             name=name, line=node.start_point[0] + 1, parameters=[p for p in parameters if p], body=body, within=around
@@ -238,7 +271,7 @@ class _Reading:
         kind = node.type
         if depth > _DEEPEST or node.has_error:
             raise Opaque
-        inner = [c for c in node.children if "comment" not in c.type]
+        inner = [c for c in node.children if "comment" not in c.type and "continuation" not in c.type]
         if not inner:
             return self._token(node)
         if kind == "cast_expression":
@@ -271,8 +304,12 @@ class _Reading:
             plain = re.sub(r"(?<=[\d.])[dD](?=[-+\d])", "e", plain)
             plain = re.sub(r"(?<=[\d.])(?:_\w+|[fFlLuUdD]+)$", "", plain)
             return re.sub(r"^0+(?=\d)", "", plain)
+        if text in ("...", "&") and self.curved:
+            return " "
         if text == "^" and self.language in ("cpp", "java", "javascript"):
             raise Opaque
+        if self.language == "fortran":  # which does not tell small letters from capitals
+            text = text.lower()
         if text in ("->", "%"):
             return "." if text == "->" or self.language == "fortran" else text
         return _SIGNS.get(text, text) if text != "\n" else " "

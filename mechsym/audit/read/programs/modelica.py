@@ -3,7 +3,16 @@
 import ast
 import re
 
-from mechsym.audit.read.programs.statements import Branch, Let, Loop, Opaque, Program, Scope, Statement, letter_of
+from mechsym.audit.read.programs.statements import (
+    Branch,
+    Let,
+    Opaque,
+    ProgramText,
+    Repeated,
+    Scope,
+    Statement,
+    letter_of,
+)
 
 _TOKEN = re.compile(
     r'(?P<comment>//[^\n]*|/\*.*?(?:\*/|\Z))|(?P<text>"(?:[^"\\]|\\.)*")|(?P<end>;)|(?P<open>[(\[{])|(?P<close>[)\]}])'
@@ -26,7 +35,7 @@ class _Piece:
         self.text, self.line, self.about = " ".join(words), line, about
 
 
-def read_modelica(text: str) -> Program:
+def read_modelica(text: str) -> ProgramText:
     """The scopes of a Modelica file: each model with its bindings, equations and algorithms."""
     scopes: list[tuple[str, int, list[_Piece], list[str]]] = [("", 1, [], [])]
     abouts: dict[str, str] = {}
@@ -45,10 +54,8 @@ def read_modelica(text: str) -> Program:
         elif piece.about and "=" in piece.text:
             comments.setdefault(piece.line, piece.about)
         scopes[-1][2].append(piece)
-    read = [
-        Scope(name=name, line=line, parameters=given, body=_body(pieces)) for name, line, pieces, given in scopes
-    ]
-    return Program(scopes=read, comments=comments, abouts=abouts)
+    read = [Scope(name=name, line=line, parameters=given, body=_body(pieces)) for name, line, pieces, given in scopes]
+    return ProgramText(scopes=read, comments=comments, abouts=abouts)
 
 
 def _unit(declared: str) -> str:
@@ -66,8 +73,22 @@ def _pieces(text: str, comments: dict[int, str]) -> list[_Piece]:
             comments[line] = said.strip("/* \n")
         elif kind == "text":
             about = said.strip('"')[:200]
-        elif kind == "end" and depth == 0 or kind == "word" and depth == 0 and said in (
-            "equation", "algorithm", "then", "loop", "else", "protected", "public", "elseif",
+        elif (
+            kind == "end"
+            and depth == 0
+            or kind == "word"
+            and depth == 0
+            and said
+            in (
+                "equation",
+                "algorithm",
+                "then",
+                "loop",
+                "else",
+                "protected",
+                "public",
+                "elseif",
+            )
         ):
             opens = said if said in ("else", "elseif") else ""
             if words:
@@ -93,7 +114,7 @@ def _body(pieces: list[_Piece]) -> list[Statement]:
         elif _ENDS.match(piece.text) and len(stack) > 1:
             said, arms = stack.pop()
             index = re.match(r"for\s+(\w+)", said)
-            whole: Statement = Loop(index=index[1], body=arms[0]) if index else Branch(arms=arms)
+            whole: Statement = Repeated(index=index[1], body=arms[0]) if index else Branch(arms=arms)
             stack[-1][1][-1].append(whole)
         elif not opened and (one := _let(piece)):
             stack[-1][1][-1].append(one)

@@ -6,11 +6,20 @@ import tokenize
 import warnings
 from collections.abc import Iterator, Sequence
 
-from mechsym.audit.read.programs.statements import Branch, Let, Loop, Opaque, Program, Scope, Statement, letter_of
+from mechsym.audit.read.programs.statements import (
+    Branch,
+    Let,
+    Opaque,
+    ProgramText,
+    Repeated,
+    Scope,
+    Statement,
+    letter_of,
+)
 from mechsym.errors import BadInput
 
 
-def read_python(text: str) -> Program:
+def read_python(text: str) -> ProgramText:
     """The scopes of a Python file."""
     try:
         with warnings.catch_warnings():
@@ -26,7 +35,7 @@ def read_python(text: str) -> Program:
             for i, line in enumerate(node.value.value.splitlines()):
                 comments.setdefault(node.lineno + i, line.strip())
                 alone.add(node.lineno + i)
-    return Program(scopes=scopes, comments=comments, alone=frozenset(alone))
+    return ProgramText(scopes=scopes, comments=comments, alone=frozenset(alone))
 
 
 def _comments(text: str) -> tuple[dict[int, str], set[int]]:
@@ -46,9 +55,7 @@ def _scopes(body: Sequence[ast.stmt], within: str) -> Iterator[Scope]:
     for node in body:
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
             names = [a.arg for a in (*node.args.posonlyargs, *node.args.args) if a.arg not in ("self", "cls")]
-            yield Scope(
-                name=node.name, line=node.lineno, parameters=names, body=_statements(node.body), within=within
-            )
+            yield Scope(name=node.name, line=node.lineno, parameters=names, body=_statements(node.body), within=within)
             yield from _scopes(node.body, node.name)
         elif isinstance(node, ast.ClassDef):
             yield Scope(name=node.name, line=node.lineno, parameters=(), body=_statements(node.body))
@@ -97,7 +104,7 @@ def _statement(node: ast.stmt) -> Iterator[Statement]:
         yield Branch(arms=[_statements(node.body), *(_statements(h.body) for h in node.handlers)])
     elif isinstance(node, (ast.For, ast.While)):
         index = ast.unparse(node.target) if isinstance(node, ast.For) else ""
-        yield Loop(index=index, body=_statements(node.body))
+        yield Repeated(index=index, body=_statements(node.body))
     elif isinstance(node, ast.With):
         yield from _statements(node.body)
 

@@ -28,7 +28,7 @@ class Branch:
 
 
 @record
-class Loop:
+class Repeated:
     """What is done for each value of an index."""
 
     index: str
@@ -46,11 +46,11 @@ class Scope:
     within: str = ""  #: Function around it
 
 
-Statement = Let | Branch | Loop
+Statement = Let | Branch | Repeated
 
 
 @record
-class Program:
+class ProgramText:
     """A file as it was read."""
 
     scopes: Sequence[Scope]
@@ -64,15 +64,27 @@ class Opaque(Exception):
     """What is no arithmetic, so that a name for it is a letter."""
 
 
-ALIASES = {
-    "arcsin": "asin", "arccos": "acos", "arctan": "atan", "fabs": "abs", "ln": "log", "Abs": "abs", "dabs": "abs",
-    "dsqrt": "sqrt", "dsin": "sin", "dcos": "cos", "dtan": "tan", "dexp": "exp", "datan": "atan",
-    "degtorad": "radians", "deg2rad": "radians", "toRadians": "radians", "rad2deg": "degrees", "toDegrees": "degrees",
-    "datan2": "atan2",
-}  # fmt: skip
+_SAID = {
+    "asin": "arcsin",
+    "acos": "arccos",
+    "atan": "arctan datan",
+    "abs": "fabs Abs dabs",
+    "log": "ln",
+    "sqrt": "dsqrt",
+    "sin": "dsin",
+    "cos": "dcos",
+    "tan": "dtan",
+    "exp": "dexp",
+    "radians": "degtorad deg2rad toRadians",
+    "degrees": "rad2deg toDegrees",
+    "atan2": "datan2",
+}
+#: What programs call a function of formulas
+ALIASES = {said: function for function, many in _SAID.items() for said in many.split()}
 _ALONE = {"float", "double", "array", "asarray", "real", "noEvent", "dble", "Real", "Float64", "float64", "matrix"}
 OF = "\u00b7"  #: In a letter, where the program has a dot: a sign that names may hold
 _SELF = ("self", "this", "obj", "cls")
+_SIGNS = {"add": ast.Add, "subtract": ast.Sub, "multiply": ast.Mult, "divide": ast.Div}
 _PI = re.compile(r"(?:\w+\.)*(?:pi|PI|M_PI|CH_C_PI|CH_PI|Pi|pi__)", re.ASCII)
 _MODULES = {*MODULES, "casadi", "ca", "jnp", "cs", "scipy", "tf", "m", "umath"}
 _FLOATED = re.compile(r"(a?(?:sin|cos|tan)|atan2|sqrt|pow|exp|log|fabs|hypot|cbrt)[fl]$")
@@ -132,6 +144,8 @@ class Spelled:
             return trees.substitute(body, lambda n: values.get(n.id) if isinstance(n, ast.Name) else None)
         plain = _FLOATED.sub(r"\1", ALIASES.get(function, function))
         plain = ALIASES.get(plain, plain)
+        if plain in _SIGNS and len(given) == 2:
+            return ast.BinOp(left=self.tree(given[0]), op=_SIGNS[plain](), right=self.tree(given[1]))
         if plain in _ALONE and len(given) == 1:
             return self.tree(given[0])
         if plain == "pi" and not given:
