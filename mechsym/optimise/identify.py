@@ -206,8 +206,8 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
             f"{trace.file}: {why} from {_pose(model)} or a quarter turn on; {way_out}, and see whether [drive], units "
             "and the values of the case fit it"
         )
-    starts = [len(model.names) + i for i, turns in enumerate(seen) if turns]
-    fits = sorted([*fits, *(fit for i in starts for fit in _behind(task, fits[0], i))], key=lambda fit: fit.left)
+    walked = [len(model.names) + i for i, turns in enumerate(seen) if turns]
+    fits = sorted([*fits, *(fit for i in walked for fit in _behind(task, fits[0], i))], key=lambda fit: fit.left)
     task.most = most
     return _result(task, fits)
 
