@@ -1,8 +1,8 @@
 """Pumping unit of an oil well: a crank and its pitman rock a beam, the rod string hangs on the beam's other end.
 
-        E--tail--S---head---H      S saddle bearing on the post; O-A crank with its counterweight, A-E pitman;
-        |        |          |      H horse head; the well pulls the string down with the force P.
-        A - O  (post)     string
+E--tail--S---head---H      S saddle bearing on the post; O-A crank with its counterweight, A-E pitman;
+|        |          |      H horse head; the well pulls the string down with the force P.
+A - O  (post)     string
 """
 
 from mechsym.derive import Mechanism, output

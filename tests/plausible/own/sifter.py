@@ -1,7 +1,7 @@
 """Vibrating sifter: a trough on soft springs, shaken by a rotor with an unbalanced mass.
 
-   [ trough  (phi) o-- ]      the rotor turns in the trough, its mass m_u stands at the radius e;
-     \\/\\/ k  c |             the trough moves along y only, y = 0 where the springs are at ease.
+[ trough  (phi) o-- ]      the rotor turns in the trough, its mass m_u stands at the radius e;
+  \\/\\/ k  c |             the trough moves along y only, y = 0 where the springs are at ease.
 """
 
 from mechsym.derive import Mechanism, cos, output, sin
