@@ -1,10 +1,12 @@
 r"""The display equations of a text as it comes: LaTeX, or prose with `$$`, numbers in the margin, units in brackets."""
 
 import re
+from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import replace
 
 from mechsym.audit.read.units import unit_of
+from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 _ROWS = ("align", "gather", "eqnarray", "flalign", "alignat")
@@ -12,6 +14,7 @@ _WHOLE = ("equation", "multline", "displaymath", "math")
 _OPENING = re.compile(
     rf"\\begin\{{(?P<name>{'|'.join((*_ROWS, *_WHOLE))})(?P<star>\*?)\}}(?:\{{\d+\}})?|\\\[|(?<!\\)\$\$"
 )
+MOST = 3000  #: Equations of one file
 _LONGEST = 6000  # characters of a display; two `$$` further apart are no pair
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _REMARK = re.compile(r"^[ \t]*%[^\n]*", re.MULTILINE)
@@ -66,6 +69,7 @@ def displayed(text: str) -> list[Displayed]:
     latex = r"\begin{document}" in text or r"\documentclass" in text
     text = (_COMMENT if latex else _REMARK).sub(lambda m: " " * len(m[0]), text)
     equations: list[Displayed] = []
+    breaks = [m.start() for m in re.finditer("\n", text)]
     count = 0
     for block in _blocks(text, max(text.find(r"\begin{document}"), 0)):
         before = len(equations)
@@ -81,7 +85,7 @@ def displayed(text: str) -> list[Displayed]:
             number = (tag[1] or tag[2] or "").strip() if tag else str(count) if counts else block.number
             number = trailing[1] if trailing and not number else number
             begins = block.start + start + len(row) - len(row.lstrip())
-            line = text.count("\n", 0, begins) + 1
+            line = bisect_right(breaks, begins) + 1
             one = Displayed(number=number, label=label[1] if label else "", text=plain, line=line, begins=begins)
             if equations and _joins(equations[-1].text, plain, len(equations) > before):
                 last = equations.pop()
@@ -89,6 +93,8 @@ def displayed(text: str) -> list[Displayed]:
                 one = replace(last, number=number, label=name, text=f"{last.text} {plain}")
                 before = min(before, len(equations))
             equations.append(one)
+        if len(equations) > MOST:
+            raise BadInput(f"it has more than {MOST} equations; give a part of it")
     return [part for equation in equations for part in _parts(equation)]
 
 
@@ -106,7 +112,7 @@ def _blocks(text: str, at: int) -> Iterator[_Block]:
         closing = "$$" if match[0] == "$$" else rf"\end{{{name}{star}}}" if name else r"\]"
         close = text.find(closing, at, at + _LONGEST)
         body = text[at:close] if close >= 0 else ""
-        if not body.strip() or match[0] == "$$" and re.search(r"\n[ \t]*\n|\n#", body.strip()):
+        if not body.strip() or match[0] == "$$" and re.search(r"\n[ \t]*\n|\n#", body.strip() if "=" in body else body):
             continue  # a sign that closes nothing: the next one opens
         rows = name in _ROWS or bool(_INNER.search(body)) and "{split}" not in body
         start, at = at, close + len(closing)

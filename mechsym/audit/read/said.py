@@ -5,10 +5,12 @@ A text has its own words: `CR` is one letter where a table names it, `S(\theta)`
 
 import ast
 import re
+from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
+from itertools import islice
 
-from mechsym.audit.read.displays import Displayed, displayed
+from mechsym.audit.read.displays import MOST, Displayed, displayed
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.reader import statement
 from mechsym.audit.read.spelling import SYMBOLS
@@ -17,7 +19,6 @@ from mechsym.audit.read.units import Named, nomenclature
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
-_MOST = 3000  # equations of one file
 _ANGLES = r"\\(?:theta|vartheta|varphi|phi|alpha|psi)"
 _APPLIED = re.compile(
     rf"(?P<of>[A-Za-z}}'])\s*(?:\\left)?\(\s*(?:{_ANGLES}(?:_\{{?\w+\}}?)?|t)\s*(?:\\right)?\)(?!\s*\^)"
@@ -67,8 +68,6 @@ class Text:
 def read_text_whole(text: str) -> Text:
     """All equations of a text in their order, those within its lines as well."""
     shown = displayed(text)
-    if len(shown) > _MOST:
-        raise BadInput(f"it has {len(shown)} equations; at most {_MOST} are read at once: give a part of it")
     written = nomenclature(text)
     words = _words(written, shown)
     indexed = _indexed(text)
@@ -96,10 +95,11 @@ def _line_starts(text: str) -> list[int]:
 
 def _inline(text: str) -> Iterator[Displayed]:
     # a letter that a sentence defines: $\lambda = r/l$; data with a unit are none
-    for match in _INLINE.finditer(text):
+    breaks = [m.start() for m in re.finditer("\n", text)]
+    for match in islice(_INLINE.finditer(text), MOST):
         inside = match[1]
         if inside.count("=") == 1 and not re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|$)|\\text|\\mathrm", inside):
-            line = text.count("\n", 0, match.start()) + 1
+            line = bisect_right(breaks, match.start()) + 1
             yield Displayed(number="", label="", text=inside.strip(), line=line, begins=match.start())
 
 
