@@ -42,7 +42,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     from mechsym.out.web import LiveRun, with_live
     from mechsym.papers.sources import sources
     from mechsym.report import case_report, html
-    from mechsym.report.part import numbers
+    from mechsym.report.numbers import numbers
     from mechsym.report.parts import PARTS, doubts_of
 
     wanted = [word.strip() for word in parts.split(",")] if parts is not None else list(PARTS)

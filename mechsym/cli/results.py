@@ -38,7 +38,7 @@ RESULTS = {
     "guide": ("mechsym.out.cad.curve:GrooveDrawings",),
     "page": ("mechsym.out.web.build:WrittenPage",),
     "prove": ("mechsym.proof.outputs:ProvenRounding", "mechsym.jobs.prove:ProvenMotion"),
-    "report": ("mechsym.report.part:ReportNumbers",),
+    "report": ("mechsym.report.numbers:ReportNumbers",),
     "reproduce": ("mechsym.papers.rows:ReproducedNumber",),
     "size": ("mechsym.sizing.rows:SizeRow",),
 }

@@ -1,29 +1,18 @@
-"""One part of a report, also one that failed, and what has to be known before its numbers.
+"""One part of a report, also one that failed or that only moves, and what has to be known before its numbers."""
 
-And the report in numbers, as `mechsym report --json` tells it.
-"""
-
-import dataclasses
-from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 from mechsym.cases import Case
-from mechsym.cycle.columns import CycleColumns
 from mechsym.files import Json
 from mechsym.forces import driven
-from mechsym.hinge.summary import HingeNumbers
-from mechsym.jobs.forces import ForceReport, motion
-from mechsym.jobs.measured import MeasuredDiagram
+from mechsym.jobs.forces import motion
 from mechsym.page import Finding, Grid, View, grid
 from mechsym.page.finding import NOT_MET
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
 from mechsym.quantities.display import quantity_text
-from mechsym.quantities.results import part, result, tell
-from mechsym.report.build import CaseReport
-from mechsym.simulate.result import RunNumbers
-from mechsym.sizing.rows import SizeRow
+from mechsym.quantities.results import tell
 
 DONE, INFEASIBLE, REFUSED, LEFT_OUT = "done", "infeasible", "refused", "left out"
 
@@ -57,47 +46,6 @@ class ReportPart:
         if self.state == REFUSED:
             return (Finding(rank=NOT_MET, words=f"{self.title} could not be computed: {self.reason}"),)
         return (*(self.view.findings() if self.view else ()), *self.beside)
-
-
-@result
-class PartNumbers:
-    """A part of a report."""
-
-    state: str = part()
-    reason: str = part()
-    result: CycleColumns | MeasuredDiagram | HingeNumbers | ForceReport | Sequence[SizeRow] | RunNumbers | None = part()
-
-
-@result
-class CaseNumbers:
-    """A case of a report."""
-
-    case: str = part()
-    sha256: str = part()
-    parts: Mapping[str, PartNumbers] = part()  #: What each command tells
-    values: list[dict[str, str]] = part()  #: Every value with its meaning and where it comes from
-
-
-@result
-class ReportNumbers:
-    """Reports of one or more cases, and the files that were written."""
-
-    reports: list[CaseNumbers] = part()
-    written: list[str] = part()
-
-
-def numbers(reports: Sequence[CaseReport], files: Sequence[Path]) -> ReportNumbers:
-    """Reports in numbers."""
-    told = [
-        CaseNumbers(
-            case=one.case.name,
-            sha256=one.digest,
-            parts={p.name: PartNumbers(state=p.state, reason=p.reason, result=p.numbers) for p in one.parts},
-            values=[dataclasses.asdict(value) for value in one.values],
-        )
-        for one in reports
-    ]
-    return ReportNumbers(reports=told, written=[str(file) for file in files])
 
 
 def over_time(title: str, case: Case) -> ReportPart:
