@@ -66,7 +66,7 @@ def part(default: object = dataclasses.MISSING, inline: bool = False, optional: 
     return dataclasses.field(default=default, metadata={PART: "inline" if inline else "part", OPTIONAL: optional})
 
 
-class Seen(functools.cached_property[object]):
+class SeenElsewhere(functools.cached_property[object]):
     """A property of a result that stands in another record, by its path from here; told like one that is computed."""
 
     def __init__(self, path: str, unit: str | None, card: str) -> None:
@@ -79,7 +79,7 @@ def seen(path: str, unit: str | None = None, *, card: str = "", init: Literal[Fa
 
     unit, card: as of `quantity`. init: False, for it is not given.
     """
-    return Seen(path, unit, card)
+    return SeenElsewhere(path, unit, card)
 
 
 def unread(record: "Record") -> dict[str, str]:
@@ -160,7 +160,7 @@ def _shaped(cls: type[T]) -> type[T]:
     for name, shared in _SHARED.items():
         if vars(cls).get(name) is None:
             setattr(cls, name, shared)
-    for name in (name for name, value in vars(cls).items() if isinstance(value, Seen)):
+    for name in (name for name, value in vars(cls).items() if isinstance(value, SeenElsewhere)):
         cls.__annotations__[name] = ClassVar[cls.__annotations__[name]]
     return dataclasses.dataclass(init=False, repr=False, eq=False, match_args=False, kw_only=True)(cls)
 

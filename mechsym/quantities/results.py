@@ -39,7 +39,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from mechsym.quantities.records import OPTIONAL, PART, Seen
+from mechsym.quantities.records import OPTIONAL, PART, SeenElsewhere
 from mechsym.quantities.records import part as part
 from mechsym.quantities.records import quantity as quantity
 from mechsym.quantities.records import result as result
@@ -140,7 +140,9 @@ def _listed(kind: type) -> Mapping[str, str | None]:
         if every or "unit" in field.metadata or PART in field.metadata:
             names[field.name] = _INLINE if field.metadata.get(PART) == "inline" else field.metadata.get("unit")
     for parent in reversed(kind.__mro__):
-        names |= {name: value.unit for name, value in vars(parent).items() if isinstance(value, (_Computed, Seen))}
+        names |= {
+            name: value.unit for name, value in vars(parent).items() if isinstance(value, (_Computed, SeenElsewhere))
+        }
     return names
 
 
