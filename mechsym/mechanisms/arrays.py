@@ -1,6 +1,6 @@
 r"""Functions of a mechanism at many points: numpy's where there are many, CasADi's interpreter for a few.
 
-Among them the reactions of joints that close loops: the multipliers of the constraints, from the dependent rows.
+Reactions of the joints that close loops: the multipliers of the constraints, from the dependent rows.
 
 .. math:: J_d^T \mu = (M \ddot q + h - Q)_d
 """
