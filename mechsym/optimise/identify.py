@@ -33,9 +33,9 @@ from mechsym.optimise.fit import (
     closest,
     grid,
     pulled,
-    require_plausible,
     unit_columns,
 )
+from mechsym.optimise.preview import require_plausible
 from mechsym.optimise.trace import Trace
 from mechsym.plausible import Doubt
 from mechsym.quantities.results import part, quantity, result
