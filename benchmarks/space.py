@@ -4,8 +4,9 @@
 
 chain     20 links on revolute joints across one another: accelerations of one state
 stewart   accelerations of a Stewart platform on its loops, all thirteen bodies with mass
-rssr      10,000 turns, 1,000 of the peers: how far the loop gapes after them, what the energy has lost, and the seconds; Pinocchio, which
-          has no integrator, by Runge and Kutta's steps with its constraint stabilised, Exudyn by its generalised alpha
+rssr      10,000 turns, 1,000 of the peers: how far the loop gapes after them, what the energy has lost, the seconds;
+          Pinocchio, which has no integrator, by Runge and Kutta's steps, its constraint stabilised, Exudyn by its
+          generalised alpha
 
 Both are called from Python, whose call takes some 0.3 us here and 2 us there; ours is C that the compiler of the
 machine has made of the generated functions.
