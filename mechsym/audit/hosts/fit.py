@@ -56,6 +56,12 @@ def _word_list(text: str) -> tuple[str, ...]:
     return words(text)
 
 
+def _joined(said: Sequence[str]) -> str:
+    # V_d and Vd alike, and a single letter as it is
+    whole = "".join(said)
+    return whole.lower() if len(whole) > 1 else whole
+
+
 class Lexicon:
     """What the letters and quantities of a theory are called."""
 
@@ -70,7 +76,7 @@ class Lexicon:
             self.phrases += [(words(one), theory.angle) for one in _ANGLE]
             for dots, said in _RATES.items():
                 self.phrases += [(words(one), theory.angle + dots) for one in said]
-        self.heads = {"".join(phrase) for phrase, _ in self.phrases}
+        self.heads = {_joined(phrase) for phrase, _ in self.phrases}
         self.parts = {word for phrase, _ in self.phrases for word in phrase if len(word) > 2}
         self.known: dict[tuple[str, str], tuple[int, str]] = {}
         self._states: States | None = None
@@ -86,8 +92,8 @@ class Lexicon:
         alike = 0
         for name in names:
             own = _word_list(name)
-            tail = "".join(_word_list(name.rpartition(OF)[2]))
-            alike += tail in self.heads or "".join(own) in self.heads or not self.parts.isdisjoint(own)
+            tail = _joined(_word_list(name.rpartition(OF)[2]))
+            alike += tail in self.heads or _joined(own) in self.heads or not self.parts.isdisjoint(own)
         return alike > 1
 
     def meanings(self, name: str, about: str) -> list[tuple[int, str]]:
@@ -96,12 +102,12 @@ class Lexicon:
         tail = _word_list(name.rpartition(OF)[2])
         found: dict[str, int] = {}
         for phrase, meaning in self.phrases:
-            rank, whole = 0, "".join(phrase)
-            if whole in ("".join(own), "".join(tail)):
-                rank = 3 if len(whole) > 2 else 1
+            rank, whole = 0, _joined(phrase)
+            if whole in (_joined(own), _joined(tail)):
+                rank = min(len(whole), 3)
             elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):
                 rest = own[: -len(phrase)] if own[-len(phrase) :] == phrase else own[len(phrase) :]
-                rank = 2 if all(len(w) == 1 or w in _QUALIFIERS for w in rest) else 0
+                rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
             if len(phrase) > 1 and len(whole) > 4 and _stands_in(phrase, said):
                 rank = max(rank, 4)
             if rank > found.get(meaning, 0):
@@ -117,7 +123,10 @@ class Lexicon:
         return self.known[name, about]
 
 
-_QUALIFIERS = {"m", "c", "0", "1", "2", "rad", "deg", "cyl", "engine", "geom", "mm", "cm", "inst", "piston", "i"}
+# what stands beside a name without changing what it is
+_QUALIFIERS = set(
+    "m c i M C 0 1 2 rad deg cyl engine geom mm cm in inst piston get calc compute calculate formula".split()
+)
 
 
 def _stands_in(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
@@ -161,7 +170,7 @@ def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
 
 def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
     # quantities that the name or the comment of a claim says
-    about = claim.about if claim.name != "return" else f"{claim.scope} {claim.about}"
+    about = claim.about
     name = claim.scope if claim.name == "return" else claim.name
     ranked = [(r, m) for r, m in vocabulary.meanings(name, about) if m in vocabulary.theory.tape]
     best = ranked[0][0] if ranked else 0

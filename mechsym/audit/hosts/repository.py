@@ -38,6 +38,7 @@ _LEFT_OUT = {
 }
 _NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
 _MOST_FILES = 20_000
+_LARGEST = 60  # parts of a formula for which a slip is searched: the search is the one thing here that takes long
 
 
 @record
@@ -157,8 +158,8 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
         return None
     doubts = [d for d in doubts if _told_enough(d[0], d[1], d[3])]
     doubts.sort(key=lambda d: (not d[1].quantities, d[0]))
-    for away, fitted, form, quantity in doubts[:2]:
-        row = _slip(away, fitted, form, quantity)
+    for _, fitted, form, quantity in doubts[:2]:
+        row = _slip(fitted, form, quantity)
         if row is not None:
             return row
     return {"verdict": "", "claim": ""}
@@ -185,9 +186,11 @@ def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
     return away <= _NEAR and many > 2 and strong > 1
 
 
-def _slip(away: float, fitted: Fitted, form: Formula, quantity: str) -> Row | None:
+def _slip(fitted: Fitted, form: Formula, quantity: str) -> Row | None:
     # a formula that one slip takes away from a quantity
     theory = fitted.theory
+    if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
+        return None
     own = {safe(k): v for k, v in fitted.meanings.items()}
     asked = Asked(
         text=to_python(form.tree),
@@ -201,7 +204,7 @@ def _slip(away: float, fitted: Fitted, form: Formula, quantity: str) -> Row | No
     if row["verdict"] in ("exact", "truncation", "convention"):
         return row | {"verdict": "agrees"}
     named_so = quantity in fitted.quantities
-    if row["verdict"] == "misprint" and (named_so or _is_local(row)):
+    if row["verdict"] == "misprint" and (_is_local(row) or named_so and row["evidence"]["dimensions_consistent"]):
         return _renamed(row, fitted) | {"letters": {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}}
     return None
 
@@ -218,7 +221,7 @@ def _renamed(row: Row, fitted: Fitted) -> Row:
 
 def _is_local(row: Row) -> bool:
     # a step on the way to a quantity lacks a term or a factor: that is no slip
-    return not re.search(r"repaired by (?:left out|lost|missing|term)", row["note"])
+    return not re.search(r"repaired by (?:left out|put back|lost|missing|term)", row["note"])
 
 
 _SLOPE = re.compile(
