@@ -19,17 +19,19 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 # what the angle that turns, and its rates, are called in programs
-_ANGLE = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "crankangle", "angle", "varphi")
+ANGLES = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "crankangle", "angle", "varphi")
 _RATES = {"d": ("omega", "w", "angular velocity", "angular speed"), "dd": ("alpha", "angular acceleration")}
 _LEAST_LETTERS = 3  # of a formula that is told by its numbers and not by its name
 _POINTS, _TURNS, _STEPS = 24, 4, 7  # states at which numbers are compared, and of turns
 _SAME = 1e-9
-# factors by which units differ: degrees, thousands, minutes
+# factors by which units differ: degrees, minutes, inches and feet, thousands
+_SCALES = (1.0, np.pi / 180, 60.0, 2 * np.pi, np.pi / 30, 12.0, 25.4, 0.3048, 25.4**2, 25.4**3)
 _UNITS = tuple(
-    a * 10.0**n * b
+    sign * 10.0**n * scale**power
     for n in (-9, -6, -3, -2, -1, 0, 1, 2, 3, 5, 6, 9)
-    for a in (1.0, np.pi / 180, 180 / np.pi, 60.0, 1 / 60, 2 * np.pi, 1 / (2 * np.pi), np.pi / 30, 30 / np.pi)
-    for b in (1.0, -1.0)
+    for scale in _SCALES
+    for power in (1, -1)
+    for sign in (1.0, -1.0)
 )
 
 
@@ -73,7 +75,7 @@ class Lexicon:
         for meaning, said in theory.words.items():
             self.phrases += [(words(one), meaning) for one in said]
         if theory.angle:
-            self.phrases += [(words(one), theory.angle) for one in _ANGLE]
+            self.phrases += [(words(one), theory.angle) for one in ANGLES]
             for dots, said in _RATES.items():
                 self.phrases += [(words(one), theory.angle + dots) for one in said]
         self.heads = {_joined(phrase) for phrase, _ in self.phrases}
