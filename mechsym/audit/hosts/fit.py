@@ -80,7 +80,7 @@ class Lexicon:
                 self.phrases += [(words(one), theory.angle + dots) for one in said]
         self.heads = {_joined(phrase) for phrase, _ in self.phrases}
         self.parts = {word for phrase, _ in self.phrases for word in phrase if len(word) > 2}
-        self.known: dict[tuple[str, str], tuple[int, str]] = {}
+        self.known: dict[tuple[str, str], list[tuple[int, str]]] = {}
         self._states: States | None = None
 
     @property
@@ -99,7 +99,12 @@ class Lexicon:
         return alike > 1
 
     def meanings(self, name: str, about: str) -> list[tuple[int, str]]:
-        """What a name may mean, with how well it is told: 3 by words, 2 by a part of them, 1 by a single sign."""
+        """What a name may mean, with how well it is told: 4 by a comment, 3 by words, 2 by a part, 1 by one sign."""
+        if (name, about) not in self.known:
+            self.known[name, about] = self._meanings(name, about)
+        return self.known[name, about]
+
+    def _meanings(self, name: str, about: str) -> list[tuple[int, str]]:
         own, said = _word_list(name), _word_list(about)
         tail = _word_list(name.rpartition(OF)[2])
         found: dict[str, int] = {}
@@ -118,11 +123,9 @@ class Lexicon:
 
     def meaning(self, name: str, about: str) -> tuple[int, str]:
         """The one thing that a name means; empty where it means none or several alike."""
-        if (name, about) not in self.known:
-            ranked = self.meanings(name, about)
-            several = len(ranked) > 1 and ranked[0][0] == ranked[1][0]
-            self.known[name, about] = ranked[0] if ranked and not several else (0, "")
-        return self.known[name, about]
+        ranked = self.meanings(name, about)
+        several = len(ranked) > 1 and ranked[0][0] == ranked[1][0]
+        return ranked[0] if ranked and not several else (0, "")
 
 
 # what stands beside a name without changing what it is
@@ -181,7 +184,7 @@ def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
 
 def _in_degrees(letter: str, meaning: str, tree: Node, theory: Theory) -> str:
     # theta*pi/180 says that theta counts degrees
-    if meaning != theory.angle:
+    if meaning not in theory.letters or theory.letters[meaning].unit != "rad":
         return meaning
     for _, node in trees.walk(tree):
         if isinstance(node, ast.BinOp) and letters(node) and set(letters(node)) <= {letter, "pi"}:
@@ -269,6 +272,14 @@ def _shifted(printed: np.ndarray, expected: np.ndarray) -> bool:
     moves = np.ptp(expected.reshape(_TURNS, _STEPS), axis=1)
     rests = [np.ptp((printed - sign * expected).reshape(_TURNS, _STEPS), axis=1) for sign in (1, -1)]
     return bool(np.all(moves > 0)) and any(bool(np.all(rest <= _SAME * moves)) for rest in rests)
+
+
+_SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi) for power in (1, -1))
+
+
+def is_slip(ratio: float | None) -> bool:
+    """Whether a factor is one that is lost or taken twice; another one is somebody's own number."""
+    return ratio is None or any(abs(abs(ratio) / k - 1) < 1e-5 for k in _SLIPS)
 
 
 def of_units(ratio: float | None) -> bool:

@@ -9,7 +9,19 @@ from dataclasses import field
 from functools import cache
 from pathlib import Path
 
-from mechsym.audit.hosts.fit import ANGLES, Fitted, Lexicon, States, compared, fit, formula, nearest, of_units, safe
+from mechsym.audit.hosts.fit import (
+    ANGLES,
+    Fitted,
+    Lexicon,
+    States,
+    compared,
+    fit,
+    formula,
+    is_slip,
+    nearest,
+    of_units,
+    safe,
+)
 from mechsym.audit.judge.asked import Asked, question_of
 from mechsym.audit.judge.conventions import also_exact
 from mechsym.audit.read import tree as trees
@@ -118,7 +130,7 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
         formulas=len(claims),
         matched=matched,
         judged=judged,
-        rows=rows,
+        rows=list({row["fingerprint"]: row for row in rows}.values()),
     )
 
 
@@ -174,7 +186,8 @@ def _met(fitted: Fitted, form: Formula, states: States) -> Iterator[tuple[float,
         if met is not None:
             seen.add(quantity)
             right = of_units(met.ratio) or met.shift
-            yield (0.0 if right else max(met.away, 1e-9)), quantity
+            if right or is_slip(met.ratio):
+                yield (0.0 if right else max(met.away, 1e-9)), quantity
     if fitted.strong and len(fitted.meanings) > 1 and (len(fitted.meanings) > 2 or seen):
         for away, quantity in nearest(fitted, form, states):
             if quantity not in seen and (away == 0.0 or not fitted.quantities):
@@ -228,7 +241,7 @@ def _renamed(row: Row, fitted: Fitted) -> Row:
 
 def _is_local(row: Row) -> bool:
     # a step on the way to a quantity lacks a term or a factor: that is no slip
-    return not re.search(r"repaired by (?:left out|put back|lost|missing|term)", row["note"])
+    return not re.search(r"repaired by (?:left out|put back|lost|missing|term|degrees)", row["note"])
 
 
 _SLOPE = re.compile(
