@@ -1,8 +1,10 @@
 """Balls: a midpoint and a radius that hold the exact value, by python-flint's arb (real) and acb (complex)."""
 
+import contextlib
 import decimal as decimals
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from operator import add, methodcaller, mul, neg, sub, truediv
 from typing import Any
 
 from mechsym.errors import BadInput, MissingExtra
@@ -42,34 +44,46 @@ def outward(value: float, digits: int, up: bool = True) -> str:
     return f"{float(decimals.Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):g}"
 
 
-_EITHER: dict[str, Callable[..., Ball]] = {
-    "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
-    "neg": lambda a: -a, "inv": lambda a: 1 / a, "sq": lambda a: a * a, "twice": lambda a: a + a,
-    "sin": lambda a: a.sin(), "cos": lambda a: a.cos(), "tan": lambda a: a.tan(), "exp": lambda a: a.exp(),
-    "sinh": lambda a: a.sinh(), "cosh": lambda a: a.cosh(), "tanh": lambda a: a.tanh(), "atan": lambda a: a.atan(),
-    "asin": lambda a: a.asin(), "acos": lambda a: a.acos(),
-}  # fmt: skip
-#: Operators of the tape by what they do to real balls, and to complex ones where the value is analytic
-REAL = _EITHER | {"sqrt": lambda a: a.sqrt(), "log": lambda a: a.log(), "pow": lambda a, b: a**b}
-COMPLEX = _EITHER | {
-    "sqrt": lambda a: a.sqrt(analytic=True),
-    "log": lambda a: a.log(analytic=True),
+def _named(*names: str) -> dict[str, Callable[..., Ball]]:
+    return {name: methodcaller(name) for name in names}
+
+
+_EITHER = {
+    "add": add, "sub": sub, "mul": mul, "div": truediv, "neg": neg,
+    "inv": lambda a: 1 / a, "sq": lambda a: a * a, "twice": lambda a: a + a,
+} | _named("sin", "cos", "tan", "exp")  # fmt: skip
+#: Operators of the tape by what they do to Taylor series, to real balls, and to complex ones where they are analytic
+SERIES = _EITHER | _named("sqrt", "log") | {"pow": pow}
+REAL = SERIES | _named("sinh", "cosh", "tanh", "atan", "asin", "acos")
+COMPLEX = _EITHER | _named("sinh", "cosh", "tanh") | {
+    "sqrt": methodcaller("sqrt", analytic=True),
+    "log": methodcaller("log", analytic=True),
     "pow": lambda a, b: a.pow(b, analytic=True),
-}
-for _cut in ("atan", "asin", "acos"):  # their cuts are not looked at
-    del COMPLEX[_cut]
+}  # fmt: skip
+
+
+@contextlib.contextmanager
+def series_to(order: int) -> Iterator[None]:
+    """Taylor series with so many coefficients, within."""
+    before, ctx.cap = ctx.cap, order
+    try:
+        yield
+    finally:
+        ctx.cap = before
+
+
+def coefficient(series: Any, k: int) -> Ball:
+    """The coefficient of order k of a series, or of a ball that stays."""
+    return arb(series[k] if isinstance(series, arb_series) else series if k == 0 else 0)
 
 
 def evaluate(tape: Tape, operators: Mapping[str, Callable[..., Ball]], inputs: Sequence[Ball]) -> list[Ball]:
     """The results of a program for balls; a place where it is not defined gives a ball that is not finite."""
     values: list[Ball] = []
+    rules = {**operators, "input": inputs.__getitem__, "constant": arb}
     for op, args in tape.nodes:
-        if op == "input":
-            values.append(inputs[args[0]])
-        elif op == "constant":
-            values.append(arb(args[0]))
-        else:
-            values.append(operators[op](*[values[a] for a in args]))
+        leaf = op in ("input", "constant")
+        values.append(rules[op](*(args if leaf else [values[a] for a in args])))
     return [values[r] for r in tape.results]
 
 

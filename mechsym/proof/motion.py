@@ -21,8 +21,7 @@ from mechsym.mechanisms.record import Mechanism, acceleration_function
 from mechsym.native.tape import read
 from mechsym.proof import enclosure
 from mechsym.proof.balls import Ball, arb, ctx, decimal
-from mechsym.proof.enclosure import Enclosure, EnclosureMethod, Set, kept, point, restored, weights
-from mechsym.proof.taylor import TaylorMotion
+from mechsym.proof.enclosure import Enclosure, EnclosureMethod, Set, TaylorMotion, kept, point, restored, weights
 from mechsym.quantities import record
 from mechsym.quantities.units import Pure, Second
 from mechsym.simulate.equations import part_values, through_buffer

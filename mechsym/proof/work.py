@@ -14,7 +14,7 @@ from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.native.tape import Tape
-from mechsym.proof.balls import Ball, arb, arb_series, ctx, evaluate
+from mechsym.proof.balls import SERIES, Ball, arb, arb_series, ctx, evaluate, series_to
 from mechsym.proof.rounding import VALUES
 
 _ORDER, _BITS = 12, 80
@@ -32,10 +32,7 @@ def _larger(a: Any, b: Any) -> Any:
 
 
 _LIMITS: dict[str, Callable[..., Any]] = {"fmax": _larger, "fmin": lambda a, b: -_larger(-a, -b)}
-_SERIES: dict[str, Callable[..., Any]] = {
-    op: VALUES[op]
-    for op in ("add", "sub", "mul", "div", "neg", "inv", "sq", "twice", "sin", "cos", "tan", "exp", "log", "sqrt")
-} | _LIMITS | {"expm1": lambda a: a.exp() - 1, "pow": lambda a, b: (a.log() * b).exp()}  # fmt: skip
+_SERIES = SERIES | _LIMITS | {"expm1": lambda a: a.exp() - 1, "pow": lambda a, b: (a.log() * b).exp()}
 
 
 def _power_from_zero(a: Ball, b: Ball) -> Ball:
