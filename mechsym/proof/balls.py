@@ -1,8 +1,7 @@
 """Balls: a midpoint and a radius that hold the exact value, by python-flint's arb (real) and acb (complex)."""
 
-import contextlib
 import decimal as decimals
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from operator import add, methodcaller, mul, neg, sub, truediv
 from typing import Any
@@ -62,21 +61,6 @@ COMPLEX = _EITHER | _named("sinh", "cosh", "tanh") | {
 }  # fmt: skip
 
 
-@contextlib.contextmanager
-def series_to(order: int) -> Iterator[None]:
-    """Taylor series with so many coefficients, within."""
-    before, ctx.cap = ctx.cap, order
-    try:
-        yield
-    finally:
-        ctx.cap = before
-
-
-def coefficient(series: Any, k: int) -> Ball:
-    """The coefficient of order k of a series, or of a ball that stays."""
-    return arb(series[k] if isinstance(series, arb_series) else series if k == 0 else 0)
-
-
 def evaluate(tape: Tape, operators: Mapping[str, Callable[..., Ball]], inputs: Sequence[Ball]) -> list[Ball]:
     """The results of a program for balls; a place where it is not defined gives a ball that is not finite."""
     values: list[Ball] = []
@@ -85,6 +69,19 @@ def evaluate(tape: Tape, operators: Mapping[str, Callable[..., Ball]], inputs: S
         leaf = op in ("input", "constant")
         values.append(rules[op](*(args if leaf else [values[a] for a in args])))
     return [values[r] for r in tape.results]
+
+
+def coefficients(
+    tape: Tape, operators: Mapping[str, Callable[..., Any]], inputs: Sequence[list[Ball] | Ball], order: int
+) -> list[list[Ball]]:
+    """The first coefficients of the results, for Taylor series of the inputs that have a list of coefficients."""
+    before, ctx.cap = ctx.cap, order
+    try:
+        values = evaluate(tape, operators, [arb_series(c[:order]) if isinstance(c, list) else c for c in inputs])
+    finally:
+        ctx.cap = before
+    series = (v if isinstance(v, arb_series) else [v, *[0] * order] for v in values)  # or a ball that stays
+    return [[arb(one[k]) for k in range(order)] for one in series]
 
 
 def refuse_unknown(tape: Tape, known: Mapping[str, object], what: str) -> None:

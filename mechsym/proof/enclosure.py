@@ -27,8 +27,8 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.native.tape import Tape
-from mechsym.proof.balls import COMPLEX, SERIES, UP, Ball, acb, arb, arb_mat, arb_series, coefficient, ctx, evaluate
-from mechsym.proof.balls import ratio, refuse_unknown, series_to, upper
+from mechsym.proof import balls
+from mechsym.proof.balls import UP, Ball, acb, arb, arb_mat, ctx, ratio, upper
 from mechsym.quantities import record
 
 _REACH = 0.03  # R at most: how far in the norm around p the equations are bounded [-]
@@ -62,6 +62,11 @@ class Set:
     def half_widths(self) -> np.ndarray:
         """Of each state [SI]."""
         return magnitudes(self.B) @ self.c * UP
+
+    @property
+    def balls(self) -> list[Ball]:
+        """The states."""
+        return [x + arb(0, width) for x, width in zip(self.x, self.half_widths.tolist(), strict=True)]
 
 
 @record
@@ -105,7 +110,7 @@ class TaylorMotion:
 
     def __init__(self, tape: Tape, states: int, held: Sequence[Ball]) -> None:
         """states: number of x, the first inputs; held: balls of the inputs behind them."""
-        refuse_unknown(tape, SERIES, tape.name)
+        balls.refuse_unknown(tape, balls.SERIES, tape.name)
         self.tape, self.states, self.held = tape, states, list(held)
         self.x: list[list[Ball]] = []
         self.f: list[Any] = []  # columns in balls, and matrices
@@ -125,13 +130,9 @@ class TaylorMotion:
         self._along(order, order_of_A)
 
     def _along(self, order: int, order_of_A: int) -> None:
-        with series_to(order):
-            values = evaluate(self.tape, SERIES, [*(arb_series(p[:order]) for p in self.x), *self.held])
-        n = self.states
-        self.f = [arb_mat([[coefficient(v, k)] for v in values[:n]]) for k in range(order)]
-        self.A = [
-            arb_mat([[coefficient(v, k) for v in values[n + i :: n]] for i in range(n)]) for k in range(order_of_A)
-        ]
+        series, n = balls.coefficients(self.tape, balls.SERIES, [*self.x, *self.held], order), self.states
+        self.f = [arb_mat([[v[k]] for v in series[:n]]) for k in range(order)]
+        self.A = [arb_mat([[v[k] for v in series[n + i :: n]] for i in range(n)]) for k in range(order_of_A)]
 
 
 class Enclosure:
@@ -203,7 +204,7 @@ class Enclosure:
                     sum(upper(c) * t**k for k, c in enumerate(p) if k) * UP + self.reach * w for t in (real, imaginary)
                 )
                 inputs.append(acb(arb(p[0], next(radii)), arb(0, next(radii))))
-            values = [upper(v) for v in evaluate(self.motion.tape, COMPLEX, [*inputs, *self.motion.held])]
+            values = [upper(v) for v in balls.evaluate(self.motion.tape, balls.COMPLEX, [*inputs, *self.motion.held])]
         A = np.array(values[self.n :]).reshape(self.n, self.n).T
         return self.norm(np.array(values[: self.n])), self.matrix_norm(A)
 

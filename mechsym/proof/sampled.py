@@ -44,12 +44,12 @@ def errors(
     return off, sizes
 
 
-def points_in(boxes: Sequence[Sequence[tuple[float, float]]], count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Random points (inputs, n) [SI] of boxes and the box of each; half of their values are at the ends."""
+def points_in(boxes: Sequence[Sequence[tuple[float, float]]], count: int, seed: int) -> np.ndarray:
+    """Random points (inputs, n) [SI] of boxes; half of their values are at the ends."""
     random = np.random.default_rng(seed)
     ends = np.array(boxes, dtype=float)
     which = random.integers(len(boxes), size=count)
     low, high = ends[which, :, 0], ends[which, :, 1]
     share = random.random(low.shape)
     share = np.where(random.random(low.shape) < 0.5, np.round(share), share)
-    return np.clip(low + share * (high - low), low, high).T, which
+    return np.clip(low + share * (high - low), low, high).T
