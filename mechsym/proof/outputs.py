@@ -20,7 +20,7 @@ from mechsym.native.source import prepared
 from mechsym.native.tape import Tape
 from mechsym.proof.balls import Ball, arb, evaluate, outward
 from mechsym.proof.rounding import VALUES, Rounded, bounds
-from mechsym.proof.sampled import Exact, errors, exact_function, points_in
+from mechsym.proof.sampled import ALL, Exact, errors, exact_function, farthest, points_in
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
 
@@ -31,7 +31,7 @@ _SEED = 20260
 _NEAR = 9.5  # bound by the largest error seen, above which a box is halved
 _ENOUGH = 1000  # samples, from which the largest error seen is near the largest that there is
 _MOST = 256  # parts of a box that are tried for a nearer bound
-_PER_SAMPLE = 1e-4  # of each function [s]
+_PER_SAMPLE, _PER_FAR_SAMPLE = 1e-4, 2e-5  # of each function, in 60 digits and in extended precision [s]
 
 
 @record
@@ -153,8 +153,10 @@ def prove(
     """
     tape = prepared(subject.function, "strict")
     exact = subject.exact or (lambda *values: evaluate(tape, VALUES | _MORE, values))
-    points = points_in(subject.boxes, samples, _SEED)
-    off, sizes = errors(code or compiled(subject.function, "strict").batch, exact, points, progress)
+    code = code or compiled(subject.function, "strict").batch
+    points = farthest(code, tape, points_in(subject.boxes, samples, _SEED))
+    progress(samples - points.shape[1])
+    off, sizes = errors(code, exact, points, progress)
     most = sys.float_info.max
     goals = [min(_NEAR * row.max(), most) or most if samples >= _ENOUGH else most for row in off]
     rows = [_bounded(tape, box, subject.along, goals) for box in subject.boxes]
@@ -169,7 +171,7 @@ def prove(
         finite = [(value.error, where) for where, _, value in parts if math.isfinite(value.error)]
         absolute, where = max(finite, key=lambda row: row[0], default=(None, ""))
         singular = [(where, box) for where, box, value in parts if not math.isfinite(value.error)]
-        inside = np.all([~_within(points, box) for _, box in singular] or [np.full(samples, True)], axis=0)
+        inside = np.all([~_within(points, box) for _, box in singular] or [np.full(points.shape[1], True)], axis=0)
         seen = float(off[i][inside].max(initial=0.0))
         least = (float(value.ball.abs_lower()) for *_, value in parts if value.ball.is_finite())
         size = max((float(sizes[i][inside].max(initial=0.0)), *least))
@@ -236,7 +238,8 @@ def rounding(
     """All outputs of some functions. words: over which ranges. Raises BadInput: no samples."""
     if samples < 1:
         raise BadInput(f"--samples {samples}: a bound is held against at least 1 point")
-    budget.require(f"{samples} samples", samples * len(subjects) * _PER_SAMPLE, 2e2 * samples, "give fewer --samples")
+    seconds = len(subjects) * (min(samples, ALL) * _PER_SAMPLE + samples * _PER_FAR_SAMPLE)
+    budget.require(f"{samples} samples", seconds, 1e3 * samples, "give fewer --samples")
     outputs = tuple(row for s in subjects for row in prove(s, samples, progress=progress))
     holds = all(row.absolute is None or row.seen <= row.absolute for row in outputs)
     largest = max((row.relative for row in outputs if row.relative is not None), default=0.0)

@@ -21,9 +21,11 @@ pytest.importorskip("flint")
 from mechsym.jobs.prove import GUIDES, ranges_of, subjects_of, usual_case  # noqa: E402
 from mechsym.native.evaluate import compiled  # noqa: E402
 from mechsym.native.source import prepared  # noqa: E402
+from mechsym.proof import sampled  # noqa: E402
 from mechsym.proof.balls import arb, outward  # noqa: E402
 from mechsym.proof.outputs import Subject, of_mechanism, prove, rounding  # noqa: E402
 from mechsym.proof.rounding import bounds  # noqa: E402
+from mechsym.proof.sampled import errors, farthest, points_in  # noqa: E402
 
 MECHANISMS = ("crank_throw", "crankshaft_flywheel", "crankshaft_flywheel_printed", "crosshead", "hypocycloid")
 LINKS = ("rodless", "rodless_constraints")
@@ -93,6 +95,18 @@ def small():
 def test_no_sample_is_beyond_its_bound(small):
     rows = prove(small, 300)
     assert all(0 < row.seen <= row.absolute and row.factor < 30 for row in rows)
+
+
+def test_of_many_points_those_that_are_farthest_off_are_held_against_60_digits(small, monkeypatch):
+    code, tape = compiled(small.function, "strict").batch, prepared(small.function, "strict")
+    points = points_in(small.boxes, 4_000, 1)
+    assert farthest(code, tape, points) is points  # few are held all
+    monkeypatch.setattr(sampled, "ALL", 100)
+    monkeypatch.setattr(sampled, "_CHUNK", 500)
+    far = farthest(code, tape, points)
+    assert far.shape[1] < 0.4 * 4_000
+    every, some = (errors(code, small.exact, these)[0].max(axis=1) for these in (points, far))
+    assert every.tolist() == some.tolist() and every.max() > 0
 
 
 def beyond(subject, code):
