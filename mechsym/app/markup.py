@@ -2,6 +2,7 @@
 
 import html
 from collections.abc import Sequence
+from importlib import resources
 
 from mechsym.app.answers import Answer, Plotted
 from mechsym.app.commands import Run
@@ -20,22 +21,7 @@ _TALL = "this.style.height = this.contentDocument.body.offsetHeight + 16 + 'px'"
 # no one grey has a contrast of 4.5 on both papers: the browser chooses
 _GREY = f"document.body.classList.contains('body--dark') ? '{DARK[QUIET]}' : '{QUIET}'"
 # in the picture: it tells its angle, and stands where it is told to
-_LINK = """<style>h1 { display: none } body { padding: 1px } .turning .scene svg { max-height: 21rem }</style><script>
-const [label, angle, play] = ["label", "angle", "play"].map(name => document.querySelector(".turn ." + name));
-let stopped = false;
-const tell = () => parent.postMessage({ crank: parseFloat(label.textContent) }, "*");
-if (DEGREES) new MutationObserver(tell).observe(label, { childList: true });
-addEventListener("message", e => {
-  if (e.source !== parent || !e.data) return;
-  if ("rest" in e.data && !stopped && play.textContent === "Pause") { stopped = true; play.click(); }
-  else if ("hold" in e.data && DEGREES) {
-    const count = +angle.max + 1, at = ((e.data.hold % DEGREES) + DEGREES) % DEGREES;
-    stopped = stopped || play.textContent === "Pause";
-    angle.value = Math.round(at / DEGREES * count) % count;
-    angle.dispatchEvent(new Event("input"));
-  } else if ("go" in e.data && stopped) { stopped = false; play.click(); }
-});
-</script></body>"""
+_LINK = (resources.files("mechsym.app") / "link.html").read_text(encoding="utf-8").removesuffix("\n")
 
 
 def table(rows: Sequence[tuple[str, str]], pinned: Sequence[tuple[str, str]]) -> str:

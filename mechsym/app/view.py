@@ -51,8 +51,8 @@ class Page:
         """Lay the page out and fill it."""
         ui, case = self.ui, cases.load(self.path)
         ui.dark_mode(None)
-        ui.add_head_html(_STYLE)
-        script = (resources.files("mechsym.app") / "linked.js").read_text(encoding="utf-8")
+        style, script = ((resources.files("mechsym.app") / f).read_text("utf-8") for f in ("view.css", "linked.js"))
+        ui.add_head_html(f"<style>\n{style}</style>")
         ui.add_body_html(f"<script>{script}</script>")
         self.tabs = (*commands.tabs(case), AUDIT)
         self.tab = self.tab if self.tab in self.tabs else self.tabs[0]
@@ -256,32 +256,3 @@ class Page:
 def told_value(knob: Slider, value: float) -> str:
     """A value of a slider in the unit of people [unit of the slider]."""
     return pretty(quantity_text(value, knob.unit, 4))
-
-
-_STYLE = """<style>
-.mechsym-cursor { position: absolute; top: 30px; bottom: 40px; left: 0; width: 1px; background: #888;
-  pointer-events: none; }
-.q-slider * { transition: none !important; } /* each frame of a moving thumb keeps the answer waiting */
-.nicegui-content { padding: .6rem; }
-/* the sliders stay beside what they move: at the left of a wide screen, at the foot of a narrow one */
-.mechsym-sliders { position: sticky; z-index: 2; overflow-y: auto; flex-wrap: nowrap; }
-@media (min-width: 768px) { .mechsym-sliders { top: 0; max-height: 100vh; } }
-@media (min-width: 768px) { .mechsym-fold { display: none; } }
-@media (max-width: 767px) { /* folded until it is wanted, and never over more than a third of the screen */
-  .mechsym-sliders { bottom: 0; max-height: 33vh; background: #fff; border-top: 1px solid #888; }
-  .mechsym-sliders:not(.open) > :not(.mechsym-fold) { display: none; }
-  .body--dark .mechsym-sliders { background: #121212; } }
-.mechsym-page { width: 100%; height: 80vh; border: 0; }
-.mechsym-groups { columns: 26rem; column-gap: 2rem; }
-.mechsym-groups section { break-inside: avoid; padding-bottom: .8rem; }
-.mechsym-groups h3 { font-size: 1rem; font-weight: 600; }
-.body--dark .q-tab-panels { background: transparent; }
-.mechsym-note { opacity: .7; }
-.mechsym-bar { background: rgba(128, 128, 128, .25); height: .4rem; }
-.mechsym-table td { padding: 0 .8rem 0 0; vertical-align: top; }
-.mechsym-table td + td { overflow-wrap: anywhere; }
-.mechsym-table td + td + td { opacity: .65; }
-@media (max-width: 767px) { /* a number beside its name, a sentence below it */
-  .mechsym-table tr { display: flex; flex-wrap: wrap; }
-  .mechsym-table td:first-child { opacity: .65; overflow-wrap: anywhere; } }
-</style>"""

@@ -1,6 +1,6 @@
 """What declarations take besides positions (velocities, accelerations, reactions), and what shall come out of them."""
 
-from sympy import Expr, Integer, Symbol
+from sympy import Add, Expr, Symbol
 
 from mechsym.derive.letters import Letters
 from mechsym.derive.refuse import refuse, require_declaration
@@ -26,7 +26,8 @@ def velocity(m: Letters, value: Expr) -> Expr:
 
 
 def _rate(m: Letters, value: Expr) -> Expr:
-    return sum((m.tape.diff(value, v) * u for v, u in zip(m.q, velocities(m), strict=True)), Integer(0))
+    slopes = zip((m.tape.diff(value, v) for v in m.q), velocities(m), strict=True)
+    return Add(*(slope * u for slope, u in slopes if slope != 0))
 
 
 def acceleration(m: Letters, value: Expr) -> Expr:
@@ -34,7 +35,7 @@ def acceleration(m: Letters, value: Expr) -> Expr:
     require_declaration(m, "acceleration(m, x)")
     value = m._checked(value, "", "what moves")
     linear = (m.tape.diff(value, v) * a for v, a in zip(m.q, accelerations(m), strict=True))
-    return sum(linear, curvature(m, value))
+    return Add(curvature(m, value), *linear)
 
 
 def curvature(m: Letters, value: Expr) -> Expr:
@@ -42,9 +43,11 @@ def curvature(m: Letters, value: Expr) -> Expr:
 
     value: expression in names and coordinates. Returns acceleration: expression with the velocities.
     """
-    first = [m.tape.diff(value, v) for v in m.q]
-    pairs = zip(first, velocities(m), strict=True)
-    return sum((_rate(m, f) * u for f, u in pairs), Integer(0)).expand()
+    if value not in m.tape.curvatures:
+        first = [m.tape.diff(value, v) for v in m.q]
+        pairs = zip(first, velocities(m), strict=True)
+        m.tape.curvatures[value] = Add(*(_rate(m, slope) * u for slope, u in pairs)).expand()
+    return m.tape.curvatures[value]
 
 
 def reaction(m: Letters, joint: Symbol) -> Symbol:

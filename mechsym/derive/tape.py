@@ -27,6 +27,9 @@ class Intermediates:
         self._rules: dict[Symbol, Rule] = {}
         self._derived_from: dict[Symbol, tuple[Symbol, tuple[Symbol, ...]]] = {}
         self._derivatives: dict[tuple[Symbol, Symbol], Expr] = {}
+        # every joint asks for the same ones again
+        self._totals: dict[tuple[Expr, Symbol], Expr] = {}
+        self.curvatures: dict[Expr, Expr] = {}
 
     def define(self, name: str, value: Expr | int) -> Symbol:
         """Put `name = value` on the tape.
@@ -47,7 +50,12 @@ class Intermediates:
         if expression.has(Float):
             raise ValueError(f"{name} holds a floating-point number; write a Rational or make it a parameter")
         self.entries[symbol] = expression
+        self._forget()
         return symbol
+
+    def _forget(self) -> None:
+        self._totals.clear()
+        self.curvatures.clear()
 
     def define_angle(self, name: str, sine: Expr) -> Symbol:
         """Put an angle in (-pi/2, pi/2) on the tape by its sine, with its cosine as a name of its own.
@@ -89,6 +97,7 @@ class Intermediates:
     def follow(self, symbol: Symbol, rule: Rule) -> None:
         """Let a name have its derivative by a rule in place of its expression's."""
         self._rules[symbol] = rule
+        self._forget()
 
     def named(self, expression: Expr) -> Expr:
         """Replace sine and cosine of single names by the tape's names for them. expression: any expression."""
@@ -112,9 +121,13 @@ class Intermediates:
         expression: expression in names, coordinates and parameters; variable: coordinate or joint displacement. Returns
         derivative: expression in names, among them new named derivatives.
         """
-        expression = self.named(expression)
-        symbols = sorted(expression.free_symbols, key=lambda s: s.name)
-        return sum((expression.diff(s) * self.derivative(s, variable) for s in symbols), Integer(0))
+        if (expression, variable) in self._totals:
+            return self._totals[expression, variable]
+        named = self.named(expression)
+        symbols = sorted(named.free_symbols, key=lambda s: s.name)
+        total = sum((named.diff(s) * self.derivative(s, variable) for s in symbols), Integer(0))
+        self._totals[expression, variable] = total
+        return total
 
     def derivative(self, symbol: Symbol, variable: Symbol) -> Expr:
         """Derivative of one name, itself a name unless it is a number or a single symbol.

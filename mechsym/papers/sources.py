@@ -11,12 +11,13 @@ hold = { phidd = 0.0 }                # what is taken for granted; the same with
 turn, effect = "claims.loads"         # functions of the paper's folder
 verdict = "definition"                # instead of a quantity: it is not there to be proved
 decide = "claims.about_twice"         # instead of a statement: what decides a claim made in words
-note = "..."                          # what else there is to say
+note = "..."                          # what else there is to say; of a claim in words, with the numbers that decide it
 """
 
 import pkgutil
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from importlib import resources
 from typing import TYPE_CHECKING
 
@@ -27,7 +28,7 @@ from mechsym.quantities import load, record
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from mechsym.audit.hosts.sources import Entry
+    from mechsym.audit.hosts.sources import Decided, Entry
 
 
 _FUNCTIONS, _TABLES = ("turn", "effect", "decide"), ("letters", "hold")
@@ -49,8 +50,37 @@ def entries(folder: str) -> "tuple[Entry, ...]":
             tables = [content[key][part] if isinstance(part, str) else part for part in parts]
             fields[key] = {k: v for table in tables for k, v in table.items()}
         kind = Printed if "quantity" in said else Listed if "verdict" in said else TextClaim
+        if kind is TextClaim:
+            fields["decide"] = partial(_decided, fields["decide"], fields.pop("note"))
         entries.append(kind(**fields))
     return tuple(entries)
+
+
+@record
+class Weighed:
+    """What decides a claim made in words."""
+
+    supported: bool  #: Whether the computation bears the claim out
+    numbers: Mapping[str, object]  #: That its note names
+    rel_error: float | None  #: Of claimed and computed value, where the claim is a number [-]
+
+
+def weighed(supported: bool, rel_error: float | None = None, **numbers: object) -> Weighed:
+    """A claim that stands or not. rel_error: of a claim that is a number [-]; numbers: that its note names."""
+    return Weighed(supported=supported, numbers=numbers, rel_error=rel_error)
+
+
+def against(claimed: float, correct: float, within: float = 5e-3, **numbers: object) -> Weighed:
+    """A claim that is a number [its unit]: it stands within a relative difference; its note may name `correct`."""
+    error = claimed / correct - 1
+    return weighed(abs(error) <= within, error, correct=correct, **numbers)
+
+
+def _decided(decide: Callable[[], Weighed], note: str) -> "Decided":
+    from mechsym.audit.hosts.sources import Decided
+
+    claim = decide()
+    return Decided(supported=claim.supported, note=note.format_map(claim.numbers), rel_error=claim.rel_error)
 
 
 @record

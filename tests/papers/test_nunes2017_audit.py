@@ -12,7 +12,7 @@ from mechsym.audit.read.algebra import FLOATS
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import complete
 from mechsym.papers import sources
-from mechsym.papers.nunes2017 import claims_loads as loads
+from mechsym.papers.nunes2017 import claims as loads
 from mechsym.sizing.rules import crankshaft, gears, piston
 
 STEM = "004_e00ef50339108dab"

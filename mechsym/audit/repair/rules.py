@@ -9,6 +9,7 @@ reads `<->` holds both ways.
 import ast
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from importlib import resources
 from itertools import combinations
 
 from mechsym.audit.read.spelling import to_python
@@ -46,49 +47,7 @@ from mechsym.quantities import record
 
 # kind; where it is tried: `wide` when nothing else mends the formula, `alike` at all parts that say the same at once,
 # `all` at all places at once; and the rules
-TABLE = """
-sign            | anywhere       | a + b -> a - b ; abs(a) -> a
-sign            | lead           | a -> -a
-factor          | product        | a -> 2*a , a/2 , 3*a , a/3 , 4*a , a/4 , 3*a/2 , 2*a/3
-argument        | angle          | a -> 2*a , a/2
-degrees         | angle          | a -> a*pi/180 , a*180/pi
-degrees         | anywhere       | a@pi//180 -> a ; pi@a//180 -> a ; a@(pi//180) -> a
-degrees         | anywhere       | a@180//pi -> a ; 180@a//pi -> a ; a@(180//pi) -> a
-letter          | anywhere       | x -> alike
-number          | whole          | n -> n - 1 , n + 1
-number          | pure           | x -> x - 1 , x + 1
-sine and cosine | anywhere alike | sin(a) -> cos(a) , tan(a) ; cos(a) -> sin(a) , tan(a) ; tan(a) -> sin(a) , cos(a)
-sine and cosine | anywhere alike | asin(a) -> acos(a) , atan(a) ; acos(a) -> asin(a) , atan(a)
-sine and cosine | anywhere alike | atan(a) -> asin(a) , acos(a)
-power           | anywhere       | a**n -> a**(n - 1) , a**(n + 1) , a**(n/2) , a**(2*n) , a ; a**x -> a**(1/x)
-power           | factor         | a -> a**2 , a**3 , a**4 , a**1.5
-power           | product        | a*b -> (a*b)**2
-power           | base           | a -> a**pure , a**(pure - 1) , a**(1 - pure)
-root            | anywhere       | sqrt(a) -> a
-root            | factor         | a -> sqrt(a)
-root            | product        | a*b -> sqrt(a*b)
-bracket         | anywhere       | a*(b + c) <-> a*b + c ; (a + b)*c <-> a + b*c ; a*b + c -> (a + c)*b
-bracket         | anywhere       | f(a + b) <-> f(a) + b ; f(a*b) <-> f(a)*b ; a//(b@c) <-> a//b@c
-bracket         | anywhere       | (a + b)**c <-> a + b**c ; (a*b)**c <-> a*b**c
-squares         | anywhere       | (a + b)**n <-> a**n + b**n ; sum(a**n + b**n) -> sum(a)**n + sum(b)**n
-squares         | anywhere       | sum(a**n) -> sum(a)**n ; sum(a**n + b**n + c**n) -> sum(a)**n + sum(b)**n + sum(c)**n
-left out        | anywhere       | a + b -> a , 0 + b ; a*b -> a , 1*b
-operator        | anywhere       | a@b -> a + b , a - b , a**b
-operator        | plain          | a + b -> a@b ; a**b -> a@b
-inverted        | anywhere       | a*b -> a/b ; a//b -> b/a
-everywhere      | alike inner    | a -> -a , 2*a , a/2
-everywhere      | all            | a@n -> a**n
-everywhere      | all angle      | a -> a*pi/180 , a*180/pi ; a@pi//180 -> a ; a@180//pi -> a
-everywhere      | alike wide     | x -> alike
-root            | wide sum       | a + b -> sqrt(a + b)
-power           | wide sum       | a + b -> (a + b)**2
-root            | wide factors   | a*b -> sqrt(a*b)
-power           | wide factors   | a*b -> (a*b)**2
-inverted        | wide factors   | a*b -> 1/(a*b)
-put back        | wide plain     | a -> 1 - a
-angle           | angle          | a -> a + turned , a - turned
-argument        | wide angle     | a -> a*known , a/known
-"""
+TABLE = (resources.files("mechsym.audit.repair") / "rules.txt").read_text(encoding="utf-8")
 # what a slip of a kind costs to tell, of the table's and of other kinds; a symbol that it brings costs more [bits]
 BITS = {
     "sign": 0, "factor": 1, "argument": 1, "number": 1, "unit": 2, "letter": 3, "sine and cosine": 3, "power": 4,

@@ -7,6 +7,7 @@ jax       NAME.py, jax.numpy         modelica NAME.mo, flat equations
 
 import re
 from collections.abc import Callable, Mapping
+from importlib import resources
 
 from mechsym.errors import BadInput
 from mechsym.out.block import Block, Curve, Port
@@ -51,6 +52,11 @@ def _listed(dialect: Dialect, values: object, ends: str = "[]") -> str:
     return ends[0] + ", ".join(number(dialect, float(v)) for v in values) + ends[1]  # type: ignore[attr-defined]
 
 
+def _machine(file: str) -> list[str]:
+    """What every machine in a language has: its curves, and its rates and outputs from time, states and inputs."""
+    return (resources.files("mechsym.out.text") / "machines" / file).read_text(encoding="utf-8").splitlines()
+
+
 def _julia(written: Written) -> dict[str, str]:
     name, block = identifier(written.name), written.block
     lines = [*_head(written, JULIA), f"module {name}"]
@@ -64,31 +70,8 @@ def _julia(written: Written) -> dict[str, str]:
             for c in block.curves
         ]
         times = [[p.name for p in block.parameters].index(s) + 1 for s in block.switches]
-        lines += ["const curves = (", *rows, ")", f"const switches = {times}", _JULIA_MACHINE]
+        lines += ["const curves = (", *rows, ")", f"const switches = {times}", "", *_machine("julia.jl"), ""]
     return {f"{name}.jl": "\n".join([*lines, "end", ""])}
-
-
-_JULIA_MACHINE = """
-function curve((state, ratio, periodic, breaks, rows), x)
-    at = ratio * x[state]
-    inside = periodic ? breaks[1] + mod(at - breaks[1], breaks[end] - breaks[1]) : clamp(at, breaks[1], breaks[end])
-    i = clamp(searchsortedlast(breaks, inside), 1, length(breaks) - 1)
-    z, value, slope = inside - breaks[i], 0.0, 0.0
-    for c in rows[:, i]
-        slope = slope * z + value
-        value = value * z + c
-    end
-    return value, (periodic || inside == at) ? slope : 0.0
-end
-
-# t [s], x states, u added to the inputs, p parameters
-function values(t, x, u, p)
-    w = [a for c in curves for a in curve(c, x)]
-    return [t; x; u; p; w; [t >= p[i] ? 1.0 : 0.0 for i in switches]]
-end
-derivative(t, x, u, p) = rates(values(t, x, u, p))
-outputs(t, x, u, p) = observed(values(t, x, u, p))
-"""
 
 
 def _matlab(written: Written) -> dict[str, str]:
@@ -116,35 +99,8 @@ def _matlab(written: Written) -> dict[str, str]:
             head = f"    w = [w; curve({c.ratio!r} * x({c.state + 1}), {int(c.periodic)}, "
             lines.append(f"{head}{_listed(MATLAB, c.poly.x)}, [{rows}])];")
         lines += [f"    s = double(t >= p({times}));" if times else "    s = [];"]
-        lines += ["    v = [t; x(:); u(:); p(:); w; s(:)];", "end", _MATLAB_MACHINE]
+        lines += ["    v = [t; x(:); u(:); p(:); w; s(:)];", "end", "", *_machine("matlab.m")]
     return {f"{name}.m": "\n".join([*lines, ""])}
-
-
-_MATLAB_MACHINE = """
-function w = curve(at, periodic, breaks, rows)
-    if periodic
-        inside = breaks(1) + mod(at - breaks(1), breaks(end) - breaks(1));
-    else
-        inside = min(max(at, breaks(1)), breaks(end));
-    end
-    i = min(max(find(breaks <= inside, 1, 'last'), 1), numel(breaks) - 1);
-    z = inside - breaks(i);
-    value = 0.0; slope = 0.0;
-    for c = rows(i, :)
-        slope = slope * z + value;
-        value = value * z + c;
-    end
-    if ~periodic && inside ~= at, slope = 0.0; end
-    w = [value; slope];
-end
-
-function dx = derivative(t, x, u, p)
-    dx = rates(values(t, x, u, p));
-end
-
-function y = outputs(t, x, u, p)
-    y = observed(values(t, x, u, p));
-end"""
 
 
 def _jax(written: Written) -> dict[str, str]:
@@ -164,37 +120,8 @@ def _jax(written: Written) -> dict[str, str]:
         for c in block.curves:
             rows = f"jnp.array({_listed(JAX, c.poly.c.T.ravel())}).reshape(-1, {len(c.poly.c)})"
             lines += [f"    ({c.state}, {c.ratio!r}, {c.periodic}, jnp.array({_listed(JAX, c.poly.x)}), {rows}),"]
-        lines += ["]", _JAX_MACHINE]
+        lines += ["]", "", "", *_machine("jax.txt")]
     return {f"{name}.py": "\n".join([*lines, ""])}
-
-
-_JAX_MACHINE = '''
-
-def curve(c, x):
-    state, ratio, periodic, breaks, rows = c
-    at, first, last = ratio * x[state], breaks[0], breaks[-1]
-    inside = first + jnp.mod(at - first, last - first) if periodic else jnp.clip(at, first, last)
-    i = jnp.clip(jnp.searchsorted(breaks, inside, side="right") - 1, 0, len(breaks) - 2)
-    z, value, slope = inside - breaks[i], 0.0, 0.0
-    for k in range(rows.shape[1]):
-        slope = slope * z + value
-        value = value * z + rows[i, k]
-    return [value, slope if periodic else jnp.where(inside == at, slope, 0.0)]
-
-
-def values(t, x, u, p):
-    """t [s], x states, u added to the inputs, p parameters."""
-    w = [a for c in curves for a in curve(c, x)]
-    s = [jnp.where(t >= p[i], 1.0, 0.0) for i in switches]
-    return jnp.concatenate([jnp.atleast_1d(jnp.asarray(a, dtype=float)) for a in (t, x, u, p, *w, *s)])
-
-
-def derivative(t, x, u, p):
-    return rates(values(t, x, u, p))
-
-
-def outputs(t, x, u, p):
-    return observed(values(t, x, u, p))'''
 
 
 def _modelica(written: Written) -> dict[str, str]:

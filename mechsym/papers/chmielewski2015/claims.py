@@ -2,13 +2,14 @@
 
 import numpy as np
 
-from mechsym.audit.hosts.sources import Decided, Turn
+from mechsym.audit.hosts.sources import Turn
 from mechsym.audit.judge.question import Question, turn, value
 from mechsym.audit.read.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Decision
 from mechsym.papers.chmielewski2015 import rows as computed
+from mechsym.papers.sources import Weighed, against, weighed
 from mechsym.quantities import dimension
 
 _LEVER = "sin(phi0) + lam*sin(phi0)*cos(phi0)/sqrt(1 - lam**2*sin(phi0)**2)"
@@ -49,7 +50,7 @@ def _mismatch(name: str) -> str:
     )
 
 
-def settles() -> Decided:
+def settles() -> Weighed:
     """The mean speed after 90 s from two integrators, and from a rigid drive."""
     means = []
     for backend in ("auto", "sundials"):
@@ -58,27 +59,14 @@ def settles() -> Decided:
     rigid = computed.rigid_speed(computed.CLAIMED_TIME)
     exact = abs(computed.run("crankshaft_flywheel").energy.residual or 0.0)
     residual = "below 1e-8" if exact < 1e-8 else f"{exact:.0e}"
-    return Decided(
-        supported=abs(means[0] / computed.CLAIMED_SPEED - 1) < 0.01,
-        note=f"hand check: a rigid drive has {rigid:.0f} rad/s at 90 s, so a mean of 194 is out of reach; converged: "
-        f"{means[0]:.1f} rad/s mean over 98 to 100 s (second integrator {means[1]:.1f}; energy residual of the exact "
-        f"model {residual}), held at half the torsional natural frequency until 91 s and still rising; tolerances, "
-        "integrators and fixed steps are compared by `mechsym reproduce chmielewski2015`",
-        rel_error=means[0] / computed.CLAIMED_SPEED - 1,
-    )
+    return against(means[0], computed.CLAIMED_SPEED, 0.01, rigid=rigid, means=means, residual=residual)
 
 
-def constant_speed() -> Decided:
+def constant_speed() -> Weighed:
     """The rate of the mean speed of a rigid drive without losses."""
-    rate = computed.rigid_speed(2.0)
-    return Decided(
-        supported=False,
-        note="nothing takes the work of the torque, so the energy grows for ever; a rigid drive gains "
-        f"{rate:.3f} rad/s^2 after 90 s as before",
-    )
+    return weighed(False, rate=computed.rigid_speed(2.0))
 
 
-def unit_of_stiffness() -> Decided:
+def unit_of_stiffness() -> Weighed:
     """The unit that makes k1 (phi0 - phi2) a torque."""
-    fits = dimension("N/m") == dimension("N*m")
-    return Decided(supported=fits, note="k1 times an angle is a torque in (1): N m/rad, as table 1 has it")
+    return weighed(dimension("N/m") == dimension("N*m"))

@@ -6,7 +6,6 @@ The source prints no data. What follows from geometry needs none: four rod journ
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.audit.hosts.sources import Decided
 from mechsym.audit.verdict import Decision
 from mechsym.cases import load
 from mechsym.mechanisms import constraints
@@ -14,6 +13,7 @@ from mechsym.mechanisms.closing import Clearances, Stiffnesses, redundant_force
 from mechsym.mechanisms.record import curves
 from mechsym.mechanisms.rodless import RodlessParameters
 from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, SLIP, Row, row
+from mechsym.papers.sources import Weighed, weighed
 
 RADIUS, SPEED, MASS = 0.04, 300.0, 1.0  # any: the results are pure numbers [m], [rad/s], [kg] per rod journal
 PARAMETERS = RodlessParameters(r=RADIUS, I1=0.1, m_link=0.0, I_link=0.0, m_a=2 * MASS, m_b=2 * MASS)
@@ -130,29 +130,20 @@ def root_effect(verdict: Decision) -> str:
     return f"with equal masses the printed root gives {np.mean(printed / right):.3f} of the resultant 4 m r omega^2"
 
 
-def constant_size() -> Decided:
+def constant_size() -> Weighed:
     """The size of the resultant over a turn."""
     size = np.hypot(*inertia_resultant(_TURN))
     change = float(np.ptp(size) / np.mean(size))
-    supported = change < 1e-12
-    size_of_change = "less than 1e-12" if supported else f"{change:.2g}"
-    return Decided(supported=supported, note=f"it changes by {size_of_change} of itself over a turn", rel_error=change)
+    return weighed(change < 1e-12, change, change="less than 1e-12" if change < 1e-12 else f"{change:.2g}")
 
 
-def along_the_rod() -> Decided:
+def along_the_rod() -> Weighed:
     """The share of the resultant that is across a rod."""
     along, across = inertia_resultant(_TURN)
     share = float(np.max(np.abs(across) / np.hypot(along, across)))
-    return Decided(
-        supported=share < 1e-9,
-        note=f"by the paper's own (5) it turns with the crank: {100 * share:.0f} % of it is across a rod at some angle",
-    )
+    return weighed(share < 1e-9, share=100 * share)
 
 
-def no_side_force() -> Decided:
+def no_side_force() -> Weighed:
     """Who carries the force across the cylinder."""
-    return Decided(
-        supported=True,
-        note="the guides of the sliders take X_a and X_b instead of the cylinders; their size needs a closing rule, "
-        "since the rigid mechanism is overconstrained by one",
-    )
+    return weighed(True)

@@ -2,17 +2,21 @@
 
 import numpy as np
 
-from mechsym.audit.hosts.sources import Decided, Turn
+from mechsym.audit.hosts.sources import Turn
 from mechsym.audit.judge.question import Question, turn, value
 from mechsym.audit.read.reader import read
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known
 from mechsym.audit.verdict import Decision
+from mechsym.hinge.guide import Guide, crank_torque, refit, with_setting
+from mechsym.hinge.springs.air import AirAbsolute
+from mechsym.hinge.springs.face import Spring
+from mechsym.hinge.steady import retune
 from mechsym.machine.record import gas_of
+from mechsym.papers.sources import Weighed, weighed
 from mechsym.papers.zotov2024 import rows as computed
 
 _TURN = np.linspace(0, 2 * np.pi, 721)
-_CYCLE = "with the cycle of the built-in cases"
 
 
 def gas_force() -> Turn:
@@ -42,7 +46,8 @@ def hinge_torque_effect(verdict: Decision) -> str:
     return (
         f"the sign changes M_h by up to {difference / 1e3:.2f} kN m at 89 rpm and "
         f"{difference * (fast.omega / slow.omega) ** 2 / 1e3:.2f} kN m at 142 rpm: {100 * shares[0]:.1f} % and "
-        f"{100 * shares[1]:.1f} % of its peak ({_CYCLE}), {100 * inertia[0]:.0f} % of its inertia part"
+        f"{100 * shares[1]:.1f} % of its peak (with the cycle of the built-in cases), {100 * inertia[0]:.0f} % of its "
+        "inertia part"
     )
 
 
@@ -51,97 +56,65 @@ def _inertia_peak(omega: float) -> float:
     return float(np.max(np.abs(hinge.inertia_part(_TURN))))
 
 
-def integral_vanishes() -> Decided:
+def integral_vanishes() -> Weighed:
     """The mean of M_h over a turn."""
-    shares = [abs(h.mean_torque) / computed.peak(h) for h in computed.engines().hinges]
-    return Decided(
-        supported=max(shares) < 1e-9,
-        note=f"the mean of M_h is {_small(max(shares), 1e-9)} of its peak; (5) makes it so for every F",
-        rel_error=max(shares),
-    )
-
-
-def _small(value: float, limit: float) -> str:
+    share = max(abs(h.mean_torque) / computed.peak(h) for h in computed.engines().hinges)
     # what is rounding only differs from machine to machine
-    return f"below {limit:.0e}" if value < limit else f"{value:.2g}"
+    return weighed(share < 1e-9, share, mean="below 1e-09" if share < 1e-9 else f"{share:.2g}")
 
 
-def about_twice() -> Decided:
+def about_twice() -> Weighed:
     """The ratio of the largest torques."""
     slow, fast = computed.engines().hinges
     ratio = computed.peak(fast) / computed.peak(slow)
-    return Decided(
-        supported=1.5 <= ratio < 2.5,
-        note=f"{ratio:.2f} times {_CYCLE}; the paper's F is not printed",
-        rel_error=ratio / 2 - 1,
-    )
+    return weighed(1.5 <= ratio < 2.5, ratio / 2 - 1, ratio=ratio)
 
 
-def proportional_to_square() -> Decided:
+def proportional_to_square() -> Weighed:
     """The share of the torque that grows with the square of the speed."""
     slow = computed.engines().hinges[0]
-    share = _inertia_peak(slow.omega) / computed.peak(slow)
-    return Decided(
-        supported=False,
-        note=f"only the inertia part of (8) has phid^2, and its peak is {100 * share:.0f} % of that of M_h at 89 rpm "
-        f"({_CYCLE}); the rest follows the gas force",
-    )
+    return weighed(False, share=100 * _inertia_peak(slow.omega) / computed.peak(slow))
 
 
-def proportional_to_pressure() -> Decided:
+def proportional_to_pressure() -> Weighed:
     """The torque of one guide at two pressures."""
-    from mechsym.hinge.guide import crank_torque, refit, with_setting
-    from mechsym.hinge.springs.air import AirAbsolute
-
     cut = computed.engines().cut
-    doubled = crank_torque(refit(cut, with_setting(cut.spring, 2 * computed.PRESSURES[0])), _TURN)
-    once = crank_torque(cut, _TURN)
-    error = float(np.max(np.abs(doubled - 2 * once)) / np.max(np.abs(once)))
     real = AirAbsolute(A=cut.spring.A, H=cut.spring.H, p0=cut.spring.p0, n=cut.spring.n, pa=101325.0)  # type: ignore[attr-defined]
-    first, second = (crank_torque(refit(cut, with_setting(real, p)), _TURN) for p in (real.p0, 2 * real.p0))
-    away = float(np.max(np.abs(second - 2 * first)) / np.max(np.abs(first)))
-    return Decided(
-        supported=error < 1e-9,
-        note="exact for the printed law (9); a spring that obeys the absolute pressure is "
-        f"{100 * away:.1f} % off at 2 p0",
-        rel_error=error,
-    )
+    error, away = (_off_at_twice(cut, spring) for spring in (cut.spring, real))
+    return weighed(error < 1e-9, error, away=100 * away)
 
 
-def pressure_ratio() -> Decided:
+def _off_at_twice(cut: Guide, spring: Spring) -> float:
+    """How far the torque of a guide is from twice at twice the pressure, by the largest [-]."""
+    once, doubled = (crank_torque(refit(cut, with_setting(spring, k * computed.PRESSURES[0])), _TURN) for k in (1, 2))
+    return float(np.max(np.abs(doubled - 2 * once)) / np.max(np.abs(once)))
+
+
+def pressure_ratio() -> Weighed:
     """What 9.5 MPa leave of the torque needed at 142 rpm."""
     paper, best = computed.retuned(computed.PRESSURES[1]), computed.best_pressure()
-    return Decided(
-        supported=paper.torque_error < 0.1,
-        note=f"{100 * paper.torque_error:.0f} % of the rms of M_h are missing at 9.5 MPa {_CYCLE}; the best is "
-        f"{best.setting / 1e6:.1f} MPa, {best.setting / computed.PRESSURES[0]:.2f} times, with "
-        f"{100 * best.torque_error:.0f} % missing. The paper's F is not printed",
-        rel_error=best.setting / computed.PRESSURES[1] - 1,
+    return weighed(
+        paper.torque_error < 0.1,
+        best.setting / computed.PRESSURES[1] - 1,
+        paper=100 * paper.torque_error,
+        best=best.setting / 1e6,
+        ratio=best.setting / computed.PRESSURES[0],
+        least=100 * best.torque_error,
     )
 
 
-def almost_constant() -> Decided:
+def almost_constant() -> Weighed:
     """The ripple of the speed with the guide of 89 rpm at 142 rpm."""
-    from mechsym.hinge.steady import retune
-
-    paper = computed.retuned(computed.PRESSURES[1])
     engines = computed.engines()
     best = retune(engines.cut, engines.hinges[1], "least_ripple_propeller_load")
     ripple = best.ripple_propeller_load
-    stops = paper.ripple_propeller_load is None
-    return Decided(
-        supported=ripple is not None and ripple < 0.02,
-        note=f"{'the engine stalls at 9.5 MPa' if stops else 'it runs at 9.5 MPa'} {_CYCLE}; the best pressure, "
-        f"{best.setting / 1e6:.1f} MPa, leaves {100 * (ripple or 1):.0f} % ripple under a propeller load, for "
-        "there is no flywheel",
-    )
+    stops = computed.retuned(computed.PRESSURES[1]).ripple_propeller_load is None
+    fate = "the engine stalls" if stops else "it runs"
+    holds = ripple is not None and ripple < 0.02
+    return weighed(holds, fate=fate, best=best.setting / 1e6, ripple=100 * (ripple or 1))
 
 
-def spring_compressed() -> Decided:
+def spring_compressed() -> Weighed:
     """Whether the springs of Fig. 5 are ever longer than their free height."""
-    stretches = [computed.longest_stretch(m.guide) for m in computed.guides() if m.start == "as_printed"]
-    return Decided(
-        supported=max(stretches) <= 0,
-        note=f"W is positive somewhere, so the spring is {1e3 * min(stretches):.1f} to {1e3 * max(stretches):.1f} mm "
-        f"longer than H there in all twelve guides ({_CYCLE}); the constant of W is free and can be chosen to avoid it",
-    )
+    stretches = [1e3 * computed.longest_stretch(m.guide) for m in computed.guides() if m.start == "as_printed"]
+    return weighed(max(stretches) <= 0, least=min(stretches), most=max(stretches))
