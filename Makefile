@@ -11,14 +11,14 @@ $(READY): pyproject.toml setup.py
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "mechsym needs Python 3.11 or newer; name one: make PYTHON=python3.11 $(MAKECMDGOALS)"; exit 1; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || { echo "Python's venv is missing; on Debian: apt-get install python3-venv"; exit 1; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,proof]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,proof,code]'
 	@touch $@
 
 # what exports need and what checks them; heavy, so only the slow tests and the packages ask for it
 setup-all: .venv/ready-all
 
 .venv/ready-all: $(READY)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,proof,fmu,cad,web,app,cluster,docs,check]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e '.[netcdf,dev,proof,code,fmu,cad,web,app,cluster,docs,check]'
 	@touch $@
 
 derive: | $(READY)

@@ -31,7 +31,13 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
     "--theory", default="", metavar="FILE", help="TOML file of your own quantities; for a paper also a theory's name."
 )
 @click.option(
-    "--code", metavar="FILE::FUNCTION", help="A function in Python, C, Java, MATLAB, Julia, Fortran, Modelica."
+    "--code",
+    metavar="PLACE",
+    help="FILE::FUNCTION, or a whole FILE or FOLDER: Python, C, Java, MATLAB, Julia, Fortran, ..",
+)
+@click.option("--sarif", type=click.Path(path_type=Path, dir_okay=False), help="Write the findings of --code as SARIF.")
+@click.option(
+    "--baseline", type=click.Path(path_type=Path, dir_okay=False), help="SARIF or JSON of findings that are accepted."
 )
 @click.option("--file", type=click.Path(path_type=Path, dir_okay=False), help="TOML file of formulas.")
 @click.option(
@@ -44,7 +50,8 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 @click.pass_context
 def audit(
     ctx: click.Context, /, paper: Path | None, source: str | None, formula: str | None, against: str | None,
-    code: str | None, file: Path | None, certificate: Path | None, write: bool, out: Path | None, **said: object,
+    code: str | None, file: Path | None, certificate: Path | None, write: bool, out: Path | None,
+    sarif: Path | None, baseline: Path | None, **said: object,
 ) -> None:  # fmt: skip
     """Compare published hand formulas with the derivations; repair misprints by search.
 
@@ -55,16 +62,22 @@ def audit(
 
     \b
     Example: mechsym audit --source zotov2024
+    Example: mechsym audit --code src --sarif findings.sarif --baseline accepted.sarif
     Example: mechsym audit paper.tex --theory slider_crank --letters "\\omega=phid" --out page
     Example: mechsym audit --formula "R*sin(phi) + R*lam*sin(2*phi)" --against crosshead.dx_dphi --letters "R=r1+r2"
     """
     from mechsym.files import write_text
 
+    whole = code is not None and "::" not in code
+    if (sarif or baseline) and not whole:
+        raise BadInput("--sarif and --baseline belong to --code FILE or FOLDER")
     if own := [o for o in (paper, formula, file, code) if o is not None]:
         if source or write or len(own) > 1:
             raise BadInput(
                 "a paper, --formula, --file and --code stand alone; use one of them without --source and --write"
             )
+        if code is not None and whole:
+            ctx.exit(_repository(Path(code), against, out, sarif, baseline, said))
         rows = _own(formula, against, file, code, said) if paper is None else _paper(paper, against, said)
         if certificate is not None:
             from mechsym.audit.hosts.sources import certificate_of_formula
@@ -87,6 +100,35 @@ def audit(
             "--against, --letters, --out and --case belong to --formula; write for example --formula 'r*sin(phi)'"
         )
     ctx.exit(_published(source, write, certificate))
+
+
+def _repository(
+    place: Path, against: str | None, out: Path | None, log: Path | None, baseline: Path | None, said: dict[str, Any]
+) -> int:
+    import json
+
+    from mechsym import __version__
+    from mechsym.audit.hosts import findings
+    from mechsym.audit.hosts import repository as read
+    from mechsym.audit.judge.asked import Asked
+    from mechsym.files import write_text
+
+    if against:
+        raise BadInput("--against belongs to one FILE::FUNCTION; a whole file is held against what its names fit")
+    old = findings.accepted(baseline)
+    chosen = read.programs(place)
+    with progress(len(chosen), "reading") as bar:
+        files = []
+        for one in read.audited(place, Asked(text="", against="", **said), chosen):
+            files.append(one)
+            bar.update(1)
+    rows = read.findings(files)
+    if log is not None:
+        click.echo(str(write_text(log, json.dumps(findings.sarif(rows, __version__), indent=1))), err=True)
+    if out is not None:
+        click.echo(str(write_text(out / "audit.html", findings.html(str(place), files, rows))), err=True)
+    emit(findings.as_json(files, rows), lambda: findings.told(files, rows, old))
+    return 1 if any(row["fingerprint"] not in old for row in rows) else 0
 
 
 def _paper(paper: Path, against: str | None, said: dict[str, Any]) -> list[Json]:

@@ -149,17 +149,15 @@ def losses(result: CoDesignResult) -> Figure:
             axis.bar(places, values, bottom=below, color=color, label=kind, width=0.6)
         below = below + values
     axis.set_xticks(places, names)
-    axis.set(xlabel=f"speed [{rpm}], mean indicated pressure", ylabel="losses of the hinge [% of the load's torque]")
+    axis.set(xlabel=f"speed [{rpm}], mean indicated pressure", ylabel="losses of the hinge, of the load's torque [%]")
     legend(axis)
     return figure
 
 
-def scenarios(result: CoDesignResult) -> Figure | None:
-    """Speed over the turns of every scenario that was run, a panel each; None where there is none."""
+def scenarios(result: CoDesignResult) -> Figure:
+    """Speed over the turns of every scenario that was run, a panel each."""
     rows = [s for s in result.scenarios if s.run is not None]
     names = list(dict.fromkeys(s.name for s in rows))
-    if not names:
-        return None
     down = -(-len(names) // 3)
     figure, axes = panels(9, 2.3 * down, down, 3, "Speed over the turns of what may happen")
     for axis, name in zip(axes, names, strict=False):
@@ -180,10 +178,9 @@ def scenarios(result: CoDesignResult) -> Figure | None:
 _MARK = "#fefefe"  # over a range of colours, the same on dark paper
 
 
-def ripple_map(result: CoDesignResult) -> Figure | None:
-    """Ripple and best pressure over speed and load; None where they were not computed."""
-    if result.map is None:
-        return None
+def ripple_map(result: CoDesignResult) -> Figure:
+    """Ripple and best pressure over speed and load."""
+    assert result.map is not None
     figure, (left, right) = _panels(2, "Ripple and best pressure over speed and load")
     (turning, rpm), (factor, unit) = axis_unit("rad/s", result.map.omega), axis_unit("Pa", result.map.p0)
     pressing, pressure = axis_unit("Pa", result.map.load)
@@ -201,10 +198,9 @@ def ripple_map(result: CoDesignResult) -> Figure | None:
     return figure
 
 
-def spread(result: CoDesignResult) -> Figure | None:
-    """Ripple under small errors: histogram and tornado; None where they were not drawn."""
-    if result.spread is None:
-        return None
+def spread(result: CoDesignResult) -> Figure:
+    """Ripple under small errors: histogram and tornado."""
+    assert result.spread is not None
     figure, (left, right) = _panels(2, "Ripple under small errors")
     left.hist(100 * result.spread.samples, bins=24, color=BLUE)
     left.axvline(100 * result.spread.p95, color=RED, linewidth=1, label="19 of 20 keep this")

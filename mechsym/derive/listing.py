@@ -44,7 +44,7 @@ class Listing(TypedDict):
     requires: NotRequired[list[dict[str, str]]]
     roles: NotRequired[dict[str, list[Json]]]  #: Of each kind of `mechsym.mechanisms.roles`
     shapes: NotRequired[list[Json]]
-    pins: NotRequired[dict[str, list[str]]]  #: Coordinates of each pin in the drawing
+    pins: NotRequired[dict[str, list[str]]]  #: Where each pin is drawn, and each slide, with a place across it
     sketch: NotRequired[list[Json]]
     links: NotRequired[list[Json]]
     springs: NotRequired[list[str]]

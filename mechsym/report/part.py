@@ -32,7 +32,6 @@ class ReportPart:
     numbers: Any = None  #: As the command gives them with --json
     doubts: tuple[Doubt, ...] = ()
     turning: Callable[[], list[Json]] = list  #: Scenes of what turns at the head of the report
-    pressed: Callable[[Json], Json] | None = None  #: Adds what presses in the joints to a scene of the machine
     beside: tuple[Finding, ...] = ()  #: What has to be known first besides what its view says
 
     @property

@@ -19,7 +19,7 @@ from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.friction import AUXILIARIES, NO_PLACE
 from mechsym.forces.result import Forces
-from mechsym.forces.shown import borne, pressed
+from mechsym.forces.shown import borne
 from mechsym.forces.summary import half
 from mechsym.hinge.result import complete, ripple_text
 from mechsym.hinge.shown import scenes
@@ -57,7 +57,7 @@ def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...])
         name="forces", title=title, view=found.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
         verdict=f"{_friction(found)}.", facts=tuple(numbers.numbers.facts), grids=(_borne(found),),
         decide=reasons, doubts=doubts, silent=("rigid links at constant speed; friction of the first order",),
-        numbers=tell(numbers), beside=tuple(criticals(numbers.vibration)), pressed=lambda shown: pressed(shown, found),
+        numbers=tell(numbers), beside=tuple(criticals(numbers.vibration)),
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mechsym.audit.hosts.code import UNFOLLOWED, Assigned, read_code
+from mechsym.audit.hosts.code import Assigned, read_code
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.dimensions import is_consistent, rescaled
 from mechsym.audit.judge.question import Question, turn, value
@@ -112,9 +112,9 @@ def _liked(place: str, candidates: Sequence[Assigned], theory: str, asked: Asked
 def _row(assigned: Assigned, target: str, asked: Asked) -> Row:
     about = f" ({assigned.about})" if assigned.about not in ("", assigned.name) else ""
     name = assigned.name + about
-    if unfollowed := re.search(rf"\b{UNFOLLOWED}(\w+)", assigned.text):
+    if assigned.unfollowed:
         why = (
-            f"{unfollowed[1]} is assigned in a loop or a branch, or changed in place, which is not followed; "
+            f"{assigned.unfollowed[0]} is assigned in a loop or a branch, or changed in place, which is not followed; "
             "ask for a variable before it, or write the formula for --formula"
         )
         return unread_row(name, target, assigned.text, why)

@@ -13,6 +13,8 @@ s = "m"                             # only where dimensions do not tell it
 "no friction" = ["mu"]              # what sources take for granted
 [symbols]
 "\\omega" = "phid"                  # letters of a paper: here the author's omega is phid
+[words]
+"phid*30/pi" = ["rpm"]              # what programs call a letter, a quantity or what is made of them
 
 In [define] a name may also be:
 d(e, phi), d(e, phi, 2)            derivative by a letter
@@ -209,7 +211,7 @@ def _square_sum(a: Node, b: Node) -> Node:
     return plus(*(binary(ast.Pow, e, number(2)) for e in (a, b)))
 
 
-_KEYS = ("name", "about", "source", "angle", "small", "rods", "letters", "define", "units", "conditions", "symbols")
+_KEYS = tuple("name about source angle small rods letters define units conditions symbols words".split())
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)?\s*(.*?)\s*$")
 
@@ -270,6 +272,7 @@ def _theory(content: Json, name: str, where: str) -> Theory:
         small=_among(content.get("small", []), "small", letters),
         conditions={k: _among(v, f"conditions.{k}", letters) for k, v in _table(content, "conditions").items()},
         data=where,
+        words={k: tuple(map(str, v)) for k, v in _table(content, "words").items() if isinstance(v, list)},
     )
 
 

@@ -119,6 +119,7 @@ class Theory:
     #: What a source may take for granted: words to the letters that vanish then
     conditions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     data: str = ""
+    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  #: What programs call letters and quantities
     #: Random states that were drawn before, which questions of one theory share
     states: dict[tuple[object, ...], Mapping[str, list[Fraction]]] = field(
         default_factory=dict, init=False, repr=False, compare=False

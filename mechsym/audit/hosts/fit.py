@@ -1,0 +1,279 @@
+"""Which theory a program's names fit: letters by names, comments and units, quantities by what they are called."""
+
+import ast
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from mechsym.audit.judge.question import Question, drawn, float_values, used_names
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.algebra import FLOATS, Values, evaluate
+from mechsym.audit.read.programs.claims import Claim, base, inlined
+from mechsym.audit.read.programs.statements import OF
+from mechsym.audit.read.reader import RESERVED, Formula, read_expression
+from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.theory.record import Theory, complete, dependencies, known
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+# what the angle that turns, and its rates, are called in programs
+_ANGLE = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "crankangle", "angle", "varphi")
+_RATES = {"d": ("omega", "w", "angular velocity", "angular speed"), "dd": ("alpha", "angular acceleration")}
+_LEAST_LETTERS = 3  # of a formula that is told by its numbers and not by its name
+_POINTS, _TURNS, _STEPS = 24, 4, 7  # states at which numbers are compared, and of turns
+_SAME = 1e-9
+# factors by which units differ: degrees, thousands, minutes
+_UNITS = tuple(
+    a * 10.0**n * b
+    for n in (-9, -6, -3, -2, -1, 0, 1, 2, 3, 5, 6, 9)
+    for a in (1.0, np.pi / 180, 180 / np.pi, 60.0, 1 / 60, 2 * np.pi, 1 / (2 * np.pi), np.pi / 30, 30 / np.pi)
+    for b in (1.0, -1.0)
+)
+
+
+@record
+class Fitted:
+    """A claim in the letters of a theory."""
+
+    theory: Theory
+    claim: Claim
+    tree: Node  #: In the program's letters that have a meaning, other names put in
+    meanings: Mapping[str, str]  #: Letter of the program to its meaning in the theory
+    quantities: Sequence[str]  #: That the name is called like
+    strong: int  #: Letters that a word tells, and not a single sign
+
+
+def words(text: str) -> tuple[str, ...]:
+    """The words of a name or a comment: `crankRad_1` is crank, rad, 1; a single letter keeps its case."""
+    parts = re.findall(r"[A-Za-z]+|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text))
+    return tuple(p if len(p) == 1 else p.lower() for p in parts)
+
+
+@lru_cache(maxsize=20_000)
+def _word_list(text: str) -> tuple[str, ...]:
+    return words(text)
+
+
+class Lexicon:
+    """What the letters and quantities of a theory are called."""
+
+    def __init__(self, theory: Theory) -> None:
+        self.theory = theory
+        self.phrases: list[tuple[tuple[str, ...], str]] = []
+        for name in [*theory.letters, *theory.results]:
+            self.phrases.append((words(name), name))
+        for meaning, said in theory.words.items():
+            self.phrases += [(words(one), meaning) for one in said]
+        if theory.angle:
+            self.phrases += [(words(one), theory.angle) for one in _ANGLE]
+            for dots, said in _RATES.items():
+                self.phrases += [(words(one), theory.angle + dots) for one in said]
+        self.heads = {"".join(phrase) for phrase, _ in self.phrases}
+        self.parts = {word for phrase, _ in self.phrases for word in phrase if len(word) > 2}
+        self.known: dict[tuple[str, str], tuple[int, str]] = {}
+        self._states: States | None = None
+
+    @property
+    def states(self) -> "States":
+        """Where its numbers are compared."""
+        self._states = self._states or States(self.theory)
+        return self._states
+
+    def touches(self, names: Iterable[str]) -> bool:
+        """Whether two names at least may mean something here."""
+        alike = 0
+        for name in names:
+            own = _word_list(name)
+            tail = "".join(_word_list(name.rpartition(OF)[2]))
+            alike += tail in self.heads or "".join(own) in self.heads or not self.parts.isdisjoint(own)
+        return alike > 1
+
+    def meanings(self, name: str, about: str) -> list[tuple[int, str]]:
+        """What a name may mean, with how well it is told: 3 by words, 2 by a part of them, 1 by a single sign."""
+        own, said = _word_list(name), _word_list(about)
+        tail = _word_list(name.rpartition(OF)[2])
+        found: dict[str, int] = {}
+        for phrase, meaning in self.phrases:
+            rank, whole = 0, "".join(phrase)
+            if whole in ("".join(own), "".join(tail)):
+                rank = 3 if len(whole) > 2 else 1
+            elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):
+                rest = own[: -len(phrase)] if own[-len(phrase) :] == phrase else own[len(phrase) :]
+                rank = 2 if all(len(w) == 1 or w in _QUALIFIERS for w in rest) else 0
+            if len(phrase) > 1 and len(whole) > 4 and _stands_in(phrase, said):
+                rank = max(rank, 4)
+            if rank > found.get(meaning, 0):
+                found[meaning] = rank
+        return sorted(((r, m) for m, r in found.items()), reverse=True)
+
+    def meaning(self, name: str, about: str) -> tuple[int, str]:
+        """The one thing that a name means; empty where it means none or several alike."""
+        if (name, about) not in self.known:
+            ranked = self.meanings(name, about)
+            several = len(ranked) > 1 and ranked[0][0] == ranked[1][0]
+            self.known[name, about] = ranked[0] if ranked and not several else (0, "")
+        return self.known[name, about]
+
+
+_QUALIFIERS = {"m", "c", "0", "1", "2", "rad", "deg", "cyl", "engine", "geom", "mm", "cm", "inst", "piston", "i"}
+
+
+def _stands_in(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
+    n = len(phrase)
+    return any(said[i : i + n] == phrase for i in range(min(6, len(said) - n + 1)))
+
+
+def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
+    """A claim in a theory's letters; None where a name in it means nothing there."""
+    theory = vocabulary.theory
+    rank, called = _called(claim, vocabulary)
+    tree, meanings, strong = claim.tree, {}, 0
+    for _ in range(12):
+        put_in = {}
+        for letter in letters(tree):
+            if letter in meanings or letter == "pi":
+                continue
+            told, meaning = vocabulary.meaning(base(letter), claim.abouts.get(base(letter), ""))
+            if meaning and base(meaning) not in called:
+                meanings[letter] = meaning
+                strong += told > 1
+            elif letter in claim.values:
+                put_in[letter] = claim.values[letter]
+            else:
+                return None
+        if not put_in:
+            break
+        whole = inlined(tree, put_in, keep={k: 1 for k in claim.values if k not in put_in})
+        if whole is None:
+            return None
+        tree = whole
+    used = [k for k in letters(tree) if k != "pi"]
+    meanings = {k: v for k, v in meanings.items() if k in used}
+    if len(set(meanings.values())) < len(used) or len(used) < 2:
+        return None
+    meanings = {k: _in_degrees(k, v, tree, theory) for k, v in meanings.items()}
+    return Fitted(
+        theory=theory, claim=claim, tree=tree, meanings=meanings, quantities=called if rank else (), strong=strong
+    )
+
+
+def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
+    # quantities that the name or the comment of a claim says
+    about = claim.about if claim.name != "return" else f"{claim.scope} {claim.about}"
+    name = claim.scope if claim.name == "return" else claim.name
+    ranked = [(r, m) for r, m in vocabulary.meanings(name, about) if m in vocabulary.theory.tape]
+    best = ranked[0][0] if ranked else 0
+    return best, [m for r, m in ranked if r == best]
+
+
+def _in_degrees(letter: str, meaning: str, tree: Node, theory: Theory) -> str:
+    # theta*pi/180 says that theta counts degrees
+    if meaning != theory.angle:
+        return meaning
+    for _, node in trees.walk(tree):
+        if isinstance(node, ast.BinOp) and letters(node) and set(letters(node)) <= {letter, "pi"}:
+            numbers = [trees.value_of(n) for _, n in trees.walk(node) if isinstance(n, ast.Constant)]
+            if letter in letters(node) and 180 in numbers:
+                return f"{meaning}*180/pi"
+    return meaning
+
+
+def formula(fitted: Fitted) -> Formula:
+    """A fit as the auditor's formula. Raises BadInput."""
+    theory = fitted.theory
+    renamed = {k: safe(k) for k in letters(fitted.tree) if k != "pi"}
+    tree = trees.substitute(
+        fitted.tree, lambda n: trees.name(renamed.get(n.id, n.id)) if isinstance(n, ast.Name) else None
+    )
+    trees.check(tree)
+    own = {renamed[k]: read_expression(v, [*known(theory), "pi"], theory.tape)[0] for k, v in fitted.meanings.items()}
+    return Formula(tree=tree, letters=own)
+
+
+def safe(letter: str) -> str:
+    """A program's name as a letter that a formula may hold."""
+    plain = letter.replace("__v", "_").replace("__w", "_").replace(OF, "_").strip("_") or "x"
+    return f"{plain}_own" if plain in RESERVED or plain in ("lambda", "in", "is", "if", "as", "or") else plain
+
+
+@record
+class Nearness:
+    """Numbers of a formula beside those of a quantity, at random states."""
+
+    away: float  #: Largest difference by the quantity's largest size [-]
+    ratio: float | None  #: Where the formula is the quantity times one number [-]
+    shift: bool  #: Whether it is the quantity, of either sign, but for what does not turn
+
+
+class States:
+    """Random states of a theory, and turns of its angle from four of them, with the values of its names as needed."""
+
+    def __init__(self, theory: Theory) -> None:
+        self.theory = theory
+        question = Question(formula=Formula(tree=trees.number(1)), theory=theory, quantity=theory.results[-1])
+        draws = float_values(drawn(question, _POINTS, seed=5))
+        self.random: dict[str, Values] = {"pi": np.pi, **draws}
+        few = float_values(drawn(question, _TURNS, seed=6))
+        turned = {k: np.repeat(v, _STEPS) for k, v in few.items()}
+        if theory.angle:
+            turned[theory.angle] = np.tile(np.linspace(0.3, 5.9, _STEPS), _TURNS)
+        self.turned: dict[str, Values] = {"pi": np.pi, **turned}
+
+    def values(self, at: dict[str, Values], form: Formula, quantity: str) -> tuple[np.ndarray, np.ndarray]:
+        """Numbers of a formula and of a quantity at states. Raises BadInput and ArithmeticError."""
+        count = len(next(v for k, v in at.items() if k != "pi"))
+        with np.errstate(all="ignore"):
+            complete(self.theory, at, [quantity, *used_names(form)], FLOATS)
+            own = {k: evaluate(tree, at, FLOATS) for k, tree in form.letters.items()}
+            printed = evaluate(form.tree, {**at, **own}, FLOATS)
+        both = (np.asarray(v, dtype=float) for v in (printed, at[quantity]))
+        return tuple(np.broadcast_to(v, (count,)) for v in both)  # type: ignore[return-value]
+
+
+def compared(form: Formula, states: States, quantity: str) -> Nearness | None:
+    """A formula's numbers beside a quantity's; None where there are none."""
+    try:
+        printed, expected = states.values(states.random, form, quantity)
+        turns = states.values(states.turned, form, quantity) if states.theory.angle else None
+    except (BadInput, ArithmeticError, ValueError, KeyError, RecursionError):
+        return None
+    good = np.isfinite(expected) & np.isfinite(printed)
+    if np.count_nonzero(good) < _POINTS // 2 or not np.any(expected[good]):
+        return None
+    p, e = printed[good], expected[good]
+    with np.errstate(all="ignore"):
+        ratios = p / e
+    middle = float(np.median(ratios))
+    constant = bool(np.all(np.abs(ratios - middle) <= _SAME * (1 + abs(middle)))) and middle != 0
+    away = min(float(np.max(np.abs(p - e))), float(np.max(np.abs(p + e)))) / float(np.max(np.abs(e)))
+    return Nearness(away=away, ratio=middle if constant else None, shift=turns is not None and _shifted(*turns))
+
+
+def _shifted(printed: np.ndarray, expected: np.ndarray) -> bool:
+    # counted from another place: the difference does not change with the angle
+    if not np.all(np.isfinite(printed)) or not np.all(np.isfinite(expected)):
+        return False
+    moves = np.ptp(expected.reshape(_TURNS, _STEPS), axis=1)
+    rests = [np.ptp((printed - sign * expected).reshape(_TURNS, _STEPS), axis=1) for sign in (1, -1)]
+    return bool(np.all(moves > 0)) and any(bool(np.all(rest <= _SAME * moves)) for rest in rests)
+
+
+def of_units(ratio: float | None) -> bool:
+    """Whether two numbers differ by units or by sign alone."""
+    return ratio is not None and any(abs(ratio / u - 1) < 1e-5 for u in _UNITS)
+
+
+def nearest(fitted: Fitted, form: Formula, states: States) -> Iterator[tuple[float, str]]:
+    """Quantities whose numbers a formula comes near to, the nearest first."""
+    theory = fitted.theory
+    used = {m for t in form.letters.values() for m in letters(t)}
+    near = []
+    for quantity in theory.results:
+        needed = dependencies(theory, [quantity])
+        if quantity in used or not used & needed or isinstance(theory.tape[quantity], tuple):
+            continue
+        if (met := compared(form, states, quantity)) is not None:
+            near.append((0.0 if of_units(met.ratio) or met.shift else met.away, quantity))
+    yield from sorted(near)

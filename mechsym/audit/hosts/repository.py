@@ -1,0 +1,322 @@
+"""A repository audits itself: every formula of every program against what fits its names, and against itself."""
+
+import ast
+import hashlib
+import os
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field
+from functools import cache
+from pathlib import Path
+
+from mechsym.audit.hosts.fit import Fitted, Lexicon, States, compared, fit, formula, nearest, of_units, safe
+from mechsym.audit.judge.asked import Asked
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, inlined, read_program, text_of
+from mechsym.audit.read.programs.statements import OF
+from mechsym.audit.read.reader import Formula
+from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.row import Row, answer_or_why
+from mechsym.audit.theory.catalogue import named, shipped
+from mechsym.audit.theory.record import Letter, Theory
+from mechsym.audit.theory.tape import TheoryTape, derivative
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+_LEFT_OUT = {
+    ".git",
+    "node_modules",
+    ".venv",
+    "venv",
+    "__pycache__",
+    "build",
+    "dist",
+    "third_party",
+    ".tox",
+    "site-packages",
+}
+_NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
+_MOST_FILES = 20_000
+
+
+@record
+class File:
+    """What became of one file."""
+
+    path: str
+    why: str = ""  #: It was not read; empty where it was
+    scopes: int = 0
+    assigned: int = 0
+    formulas: int = 0
+    matched: int = 0
+    judged: int = 0
+    rows: Sequence[Row] = field(default_factory=tuple)
+
+
+def programs(place: Path) -> list[Path]:
+    """The files under a folder that are programs; a file itself."""
+    if place.is_file():
+        return [place]
+    if not place.is_dir():
+        raise BadInput(f"--code {place}: there is no such file or folder")
+    files = []
+    for folder, below, names in os.walk(place):
+        below[:] = sorted(d for d in below if d not in _LEFT_OUT and not d.startswith("."))
+        files += [Path(folder) / n for n in sorted(names) if Path(n).suffix.lower() in ENDS]
+    if not files:
+        raise BadInput(f"--code {place}: there is no program in it; files that are read end in {', '.join(ENDS)}")
+    if len(files) > _MOST_FILES:
+        raise BadInput(f"--code {place}: {len(files)} programs, at most {_MOST_FILES} are read; name a folder of it")
+    return files
+
+
+def audited(place: Path, asked: Asked, chosen: Sequence[Path]) -> Iterator[File]:
+    """Every chosen program of a folder, read and judged."""
+    root = place if place.is_dir() else place.parent
+    for path in chosen:
+        shown = path.relative_to(root).as_posix()
+        try:
+            reading = read_program(text_of(path), path.suffix.lower())
+        except BadInput as error:
+            yield File(path=shown, why=str(error))
+            continue
+        yield _judged(shown, reading, asked)
+
+
+@cache
+def _vocabularies(theory: str, case: str) -> tuple[Lexicon, ...]:
+    chosen = [named(Path(theory).stem, case, theory)] if theory else [named(one, case) for one in shipped()]
+    return tuple(Lexicon(one) for one in chosen)
+
+
+def _judged(shown: str, reading: Reading, asked: Asked) -> File:
+    matched = judged = 0
+    rows = []
+    claims = [c for c in reading.claims if len(letters(c.tree)) > 1]
+    words = {base(k) for c in reading.claims for k in (*letters(c.tree), c.name)}
+    vocabularies = [v for v in _vocabularies(asked.theory, asked.case) if v.touches(words)]
+    for claim in claims:
+        outcome = _outcome(claim, vocabularies)
+        own = _pair(claim, claims)
+        matched += outcome is not None or own is not None
+        judged += bool(outcome and outcome["verdict"] != "") or bool(own)
+        for row in (outcome, own):
+            if row is not None and row["verdict"] in ("misprint", "factor", "derivative"):
+                rows.append(_placed(row, claim, shown))
+    for claim, row in _slopes(reading):
+        matched, judged = matched + 1, judged + 1
+        if row["verdict"] == "derivative":
+            rows.append(_placed(row, claim, shown))
+    return File(
+        path=shown,
+        scopes=len(reading.names),
+        assigned=reading.assigned,
+        formulas=len(claims),
+        matched=matched,
+        judged=judged,
+        rows=rows,
+    )
+
+
+def _placed(row: Row, claim: Claim, shown: str) -> Row:
+    printed = f"{base(claim.name).replace(OF, chr(46))} = {_shown(claim.tree)}"
+    told = "|".join([shown, claim.scope, claim.name, row["claim"], printed])
+    return row | {
+        "file": shown,
+        "line": claim.line,
+        "scope": claim.scope,
+        "equation": claim.name,
+        "printed": printed,
+        "fingerprint": hashlib.sha256(told.encode()).hexdigest()[:24],
+    }
+
+
+def _shown(tree: Node) -> str:
+    return re.sub(r"__[vw]\d+", "", to_python(tree)).replace(OF, ".")
+
+
+def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
+    """The best of what theories say of a claim: it agrees with one, or it is a slip away from just one."""
+    doubts: list[tuple[float, Fitted, Formula, str]] = []
+    matched = False
+    for vocabulary in vocabularies:
+        fitted = fit(claim, vocabulary)
+        if fitted is None:
+            continue
+        try:
+            form = formula(fitted)
+        except BadInput:
+            continue
+        matched = True
+        for away, quantity in _met(fitted, form, vocabulary.states):
+            if away == 0.0:
+                return {"verdict": "agrees", "claim": f"{fitted.theory.name}.{quantity}"}
+            doubts.append((away, fitted, form, quantity))
+    if not matched:
+        return None
+    doubts = [d for d in doubts if _told_enough(d[0], d[1], d[3])]
+    doubts.sort(key=lambda d: (not d[1].quantities, d[0]))
+    for away, fitted, form, quantity in doubts[:2]:
+        row = _slip(away, fitted, form, quantity)
+        if row is not None:
+            return row
+    return {"verdict": "", "claim": ""}
+
+
+def _met(fitted: Fitted, form: Formula, states: States) -> Iterator[tuple[float, str]]:
+    seen = set()
+    for quantity in fitted.quantities:
+        met = compared(form, states, quantity)
+        if met is not None:
+            seen.add(quantity)
+            right = of_units(met.ratio) or met.shift
+            yield (0.0 if right else max(met.away, 1e-9)), quantity
+    if fitted.strong and len(fitted.meanings) > 1 and (len(fitted.meanings) > 2 or seen):
+        for away, quantity in nearest(fitted, form, states):
+            if quantity not in seen and (away == 0.0 or not fitted.quantities):
+                yield away, quantity
+
+
+def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
+    many, strong = len(fitted.meanings), fitted.strong
+    if quantity in fitted.quantities:
+        return many == strong or many > 4 and strong > 1 or away <= _NEAR and many > 2 and strong > 0
+    return away <= _NEAR and many > 2 and strong > 1
+
+
+def _slip(away: float, fitted: Fitted, form: Formula, quantity: str) -> Row | None:
+    # a formula that one slip takes away from a quantity
+    theory = fitted.theory
+    own = {safe(k): v for k, v in fitted.meanings.items()}
+    asked = Asked(
+        text=to_python(form.tree),
+        against=f"{theory.name}.{quantity}",
+        letters=own,
+        name=fitted.claim.name,
+        hidden="noted",
+        given=theory,
+    )
+    row = answer_or_why(asked)
+    if row["verdict"] in ("exact", "truncation", "convention"):
+        return row | {"verdict": "agrees"}
+    named_so = quantity in fitted.quantities
+    if row["verdict"] == "misprint" and (named_so or _is_local(row)):
+        return _renamed(row, fitted) | {"letters": {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}}
+    return None
+
+
+def _renamed(row: Row, fitted: Fitted) -> Row:
+    # the program's own names again
+    names = {safe(k): base(k).replace(OF, ".") for k in fitted.meanings if safe(k) != k}
+    if not names:
+        return row
+    pattern = re.compile(rf"\b(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})\b")
+    texts = {k: pattern.sub(lambda m: names[m[0]], row[k]) for k in ("correction", "note") if row[k]}
+    return row | texts
+
+
+def _is_local(row: Row) -> bool:
+    # a step on the way to a quantity lacks a term or a factor: that is no slip
+    return not re.search(r"repaired by (?:left out|lost|missing|term)", row["note"])
+
+
+_SLOPE = re.compile(
+    r"^(?:d_?(?P<of>\w+?)_?d_?(?P<by>\w+)|(?:d_|d|deriv_|grad_)(?P<f>\w+)|(?P<g>\w+?)_?(?:prime|deriv|derivative))$"
+)
+
+
+def _pair(claim: Claim, claims: Sequence[Claim]) -> Row | None:
+    """What a name like dV_dtheta says: the derivative of V, which stands in the same scope."""
+    match = _SLOPE.match(claim.name)
+    if match is None or not match["of"]:
+        return None
+    of = [c for c in claims if c.scope == claim.scope and c.name == match["of"]]
+    if len(of) != 1 or of[0].case != claim.case:
+        return None
+    whole, slope = inlined(of[0].tree, of[0].values), inlined(claim.tree, claim.values)
+    if whole is None or slope is None:
+        return None
+    by = [k for k in letters(whole) if base(k) == match["by"]]
+    if len(by) != 1 or not set(letters(slope)) <= set(letters(whole)):
+        return None
+    return _derived(whole, slope, by[0], claim.name, match["of"])
+
+
+def _slopes(reading: Reading) -> Iterator[tuple[Claim, Row]]:
+    """Functions of one letter that are called the derivative of another function."""
+    for claim in reading.claims:
+        match = _SLOPE.match(claim.scope) if claim.name == "return" else None
+        of = (match["f"] or match["g"] or "") if match else ""
+        if of not in reading.functions or claim.scope not in reading.functions:
+            continue
+        (parameters, whole), (again, slope) = reading.functions[of], reading.functions[claim.scope]
+        if len(parameters) != 1 or len(again) != 1:
+            continue
+        named_alike = _with_name(slope, again[0], parameters[0])
+        if set(letters(named_alike)) <= set(letters(whole)) and parameters[0] in letters(named_alike):
+            row = _derived(whole, named_alike, parameters[0], claim.scope, of)
+            if row is not None:
+                yield claim, row
+
+
+def _with_name(tree: Node, old: str, new: str) -> Node:
+    return trees.substitute(tree, lambda n: trees.name(new) if isinstance(n, ast.Name) and n.id == old else None)
+
+
+def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | None:
+    free = {safe(k): Letter(unit="-", value=1.0) for k in letters(whole) if k != "pi"}
+    plain = trees.substitute(
+        whole, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
+    )
+    slope = trees.substitute(
+        slope, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
+    )
+    letter = safe(by)
+    if letter not in free:
+        return None
+    try:
+        rate = derivative(plain, lambda k: trees.number(int(k == letter)))
+        theory = Theory(
+            name="itself",
+            letters=free,
+            tape=TheoryTape({"of_itself": plain, "slope": rate}, free, "", declared=True),
+            results=("of_itself", "slope"),
+            data="the program itself",
+        )
+        trees.check(slope)
+        met = compared(Formula(tree=slope), States(theory), "slope")
+    except (BadInput, RecursionError):
+        return None
+    if met is None or of_units(met.ratio):
+        return None if met is None else {"verdict": "agrees", "claim": f"derivative of {of}"}
+    asked = Asked(text=to_python(slope), against="itself.slope", name=called, hidden="noted", given=theory)
+    row = answer_or_why(asked)
+    if row["verdict"] in ("exact", "truncation", "convention", "untestable"):
+        return row | {"verdict": "agrees"}
+    told = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"
+    return row | {
+        "verdict": "derivative",
+        "claim": f"the derivative of {of} by {base(by)}",
+        "note": f"{told}; {row['note']}",
+    }
+
+
+def findings(files: Sequence[File]) -> list[Row]:
+    """All findings, by file and line."""
+    return [row for one in files for row in sorted(one.rows, key=lambda r: r["line"])]
+
+
+def counts(files: Sequence[File]) -> Mapping[str, int]:
+    """How much was read, matched and judged."""
+    read = [f for f in files if not f.why]
+    return {
+        "files": len(files),
+        "read": len(read),
+        "scopes": sum(f.scopes for f in read),
+        "assignments": sum(f.assigned for f in read),
+        "formulas": sum(f.formulas for f in read),
+        "matched": sum(f.matched for f in read),
+        "judged": sum(f.judged for f in read),
+        "findings": sum(len(f.rows) for f in read),
+    }

@@ -1,0 +1,292 @@
+"""Claims of a program: each assigned name with its formula, and what the names in that formula stand for."""
+
+import ast
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field, replace
+from pathlib import Path
+
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.programs.grammars import GRAMMARS, read_grammar
+from mechsym.audit.read.programs.modelica import read_modelica
+from mechsym.audit.read.programs.python import read_python
+from mechsym.audit.read.programs.statements import Let, Opaque, ProgramText, Repeated, Scope, Spelled, Statement
+from mechsym.audit.read.tree import Node
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+ENDS = (".py", ".mo", *GRAMMARS)  #: Of the names of files that are read
+LONGEST = 1_000_000  #: Of a file [bytes]
+# before the number of a name's later values: changed with regard to the one before, or given in branches alone
+_AGAIN, _ANEW = "__v", "__w"
+
+
+@record
+class Claim:
+    """A name with its formula; names in it that got a value before stand in `values`."""
+
+    scope: str
+    name: str  #: `return` for what a function gives back
+    tree: Node
+    line: int
+    about: str  #: What a comment or a description says of it
+    case: int  #: Branches that it lies in
+    values: Mapping[str, Node] = field(default_factory=dict)
+    abouts: Mapping[str, str] = field(default_factory=dict)
+    parameters: Sequence[str] = ()
+
+
+@record
+class Reading:
+    """The claims of a file."""
+
+    names: Sequence[str]  #: Of its scopes
+    assigned: int  #: Assignments and returned values, numbers and what is no arithmetic among them
+    claims: Sequence[Claim]
+    functions: Mapping[str, tuple[tuple[str, ...], Node]]
+
+
+def base(letter: str) -> str:
+    """The name in the program of a letter in a claim."""
+    return letter.partition(_AGAIN)[0].partition(_ANEW)[0]
+
+
+def is_changed(letter: str) -> bool:
+    """Whether a letter is what a loop or a branch made of an earlier value."""
+    return _AGAIN in letter
+
+
+def text_of(path: Path) -> str:
+    """The text of a program, in UTF-8 or Latin-1. Raises BadInput."""
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise BadInput(f"{path} cannot be read: {error.strerror}") from None
+    if len(raw) > LONGEST:
+        raise BadInput(f"{path} has {len(raw)} bytes; at most {LONGEST} are read")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")
+    if "\0" in text:
+        raise BadInput(f"{path} is no text")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def read_program(text: str, suffix: str) -> Reading:
+    """The claims of a program text. Raises BadInput: the grammar is not there, or the text is not of its language."""
+    try:
+        if suffix == ".py":
+            program = read_python(text)
+        elif suffix == ".mo":
+            program = read_modelica(text)
+        else:
+            program = read_grammar(text, suffix)
+        return _reading(program)
+    except (RecursionError, MemoryError):
+        raise BadInput("nested too deep to be read") from None
+
+
+def _reading(program: ProgramText) -> Reading:
+    functions: dict[str, tuple[tuple[str, ...], Node]] = {}
+    abouts = {**_said(program.comments), **program.abouts}
+    for _ in range(2):  # functions of functions
+        for scope in program.scopes:
+            if body := _as_function(program, scope, functions):
+                functions[scope.name] = (tuple(scope.parameters), body)
+    claims: list[Claim] = []
+    globals_ = _Build(program, functions, abouts, program.scopes[0]) if program.scopes else None
+    for scope in program.scopes:
+        build = _Build(program, functions, abouts, scope)
+        if globals_ is not None and scope is not program.scopes[0]:
+            build.names.update({k: v for k, v in globals_.names.items() if k not in scope.parameters})
+            build.values.update(globals_.values)
+        build.run(scope.body, 0)
+        if scope is program.scopes[0]:
+            globals_ = build
+        claims += build.claims
+    assigned = sum(_count(scope.body) for scope in program.scopes)
+    return Reading(names=[s.name for s in program.scopes], assigned=assigned, claims=claims, functions=functions)
+
+
+def _count(body: Sequence[Statement]) -> int:
+    return sum(
+        1 if isinstance(s, Let) else _count(s.body) if isinstance(s, Repeated) else sum(map(_count, s.arms))
+        for s in body
+    )
+
+
+_TELLS = re.compile(
+    r"^[\s%#*!/<>@:.\-\\]*(?:param\w*\s+(?:\[\w+\]\s*)?)?([A-Za-z_]\w*)\s*(?:\([^()]*\))?\s*(?:\[[^\]]*\])?\s*[:=\-]+\s*(\S.{2,90})"
+)
+
+
+def _said(comments: Mapping[int, str]) -> dict[str, str]:
+    # theta: crank angle [deg]
+    said: dict[str, str] = {}
+    for line in comments.values():
+        if match := _TELLS.match(line):
+            said.setdefault(match[1], match[2])
+    return said
+
+
+def _as_function(
+    program: ProgramText, scope: Scope, functions: Mapping[str, tuple[tuple[str, ...], Node]]
+) -> Node | None:
+    # what a call stands for, where a scope is straight to its one value
+    if not scope.name or not scope.parameters or not scope.body or not all(isinstance(s, Let) for s in scope.body):
+        return None
+    build = _Build(program, functions, {}, scope)
+    build.run(scope.body, 0)
+    last = scope.body[-1]
+    if not isinstance(last, Let) or not build.claims or build.claims[-1].line != last.line:
+        return None
+    if last.name != "return" and not program.curved:
+        return None
+    if last.name != "return" and sum(isinstance(s, Let) for s in scope.body) > 3:
+        return None
+    whole = inlined(build.claims[-1].tree, build.values)
+    return whole if whole is not None and not any(base(k) != k for k in trees.letters(whole)) else None
+
+
+def inlined(tree: Node, values: Mapping[str, Node], keep: Mapping[str, object] | None = None) -> Node | None:
+    """A formula with the values of its names put in, but for those to keep; None where it grows too large."""
+    size = 0
+
+    def change(node: Node) -> Node | None:
+        nonlocal size
+        size += 1
+        if size > trees.MAX_NODES:
+            raise Opaque
+        if isinstance(node, ast.Name) and node.id in values and node.id not in (keep or {}):
+            return trees.substitute(values[node.id], change)
+        return None
+
+    try:
+        return trees.substitute(tree, change)
+    except (Opaque, RecursionError):
+        return None
+
+
+class _Build:
+    """The statements of one scope gone through, with what each name stands for at the time."""
+
+    def __init__(
+        self,
+        program: ProgramText,
+        functions: Mapping[str, tuple[tuple[str, ...], Node]],
+        abouts: Mapping[str, str],
+        scope: Scope,
+    ) -> None:
+        self.program, self.scope, self.abouts = program, scope, dict(abouts)
+        self.spelled = Spelled(curved=program.curved, functions=functions)
+        self.names: dict[str, str] = {}
+        self.values: dict[str, Node] = {}
+        self.claims: list[Claim] = []
+        self.counts: dict[str, int] = {}
+
+    def run(self, body: Sequence[Statement], case: int) -> None:
+        """Go through statements."""
+        for statement in body:
+            if isinstance(statement, Let):
+                self._let(statement, case)
+            elif isinstance(statement, Repeated):
+                self._loop(statement, case)
+            else:
+                before = dict(self.names)
+                for arm in statement.arms:
+                    self.names = dict(before)
+                    self.run(arm, case + 1)
+                self.names = before
+                lets = [let for arm in statement.arms for let in _lets(arm)]
+                again = {*before, *self.scope.parameters, *(let.name for let in lets if _uses_itself(let))}
+                for name in sorted({let.name for let in lets}):
+                    self._fresh(name, _AGAIN if name in again else _ANEW)
+
+    def _loop(self, loop: Repeated, case: int) -> None:
+        seen: set[str] = set()
+        carried = set()
+        for let in _lets(loop.body):
+            carried |= _used(let) - seen
+            seen.add(let.name)
+        again = sorted({let.name for let in _lets(loop.body)} & carried)
+        for name in again:
+            self._fresh(name)
+        kept = self.spelled
+        self.spelled = replace(kept, indices=kept.indices | {loop.index})
+        self.run(loop.body, case)
+        self.spelled = kept
+        for name in again:
+            self._fresh(name)
+
+    def _fresh(self, name: str, mark: str = _AGAIN) -> str:
+        count = self.counts[name] = self.counts.get(name, 0) + 1
+        known = name in self.names or count > 1
+        self.names[name] = f"{name}{mark}{count}" if known or name in self.values else name
+        return self.names[name]
+
+    def _let(self, let: Let, case: int) -> None:
+        try:
+            tree = self.spelled.tree(let.value) if let.value is not None else None
+            if tree is not None:
+                trees.check(tree)
+        except (Opaque, BadInput, RecursionError):
+            tree = None
+        if tree is not None:
+            tree = trees.substitute(
+                tree, lambda n: trees.name(self.names[n.id]) if isinstance(n, ast.Name) and n.id in self.names else None
+            )
+        about = self._about(let)
+        if let.name == "return":
+            if tree is not None:
+                self._claim(let, tree, about or self.scope.name, case)
+            return
+        letter = self._fresh(let.name)
+        if about:
+            self.abouts.setdefault(let.name, about)
+        if tree is None or letter in trees.letters(tree):
+            return
+        if trees.letters(tree) and trees.letters(tree) != ("pi",):
+            self._claim(let, tree, about or self.abouts.get(let.name, ""), case)
+        self.values[letter] = tree
+
+    def _about(self, let: Let) -> str:
+        comments, alone = self.program.comments, self.program.alone
+        if let.line in comments and let.line not in alone:
+            return comments[let.line]
+        return comments[let.line - 1] if let.line - 1 in alone else ""
+
+    def _claim(self, let: Let, tree: Node, about: str, case: int) -> None:
+        self.claims.append(
+            Claim(
+                scope=self.scope.name,
+                name=let.name,
+                tree=tree,
+                line=let.line,
+                about=about,
+                case=case,
+                values=self.values,
+                abouts=self.abouts,
+                parameters=self.scope.parameters,
+            )
+        )
+
+
+def _used(let: Let) -> set[str]:
+    # without a value it is changed in place
+    return {n.id for n in ast.walk(let.value) if isinstance(n, ast.Name)} if let.value is not None else {let.name}
+
+
+def _uses_itself(let: Let) -> bool:
+    return let.name in _used(let)
+
+
+def _lets(body: Sequence[Statement]) -> Iterator[Let]:
+    for statement in body:
+        if isinstance(statement, Let):
+            yield statement
+        elif isinstance(statement, Repeated):
+            yield from _lets(statement.body)
+        else:
+            for arm in statement.arms:
+                yield from _lets(arm)
