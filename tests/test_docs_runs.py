@@ -61,6 +61,13 @@ def test_examples_that_take_longer_print_what_their_pages_show(walks):
     assert [li for li, ls in heavy.items() if not agree(walks.answered(ls), pages.printed(li).partition("\n")[2])] == []
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("page", ["engine", pytest.param("codesign", marks=pytest.mark.heavy)])
+def test_what_the_prose_of_a_page_quotes_is_what_its_commands_print(page, walks):
+    kept = walks.quoted(page)
+    assert [line for line in kept if not agree(walks.answered((line,)), kept[line])] == []
+
+
 def test_texts_agree_by_words_and_digits():
     assert agree("ripple 2.001 % at 60 rpm", "ripple 2.0 %  at 60 rpm") and agree("left 1e-12 J", "left 3e-13 J")
     assert not agree("ripple 2.1 % at 60 rpm", "ripple 2.0 % at 60 rpm")

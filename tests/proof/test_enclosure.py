@@ -4,6 +4,7 @@ import dataclasses
 import itertools
 import json
 import math
+import re
 import sys
 from fractions import Fraction
 from pathlib import Path
@@ -213,6 +214,19 @@ def test_the_statement_is_about_the_window():
     assert "from 1 to 2 s" in found.statement and "never in steady" not in found.statement  # the claim is of 90 s
     assert found.mean_least["phi0d"][1] <= 0.8921567534505 <= found.mean_largest["phi0d"][1]
     assert json.dumps(found.lower["phi0"]) and math.isfinite(found.digits)
+
+
+@pytest.mark.slow
+@pytest.mark.heavy
+def test_the_page_says_what_the_whole_proof_says():
+    root = Path(__file__).parents[2]
+    if not (root / "build/proof/proof.json").is_file():
+        pytest.skip("make proof writes build/proof/proof.json")
+    page, case = (root / "docs/proof.md").read_text(encoding="utf-8"), cases.load("chmielewski")
+    proven = motion_of(case, out=root / "build/proof", window=(55.0, 93.0))
+    bounds = [n for interval in re.findall(r"\[(.*?)\]", proven.statement) for n in interval.split(", ")]
+    assert len(bounds) == 4 and [n for n in bounds if n not in page] == []
+    assert f"{proven.steps:,} steps" in page and f"near {proven.upper['phi0'][-1]:.0f} rad" in page
 
 
 @pytest.mark.slow
