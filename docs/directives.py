@@ -26,7 +26,7 @@ _SCROLL = '<div class="equation">{}</div>'
 
 def mathml(latex: str, display: str = "block") -> str:
     """A formula as MathML; lines that are aligned keep their places."""
-    text = " ".join(latex.split()).replace(r"\arg", r"\mathrm{arg}")
+    text = " ".join(latex.split()).replace(r"\arg", r"\mathrm{arg}").replace("{aligned}", "{align*}")
     if "&" in text or r"\\" in text:
         text = text if r"\begin" in text else rf"\begin{{align*}}{text}\end{{align*}}"
     # a backslash before a space is a space, two are the end of a line

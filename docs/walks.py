@@ -33,7 +33,6 @@ QUOTED = {
     "codesign": (
         "codesign zotov-89 --ripple 2% --peers",
         "codesign zotov-89 --ripple 5% --peers",
-        "codesign zotov-89 --ripple 2% --losses inside",
         "codesign zotov-89 --ripple 2% --free spring.A,spring.H,guide.rho0",
         "codesign zotov-89 --ripple 0.2% --springs 2 --speeds 60,89,105,142",
         "codesign zotov-89 --ripple 2% --cylinders 12",

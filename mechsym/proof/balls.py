@@ -43,28 +43,31 @@ def outward(value: float, digits: int, up: bool = True) -> str:
     return f"{float(decimals.Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):g}"
 
 
-def _named(*names: str) -> dict[str, Callable[..., Ball]]:
+def _named(*names: str) -> dict[str, Callable[..., Any]]:
     return {name: methodcaller(name) for name in names}
 
 
-_EITHER = {
+Operators = dict[str, Callable[..., Any]]
+_EITHER: Operators = {
     "add": add, "sub": sub, "mul": mul, "div": truediv, "neg": neg,
-    "inv": lambda a: 1 / a, "sq": lambda a: a * a, "twice": lambda a: a + a,
-} | _named("sin", "cos", "tan", "exp")  # fmt: skip
+    "inv": lambda a: 1 / a, "sq": lambda a: a * a, "twice": lambda a: a + a, **_named("sin", "cos", "tan", "exp"),
+}  # fmt: skip
 #: Operators of the tape by what they do to Taylor series, to real balls, and to complex ones where they are analytic
-SERIES = _EITHER | _named("sqrt", "log") | {"pow": pow}
-REAL = SERIES | _named("sinh", "cosh", "tanh", "atan", "asin", "acos")
-COMPLEX = _EITHER | _named("sinh", "cosh", "tanh") | {
+SERIES: Operators = {**_EITHER, **_named("sqrt", "log"), "pow": pow}
+REAL: Operators = {**SERIES, **_named("sinh", "cosh", "tanh", "atan", "asin", "acos")}
+COMPLEX: Operators = {
+    **_EITHER,
+    **_named("sinh", "cosh", "tanh"),
     "sqrt": methodcaller("sqrt", analytic=True),
     "log": methodcaller("log", analytic=True),
     "pow": lambda a, b: a.pow(b, analytic=True),
-}  # fmt: skip
+}
 
 
 def evaluate(tape: Tape, operators: Mapping[str, Callable[..., Ball]], inputs: Sequence[Ball]) -> list[Ball]:
     """The results of a program for balls; a place where it is not defined gives a ball that is not finite."""
     values: list[Ball] = []
-    rules = {**operators, "input": inputs.__getitem__, "constant": arb}
+    rules: Operators = {**operators, "input": inputs.__getitem__, "constant": arb}
     for op, args in tape.nodes:
         leaf = op in ("input", "constant")
         values.append(rules[op](*(args if leaf else [values[a] for a in args])))
