@@ -57,7 +57,7 @@ def front(result: CoDesignResult) -> Figure:
     ripples = np.array([100 * d.task.ripple for d in designs])
     words = {1: "one spring", 2: "two springs", 3: "three springs"}[result.design.task.springs]
     added = [factor * d.flywheel for d in designs]
-    axis.plot(ripples, added, "o-", color=BLUE, markersize=4, label=f"co-designed, {words}")
+    axis.plot(ripples, added, _through(ripples), color=BLUE, markersize=4, label=f"co-designed, {words}")
     wanted = 100 * result.design.task.ripple
     axis.plot([wanted], [factor * result.bare], "s", color=RED, label="without a hinge")
     if result.cut.flywheel is not None:
@@ -127,7 +127,7 @@ def points(result: CoDesignResult) -> Figure:
     left.set_ylim(0, 1.15 * left.get_ylim()[1])
     legend(left)
     for s, track in enumerate(design.tracks):
-        right.plot(speeds, track.p0 * factor, "o-", color=SERIES[s], markersize=4, label=f"spring {s + 1}")
+        right.plot(speeds, track.p0 * factor, _through(speeds), color=SERIES[s], markersize=4, label=f"spring {s + 1}")
     right.set(xlabel=f"speed [{rpm}]", ylabel=f"excess pressure p0 [{unit}]")
     right.set_ylim(bottom=0)
     legend(right)
@@ -237,6 +237,11 @@ def cylinders(rows: list[Count]) -> Figure:
 def _panels(count: int, title: str) -> tuple[Figure, list[Axes]]:
     figure, axes = panels(9 if count == 2 else 6, 3.9, 1, count, title)
     return figure, list(axes)
+
+
+def _through(values: np.ndarray) -> str:
+    """Points joined by lines; two make no curve."""
+    return "o-" if len(values) > 2 else "o"
 
 
 def _speed(omega: float) -> str:

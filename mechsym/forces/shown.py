@@ -148,7 +148,7 @@ def html(
     scenes: Sequence[Json] = (),
 ) -> str:  # fmt: skip
     """The page as text."""
-    rows = [row | {"at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(result)]
+    rows = [row | {"quantity": named(row), "at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(result)]
     see = {picture.name: picture.see for picture in result.view.pictures}
     largest = max(abs(value) for value in numbers["max"].values())
     return page(
@@ -176,8 +176,15 @@ _BEARS = {
     "knuckle_force": "knuckle pin, from the rod that carries it",
     "journal": "journal of the planet or slider", "X_": "guide of the slider",
 }  # fmt: skip
+_LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "F b": "gas force F_b"}
 _RAW = re.compile(r"_force_[xy](_|$)")
 _NUMBERED = re.compile(r"(_|^F)(\d+)(?=_|$)")
+
+
+def named(row: Json) -> str:
+    """A load's name as people say it; which cylinders it is of stands beside it."""
+    name = row["quantity"].replace("_", " ").replace("*", "").replace("  ", " ").strip()
+    return _LETTERS.get(name, name)
 
 
 def borne(forces: Forces) -> list[Json]:

@@ -1,6 +1,7 @@
 """The picture of a sweep: lines over one axis, maps over two, histograms and scatter for samples; gaps are marked."""
 
 import functools
+import textwrap
 from collections.abc import Mapping
 
 import numpy as np
@@ -20,6 +21,7 @@ from mechsym.sweep.data import indices
 
 _MOST = 6  # panels
 _LONGEST = 44  # letters that stand at an axis
+_WIDE = 32  # letters of a line beside an axis
 _FEW = 4  # values of an axis that are drawn as lines of their own
 _COUNTS = 12  # steps of a count that is drawn with whole numbers
 _TRUTHS = ("feasible", "met", "kept", "holds", "converged", "proven")  # 1 is yes
@@ -69,7 +71,8 @@ def caption(result: Sweep) -> str:
     for name, column in _shown(result).items():
         values, label = _scaled(name, column[np.isfinite(column)], result.units[name])
         words, _, unit = label.removesuffix("]").partition(" [")
-        ends = " to ".join(figure(float(end(values)), 4) for end in (np.min, np.max)) + f" {unit}".removesuffix(" -")
+        ends = " to ".join(dict.fromkeys(figure(float(end(values)), 4) for end in (np.min, np.max)))
+        ends += f" {unit}".removesuffix(" -")
         truth = f": yes at {int(values.sum())} of {values.size}"
         told.append(words + (truth if _truth(name, column) else f" {ends}"))
     return "; ".join(told) + "." if told else ""
@@ -186,7 +189,7 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
         if _changes_sign(values):
             axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_xlabel(across)
-        axis.set_ylabel(told)
+        axis.set_ylabel(textwrap.fill(told, _WIDE))
         _places(axis.yaxis, name, column)
     if other is not None:
         handles, labels = axes[0].get_legend_handles_labels()
