@@ -72,10 +72,10 @@ def rodless():
 
     # the link turns at -alpha: against the sliders once, on the crank pin twice
     m.guide("side_force_a", reaction="X_a", travel=x_a, at="guides")
-    m.guide("side_force_b", reaction="X_b", travel=x_b, at="guides")
-    for axis in "ab":
+    m.guide("side_force_b", reaction="X_b", travel=x_b, at="guides", way=0)
+    for axis, ways in (("a", ()), ("b", (pi / 2, 0))):
         across = (f"journal_force_{axis}_along", f"journal_force_{axis}_across")
-        m.bearing(f"journal_{axis}", reactions=across, turns=(alpha,), at="piston_pins")
+        m.bearing(f"journal_{axis}", reactions=across, turns=(alpha,), at="piston_pins", ways=ways)
     m.bearing("crank_pin", reactions=("pin_force_x", "pin_force_y"), turns=(alpha, alpha), at="crank_pins", throw=r)
     m.bearing(
         "main_bearing", reactions=("main_bearing_force_x", "main_bearing_force_y"), turns=(alpha,), at="main_bearings"

@@ -6,6 +6,7 @@ import os
 import re
 import runpy
 import shlex
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -130,16 +131,45 @@ def test_messages_have_their_way_out(pages):
     assert len(rows) > 300 and sum(bool(way.strip()) for _, way in rows) > 0.6 * len(rows)
 
 
-@pytest.mark.slow
-def test_the_site_builds_without_a_warning_and_is_all_local(tmp_path):
-    pytest.importorskip("sphinx")
-    pytest.importorskip("furo")
-    pytest.importorskip("myst_parser")
-    command = [sys.executable, "-m", "sphinx", "-W", "-q", "-b", "html", str(DOCS), str(tmp_path)]
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The pages of the site, built."""
+    for extra in ("sphinx", "furo", "myst_parser"):
+        pytest.importorskip(extra)
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "sphinx", "-W", "-q", "-b", "html", str(DOCS), str(folder)]
     outside = {k: v for k, v in os.environ.items() if not k.startswith("PYTEST")}  # the workbench asks for it
     done = subprocess.run(command, capture_output=True, text=True, check=False, env=outside)
     assert done.returncode == 0 and not done.stderr, done.stderr
-    for page in tmp_path.rglob("*.html"):
+    return folder
+
+
+@pytest.mark.slow
+def test_a_machine_moves_on_the_first_screen_of_the_site_and_no_page_scrolls_sideways(site):
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    if (chromium := shutil.which("chromium") or shutil.which("chromium-browser")) is None:
+        pytest.skip("no chromium is installed")
+    pages = ["index.html", "start.html", "errata.html", "tasks.html", "tutorials/engine-designer.html"]
+    with playwright.sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        for width, height in ((1400, 900), (375, 812)):
+            tab = browser.new_page(viewport={"width": width, "height": height})
+            for page in reversed(pages):
+                tab.goto((site / page).as_uri())
+                assert tab.evaluate("document.documentElement.scrollWidth") <= width, page
+            picture = tab.locator("article img").first
+            box = picture.bounding_box()
+            assert box["y"] >= 0 and box["y"] + box["height"] <= height
+            first = picture.screenshot()
+            tab.wait_for_timeout(400)
+            assert picture.screenshot() != first
+            tab.close()
+        browser.close()
+
+
+@pytest.mark.slow
+def test_the_site_builds_without_a_warning_and_is_all_local(site):
+    for page in site.rglob("*.html"):
         text = page.read_text(encoding="utf-8")
         assert not re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=.https?://", text), page.name
         for link in re.findall(r'(?:href|src)="([^"#?:]+)["#?]', text):

@@ -14,7 +14,7 @@ from mechsym.hinge.limits import ALL_KEPT
 from mechsym.hinge.result import Design
 from mechsym.hinge.shown import of_design, scenes
 from mechsym.hinge.summary import guide_turn
-from mechsym.jobs.export import turning, with_gas
+from mechsym.jobs.export import loaded, turning
 from mechsym.jobs.hinge import hinge
 from mechsym.machine.loads import PropellerLoad
 from mechsym.mechanisms import plots
@@ -85,7 +85,7 @@ def hinge_answer(name: str, values: Mapping[str, float]) -> Answer:
         good=design.target.met, words=words, rows=_rows(design), doubts=doubts,
         bars=tuple(Bar(name=c.name, text=c.text, kept=c.kept, margin=c.margin) for c in verdict.checks),
         curves=_curves(design), findings=lambda: ranked(of_design(design)),
-        scenes=lambda: with_gas(scenes(design), case),
+        scenes=lambda: loaded(scenes(design), case),
         turns=round(design.hinge.period / (2 * math.pi)), ratio=design.guide.parameters.shaft_ratio,
     )  # fmt: skip
 

@@ -97,7 +97,6 @@ def _over_time(report: "DrivenNumbers") -> str:
 def _text(report: Json, found: "Forces", said: set[str]) -> str:
     from mechsym.forces.result import ComparedFriction, ComparedMechanism
     from mechsym.forces.shown import borne
-    from mechsym.papers.sources import sources
 
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm", ""]
     rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(found)]
@@ -123,6 +122,8 @@ def _text(report: Json, found: "Forces", said: set[str]) -> str:
         lines += ["", table(report["comparison"], shown, heads(ComparedMechanism) | heads(ComparedFriction))]
     lines += [f"note: {fact}" for fact in report["facts"] if fact.startswith(_SHOWN) and fact not in said]
     for row in report["claims"]:
+        from mechsym.papers.sources import sources
+
         authors = sources(row["source"])[0].title.partition(",")[0]
         lines.append(f"{row['verdict']}: {row['claim']} ({authors}); {row['note']}")
     return "\n".join(lines)

@@ -38,7 +38,7 @@ def _text(done: "Optimised") -> str:
     best, name = done.best, done.objective_name
     lines = [
         f"{best.status} ({best.reason}) after {best.iterations} iterations: {name} = {best.objective:.6g}",
-        *(f"{n} = {quantity_text(value, best.variables.units[n], 6)}" for n, value in best.variables.items()),
+        *(f"{key_words(n)} = {quantity_text(v, best.variables.units[n], 6)}" for n, v in best.variables.items()),
     ]
     for row in done.choices:
         words = ", ".join(f"{key} = {word}" for key, word in row.words.items())

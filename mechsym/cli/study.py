@@ -95,12 +95,13 @@ def study(
 def _told(one: "StudySweep", found: "Sweep", folder: Path | None) -> "StudiedSweep":
     """What a sweep gave, as numbers and as text, its files written."""
     from mechsym.sweep.data import StudiedSweep, numbers
+    from mechsym.sweep.plots import caption
 
     picture = "" if folder is None else picture_of(found, one.name)
     files = [] if folder is None else write(found, folder, picture)
     return StudiedSweep(
         name=one.name, about=one.about, over=one.plan.over, tied=one.plan.tied, points=len(found.points),
-        numbers=numbers(found, files), picture=picture, rows=rows_of(found),
+        numbers=numbers(found, files), picture=picture, see=caption(found) if picture else "", rows=rows_of(found),
     )  # fmt: skip
 
 

@@ -57,7 +57,7 @@ def front(result: CoDesignResult) -> Figure:
     ripples = np.array([100 * d.task.ripple for d in designs])
     words = {1: "one spring", 2: "two springs", 3: "three springs"}[result.design.task.springs]
     added = [factor * d.flywheel for d in designs]
-    axis.plot(ripples, added, "o-", color=BLUE, markersize=4, label=f"co-designed, {words}")
+    axis.plot(ripples, added, _through(ripples), color=BLUE, markersize=4, label=f"co-designed, {words}")
     wanted = 100 * result.design.task.ripple
     axis.plot([wanted], [factor * result.bare], "s", color=RED, label="without a hinge")
     if result.cut.flywheel is not None:
@@ -127,7 +127,7 @@ def points(result: CoDesignResult) -> Figure:
     left.set_ylim(0, 1.15 * left.get_ylim()[1])
     legend(left)
     for s, track in enumerate(design.tracks):
-        right.plot(speeds, track.p0 * factor, "o-", color=SERIES[s], markersize=4, label=f"spring {s + 1}")
+        right.plot(speeds, track.p0 * factor, _through(speeds), color=SERIES[s], markersize=4, label=f"spring {s + 1}")
     right.set(xlabel=f"speed [{rpm}]", ylabel=f"excess pressure p0 [{unit}]")
     right.set_ylim(bottom=0)
     legend(right)
@@ -149,17 +149,15 @@ def losses(result: CoDesignResult) -> Figure:
             axis.bar(places, values, bottom=below, color=color, label=kind, width=0.6)
         below = below + values
     axis.set_xticks(places, names)
-    axis.set(xlabel=f"speed [{rpm}], mean indicated pressure", ylabel="losses of the hinge [% of the load's torque]")
+    axis.set(xlabel=f"speed [{rpm}], mean indicated pressure", ylabel="losses of the hinge, of the load's torque [%]")
     legend(axis)
     return figure
 
 
-def scenarios(result: CoDesignResult) -> Figure | None:
-    """Speed over the turns of every scenario that was run, a panel each; None where there is none."""
+def scenarios(result: CoDesignResult) -> Figure:
+    """Speed over the turns of every scenario that was run, a panel each."""
     rows = [s for s in result.scenarios if s.run is not None]
     names = list(dict.fromkeys(s.name for s in rows))
-    if not names:
-        return None
     down = -(-len(names) // 3)
     figure, axes = panels(9, 2.3 * down, down, 3, "Speed over the turns of what may happen")
     for axis, name in zip(axes, names, strict=False):
@@ -180,10 +178,9 @@ def scenarios(result: CoDesignResult) -> Figure | None:
 _MARK = "#fefefe"  # over a range of colours, the same on dark paper
 
 
-def ripple_map(result: CoDesignResult) -> Figure | None:
-    """Ripple and best pressure over speed and load; None where they were not computed."""
-    if result.map is None:
-        return None
+def ripple_map(result: CoDesignResult) -> Figure:
+    """Ripple and best pressure over speed and load."""
+    assert result.map is not None
     figure, (left, right) = _panels(2, "Ripple and best pressure over speed and load")
     (turning, rpm), (factor, unit) = axis_unit("rad/s", result.map.omega), axis_unit("Pa", result.map.p0)
     pressing, pressure = axis_unit("Pa", result.map.load)
@@ -201,10 +198,9 @@ def ripple_map(result: CoDesignResult) -> Figure | None:
     return figure
 
 
-def spread(result: CoDesignResult) -> Figure | None:
-    """Ripple under small errors: histogram and tornado; None where they were not drawn."""
-    if result.spread is None:
-        return None
+def spread(result: CoDesignResult) -> Figure:
+    """Ripple under small errors: histogram and tornado."""
+    assert result.spread is not None
     figure, (left, right) = _panels(2, "Ripple under small errors")
     left.hist(100 * result.spread.samples, bins=24, color=BLUE)
     left.axvline(100 * result.spread.p95, color=RED, linewidth=1, label="19 of 20 keep this")
@@ -241,6 +237,11 @@ def cylinders(rows: list[Count]) -> Figure:
 def _panels(count: int, title: str) -> tuple[Figure, list[Axes]]:
     figure, axes = panels(9 if count == 2 else 6, 3.9, 1, count, title)
     return figure, list(axes)
+
+
+def _through(values: np.ndarray) -> str:
+    """Points joined by lines; two make no curve."""
+    return "o-" if len(values) > 2 else "o"
 
 
 def _speed(omega: float) -> str:

@@ -25,7 +25,10 @@ class CoDesignSettings:
     springs: float = quantity("-", default=1, low=1, high=3, about="guides with a spring and pressure of their own")
     schedule: str = choice("each_point", "one", default="each_point", about="pressures: set at each point, or one")
     losses: str = choice(
-        "by_case", *LOSSES, default="by_case", about="friction and heat in the programme; by_case: inside with [losses]"
+        "by_case",
+        *LOSSES,
+        default="by_case",
+        about="friction and heat in the programme; by case: inside with [losses]",
     )
     saving: float = quantity(
         "-", default=0.3, low=0, below=1, about="share of the bare flywheel that a hinge must save to be a design"

@@ -1,6 +1,7 @@
 """What of a co-design is worth seeing and has to be known first, and its files: one HTML page, tables, pictures."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -34,16 +35,56 @@ def codesign_view(found: CoDesignResult) -> View:
         Card(name="losses of the hinge", value=f"{figure(100 * float(max(shares)), 3)} %",
              about="of the load's torque at the worst point, with assumed friction"),
     )  # fmt: skip
-    drawn = (
-        Picture(name="points", see="Ripple by three ways, and the pressures to set.", draw=lambda: plots.points(found)),
-        Picture(name="guides", see="Paths of the roller centres, and how the springs close.",
-                draw=lambda: plots.guides(found)),
-        Picture(name="front", see="Flywheel over the ripple, beside the estimate.", draw=lambda: plots.front(found)),
-        Picture(name="works", see="Works that the points want: nearly one curve.", draw=lambda: plots.works(found)),
-        Picture(name="losses", see="What friction and heat take.", draw=lambda: plots.losses(found)),
+    return View(
+        title=f"Co-design of {found.name}", cards=cards, pictures=_pictures(found),
+        columns=lambda: point_columns(found), findings=lambda: of_codesign(found),
     )  # fmt: skip
-    return View(title=f"Co-design of {found.name}", cards=cards, pictures=drawn, columns=lambda: point_columns(found),
-                findings=lambda: of_codesign(found))  # fmt: skip
+
+
+def _pictures(found: CoDesignResult) -> tuple[Picture, ...]:
+    """All that there is something to draw for."""
+    design, bound, checked = found.design, found.bound, found.verified
+    torques = [abs(p.load_torque) for p in design.task.points]
+    shares = [at.total / torque for at, torque in zip(found.losses, torques, strict=True)]
+    ripple = float(np.max([checked.programme_ripple, checked.steady_ripple, checked.time_ripple]))
+    closings = [v for c in checked.contacts for v in (c.z_min, c.z_max)]
+    radii = [v for c in checked.contacts for v in (c.rho_min, c.rho_max)]
+    pressures = _span([float(p) for track in design.tracks for p in track.p0], "Pa")
+    wanted, left = (quantity_text(v, "kg*m^2", 4) for v in (np.ptp(bound.wanted, axis=1).max(), bound.best[0].swing))
+    added, bare = (quantity_text(v, "kg*m^2", 4) for v in (design.flywheel, found.bare))
+    rows = [
+        ("points", plots.points, "Ripple by the programme, over the angle and by a run in time, at most "
+         f"{_percent(ripple)} at {len(torques)} points, and the pressures to set, {pressures}."),
+        ("guides", plots.guides, f"Paths of the roller centres to scale, {_span(radii, 'm')} from the shaft; the "
+         f"springs close by {_span(closings, 'm')}."),
+        ("front", plots.front, f"Flywheel over the ripple: {added} is added with the hinge and {bare} without. The "
+         "dotted line is an estimate that knows no guide: massless rollers, weak ripple."),
+        ("works", plots.works, "Left: works that the points want, by the square of their speeds, which swing by up "
+         f"to {wanted}. Right: what the best single shape leaves, a swing of {left}."),
+        ("losses", plots.losses, f"Friction and heat take {_percent(min(shares))} to {_percent(max(shares))} of the "
+         "load's torque."),
+    ]  # fmt: skip
+    if any(s.run is not None for s in found.scenarios):
+        see = "Speed by the mean before, over turns, at the slowest and the fastest point. In a turn without "
+        see += "combustion the gas goes back along the compression line and the load brakes on."
+        rows.append(("scenarios", plots.scenarios, see))
+    if found.spread is not None:
+        see = f"Left: largest ripple of all points; 19 of 20 machines keep {_percent(found.spread.p95)}. Right: each "
+        see += "error alone, at two sigma to either side (shares; of n the index itself)."
+        rows.append(("spread", plots.spread, see))
+    if found.map is not None:
+        see = "Ripple, and the pressure with the least ripple, over speed and load; the line joins the points of the "
+        see += "design. Ripple above 30 % or a shaft that stops is drawn as 30 %."
+        rows.append(("map", plots.ripple_map, see))
+    return tuple(Picture(name=name, see=see, draw=partial(draw, found)) for name, draw, see in rows)
+
+
+def _percent(share: float) -> str:
+    return f"{figure(100 * share, 3)} %"
+
+
+def _span(values: Sequence[float], unit: str) -> str:
+    return " to ".join(quantity_text(end, unit, 4) for end in dict.fromkeys((min(values), max(values))))
 
 
 def of_codesign(found: CoDesignResult) -> Iterator[Finding]:
@@ -84,7 +125,7 @@ _DANGERS = ("misfire", "burst", "leak", "astern")  # what a builder asks about f
 
 def write(result: CoDesignResult, numbers: CoDesignNumbers, told: Json, folder: Path) -> list[Path]:
     """Write page, summary as it is `told`, tables and pictures into a folder, which is made when missing."""
-    pictures = figures(result)
+    pictures = {picture.name: svg(picture.draw()) for picture in result.view.pictures}
     files = [
         write_text(folder / "report.html", html(result, numbers, pictures)),
         write_text(folder / "summary.json", to_json(told) + "\n"),
@@ -127,7 +168,8 @@ def html(result: CoDesignResult, numbers: CoDesignNumbers, pictures: dict[str, s
     units = {"speed": "rad/s", "mean pressure": "Pa", **dict.fromkeys(springs, "Pa")}
     return page(
         "codesign.html", result=result, numbers=numbers, findings=findings,
-        mark=title_mark(findings), figures=pictures, sizes=_SIZES,
+        mark=title_mark(findings), figures=pictures,
+        see={picture.name: picture.see for picture in result.view.pictures}, sizes=_SIZES,
         points=grid("Points", rows, list(rows[0]), units), prices=prices(numbers), bound=bound_words(numbers),
         dangers=[s for name in _DANGERS for s in result.scenarios if s.name == name],
         lossy_ripple=None if None in ripples else max(r for r in ripples if r is not None),
@@ -140,21 +182,6 @@ def html(result: CoDesignResult, numbers: CoDesignNumbers, pictures: dict[str, s
 
 def _share(value: float | None) -> float | None:
     return None if value is None else 100 * value
-
-
-def figures(result: CoDesignResult) -> dict[str, str]:
-    """All pictures that there is something to draw for, as SVG."""
-    made = {
-        "points": plots.points(result),
-        "front": plots.front(result),
-        "works": plots.works(result),
-        "guides": plots.guides(result),
-        "losses": plots.losses(result),
-        "scenarios": plots.scenarios(result),
-        "spread": plots.spread(result),
-        "map": plots.ripple_map(result),
-    }
-    return {name: svg(figure) for name, figure in made.items() if figure is not None}
 
 
 def point_columns(result: CoDesignResult) -> dict[str, Sequence[float] | np.ndarray]:

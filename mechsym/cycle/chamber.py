@@ -61,7 +61,7 @@ class ChamberParameters:
     """Section `[chamber]` of a case."""
 
     bore: float = quantity("m", above=0, about="cylinder bore")
-    compression_ratio: float = quantity("-", above=1, high=60, about="largest over smallest volume")
+    compression_ratio: float = quantity("-", above=1, high=60, about="compression ratio; largest over smallest volume")
     #: Pistons that bound the chamber: 1 under a head, or 2 opposed [-]
     pistons: float = quantity("-", default=1, about="1 under a head, or 2 opposed")
     #: Absolute pressure on the other side of the piston; 0 gives forces from absolute pressure [Pa]

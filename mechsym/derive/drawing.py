@@ -20,7 +20,7 @@ class Drawing(Letters):
 
     def _start_drawing(self) -> None:
         self.shapes: list[Json] = []
-        self.pins: dict[str, list[str]] = {}  # names of their places
+        self.pins: dict[str, list[str]] = {}  # names of their places, of a slide also of one across it
         self.shape_points: dict[str, Expr] = {}
         self.sketches: list[Json] = []
 

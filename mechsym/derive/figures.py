@@ -6,6 +6,7 @@ trace           the path of a watched point
 """
 
 from collections.abc import Iterable
+from itertools import chain
 from typing import Any
 
 from sympy import Expr, Integer, Rational, cos, sin, sqrt
@@ -20,12 +21,14 @@ _GROUND = [[(0, 0), (-9, -16), (9, -16), (0, 0)], _HATCH]  # tenths of a mark, a
 def draw(m: Declaration) -> None:
     """Name where pins are, and draw what the declaration leaves undrawn."""
     m.pins = {pin.name: m.point_names((pin.first,))[0] for pin in m.link_joints if pin.kind == "pin"}
+    slides = (one for one in m.link_joints if one.kind in ("slider", "slot"))
+    mark = _mark(m)
+    m.pins |= {one.name: [*chain(*m.point_names(_across(one, mark)))] for one in slides if mark != 0}
     drawn = bool(m.shapes)
     for point in m.watched.values():
         m._shape("trace", "trace", (point,))
     if drawn:
         return
-    mark = _mark(m)
     for joint in m.link_joints if mark != 0 else ():
         _DRAWN[joint.kind](m, joint, mark)
     for link in m.links:
@@ -95,6 +98,15 @@ def _corners(middle: tuple[Expr, Expr], along: tuple[Expr, Expr], across: tuple[
     for i, j in ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1)):
         k, n = i * Rational(3, 2), j * Rational(4, 5)
         yield x + k * ax + n * bx, y + k * ay + n * by
+
+
+def _across(joint: Joint, mark: Expr) -> tuple[tuple[Expr, Expr], ...]:
+    """Where a slide is held, and a mark on along the left normal of its line."""
+    line, at = joint.first if isinstance(joint.first, LinkLine) else joint.second, joint.second
+    if isinstance(at, LinkLine) and isinstance(joint.first, LinkPoint):
+        at = joint.first
+    angle, (x, y) = line.link.angle + line.tilt, at.link.out((at.u, at.v))
+    return (x, y), (x - mark * sin(angle), y + mark * cos(angle))
 
 
 def _gear(m: Declaration, joint: Joint, mark: Expr) -> None:

@@ -141,9 +141,11 @@ class Roles(Letters):
         radius: Symbol | None = None,
         at: str = "",
         throw: Expr | float | None = None,
+        ways: tuple[Expr | float, ...] = (),
     ) -> None:
         """A pin or journal: its two reactions, or a tuple of the only one [N], the turn of one part in the other, or a
-        tuple of turns that add up to it [rad], the radius [m], its place; of a crank pin the throw [m]."""
+        tuple of turns that add up to it [rad], the radius [m], its place; of a crank pin the throw [m]; the directions
+        of the reactions in the frame, where they are not x and y [rad]."""
         turned = self._turned(turns, f"turn_{name}")
         pair = [str(r) for r in _listed(reactions)]
         if len({*pair}) != 2 and not (isinstance(reactions, tuple) and len(pair) == 1):
@@ -153,16 +155,19 @@ class Roles(Letters):
         if at and at not in _BEARING_PLACES:
             refuse(f"the bearing {name!r} is at {at!r}; there are {', '.join(_BEARING_PLACES)}")
         held = None if radius is None else radius.name
-        named = ({"at": at} if at else {}) | self._sizes(name, throw=(throw, "m"))
+        named: Json = ({"at": at} if at else {}) | self._sizes(name, throw=(throw, "m"))
+        named |= {"ways": [float(way) for way in ways]} if ways else {}
         self._role("bearing", name=name, reactions=pair, turns=turned, radius=held, **named)
 
-    def guide(self, name: str, *, reaction: str | None, travel: Expr | float, at: str = "") -> None:
+    def guide(
+        self, name: str, *, reaction: str | None, travel: Expr | float, at: str = "", way: float | None = None
+    ) -> None:
         """A guide or slot: its normal reaction, None where it carries nothing [N], the travel along it [m], its
-        place."""
+        place, the direction of the reaction in the frame, where that is not y [rad]."""
         if at not in ("", "guides"):
             refuse(f"the guide {name!r} is at {at!r}; there is guides")
         borne = None if reaction is None else str(reaction)
-        named = {"at": at} if at else {}
+        named = ({"at": at} if at else {}) | ({} if way is None else {"way": float(way)})
         self._role("guide", name=name, reaction=borne, travel=self._shown(travel, f"slide_{name}", "m", 1), **named)
 
     def teeth(

@@ -82,6 +82,8 @@ class SpatialDeclaration(Declaration):
         new.mass = self._constant(mass, "kg", f"{name}_mass", f"mass of {name}")
         new.centre = self._triple(centre, "m", f"centre of {name}", f"{name}_centre_")
         new.inertia, new.flat = self._inertia(inertia, name)
+        (xx, xy, xz), (_, yy, yz), (*_, zz) = new.inertia
+        self.tensors[name] = [str(entry) for entry in (xx, yy, zz, xy, xz, yz)]
         self.space_links.append(new)
         return new
 

@@ -1,6 +1,5 @@
 """What of a force analysis is worth seeing, its scene in motion, and its files: page, tables, pictures."""
 
-import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -8,21 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from mechsym.cycle.motion import travel_of
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces import plots, summary
+from mechsym.forces.arrows import charged, pressed
 from mechsym.forces.loads import polar
 from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces, extremes
 from mechsym.forces.summary import CounterweightNumbers, half, quantities
-from mechsym.forces.turn import Acting, CrankDrive
 from mechsym.mechanisms import plots as plots_mechanism
 from mechsym.mechanisms.drawing import Shapes, drawn
-from mechsym.mechanisms.plan import plan_of
-from mechsym.mechanisms.record import listing
-from mechsym.mechanisms.turning import FRAMES, Load, Pushed, cranks, filled, pushed, rules, scene
+from mechsym.mechanisms.turning import rules, scene
 from mechsym.page import Card, Finding, Picture, View, card, page, shows, title_mark
 from mechsym.page.finding import NOT_MET
-from mechsym.quantities.display import figure, quantity_text
+from mechsym.quantities.display import figure, key_words, quantity_text
 from mechsym.quantities.results import tell, units_of
 from mechsym.style import svg
 
@@ -108,8 +104,12 @@ def _pictures(result: Forces) -> tuple[Picture, ...]:
                     see="Brake power and what friction takes add up to the net indicated power."))  # fmt: skip
     if result.comparison is not None:
         peers = result.comparison
-        rows.append(Picture(name="comparison", draw=lambda: plots.comparison(peers),
-                            see="The mechanisms at equal stroke, mass and indicator diagram."))  # fmt: skip
+        by_force = sorted(peers, key=lambda peer: peer.side_force_max)
+        ends = [f"{quantity_text(one.side_force_max, 'N', 4)} ({key_words(one.mechanism)})"
+                for one in (by_force[0], by_force[-1])]  # fmt: skip
+        see = "The mechanisms at equal stroke, mass and indicator diagram: the largest force on a guide is "
+        see += f"{' to '.join(ends)}."
+        rows.append(Picture(name="comparison", draw=lambda: plots.comparison(peers), see=see))
     return tuple(rows)
 
 
@@ -125,7 +125,7 @@ def write(result: Forces, numbers: Json, folder: Path, about: str, findings: Seq
     if shapes is not None:
         pictures["mechanism"] = plots_mechanism.figure_of(shapes, 0.8)
         shown = charged(scene(shapes, "the machine to scale"), result.turn.drive, result.turn.acting)
-        scenes = [pressed(shown, result)]
+        scenes = [pressed(shown, result.turn)]
     figures = {name: svg(figure) for name, figure in pictures.items()}
     files = [
         write_text(folder / "report.html", html(result, numbers, figures, about, findings, scenes)),
@@ -148,7 +148,7 @@ def html(
     scenes: Sequence[Json] = (),
 ) -> str:  # fmt: skip
     """The page as text."""
-    rows = [row | {"at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(result)]
+    rows = [row | {"quantity": named(row), "at": numbers["angle_of_max_deg"][row["name"]]} for row in borne(result)]
     see = {picture.name: picture.see for picture in result.view.pictures}
     largest = max(abs(value) for value in numbers["max"].values())
     return page(
@@ -176,8 +176,15 @@ _BEARS = {
     "knuckle_force": "knuckle pin, from the rod that carries it",
     "journal": "journal of the planet or slider", "X_": "guide of the slider",
 }  # fmt: skip
+_LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "F b": "gas force F_b"}
 _RAW = re.compile(r"_force_[xy](_|$)")
 _NUMBERED = re.compile(r"(_|^F)(\d+)(?=_|$)")
+
+
+def named(row: Json) -> str:
+    """A load's name as people say it; which cylinders it is of stands beside it."""
+    name = row["quantity"].replace("_", " ").replace("*", "").replace("  ", " ").strip()
+    return _LETTERS.get(name, name)
 
 
 def borne(forces: Forces) -> list[Json]:
@@ -207,59 +214,3 @@ def borne(forces: Forces) -> list[Json]:
             "max": high, "min": low, "unit": forces.columns.units[name], "on": on,
         })  # fmt: skip
     return table
-
-
-_ALIKE = 0.02  # of its radius: a crank that is drawn so near stands for a crank pin
-
-
-def pressed(shown: Json, forces: Forces) -> Json:
-    """A scene with what presses in the pins and main bearings that it draws."""
-    turn, drive = forces.turn, forces.turn.drive
-    phi = np.linspace(0, 2 * math.pi * shown["turns"], shown["count"], endpoint=False)
-
-    def at_frames(values: np.ndarray) -> np.ndarray:
-        return np.interp(phi, turn.phi, values, period=turn.period)
-
-    said, R = listing(plan_of(drive.name).theory), turn.reactions
-    rows = []
-    if pins := {name: at for name, at in said.get("pins", {}).items() if f"R_y_{name}" in R}:
-        function = drive.mechanism.functions["drawing"]
-        found = [dict(zip(function.name_out(), map(float, function.call([at])), strict=True)) for at in phi]
-        for name, (across, up) in pins.items():
-            force = at_frames(R[f"R_x_{name}"]) + 1j * at_frames(R[f"R_y_{name}"])
-            rows.append(Load(name=said["reactions"][f"R_x_{name}"], force=force,
-                             at=np.array([row[across] + 1j * row[up] for row in found])))  # fmt: skip
-        return pushed(shown, rows)
-    shafts: dict[str, tuple[np.ndarray, complex]] = {}
-    for pin in forces.loads.pins:
-        arm = pin.radius * (at_frames(np.cos(pin.angle)) + 1j * at_frames(np.sin(pin.angle)))
-        for start, end in cranks(shown):
-            # upright engines are drawn a quarter turn on
-            turned = next((u for u in (1, 1j) if np.abs(end - start - u * arm).max() < _ALIKE * pin.radius), None)
-            if turned is not None:
-                force = turned * (at_frames(pin.x) + 1j * at_frames(pin.y))
-                rows.append(Load(name=pin.name.replace("_", " "), at=end, force=force))
-                shafts[pin.name.replace("crank_pin", "main_bearing")] = (start, turned)
-                break
-    if shafts.keys() == forces.loads.bearings.keys():
-        for name, (at, turned) in shafts.items():
-            x, y = map(at_frames, forces.loads.bearings[name])
-            rows.append(Load(name=name.replace("_", " "), at=at, force=turned * (x + 1j * y)))
-    return pushed(shown, rows)
-
-
-def charged(shown: Json, drive: CrankDrive, acting: Sequence[Acting]) -> Json:
-    """The scene of a drive with the gas of its cylinders."""
-    if not acting:
-        return shown
-    phi = np.linspace(0, 2 * math.pi * shown["turns"], shown["count"], endpoint=False)[None, :]
-    turns = max(round(one.gas.pressure.period / (2 * math.pi)) for one in acting)
-    whole = np.linspace(0, 2 * math.pi * turns, turns * FRAMES, endpoint=False)
-    charges = [
-        Pushed(
-            travel=one.face.sense * np.asarray(travel_of(drive.mechanism, one.face.travel)(phi)[0]).ravel(),
-            force=one.face.sense * one.force(whole),
-        )
-        for one in acting
-    ]
-    return filled(shown, charges)

@@ -16,14 +16,14 @@ from mechsym.cycle.friction import NoFriction
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.forces.shown import charged
+from mechsym.forces.arrows import charged, pressed
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.shown import hinge_scene
 from mechsym.hinge.torque import Hinge
 from mechsym.jobs.forces import motion
 from mechsym.jobs.gas import engine_with, gas, measured, one_cylinder
-from mechsym.jobs.machine import acting_on, drive_of, mechanism_of, one_coordinate
+from mechsym.jobs.machine import acting_on, drive_of, mechanism_of, one_coordinate, turn
 from mechsym.jobs.problem import Ready, beyond, guide_of
 from mechsym.jobs.problem import ready as running
 from mechsym.machine.loads import Load, settle
@@ -153,16 +153,15 @@ def _in_motion(case: Case) -> Callable[[float], Shapes] | None:
     return declared(mechanism, listing(mechanism.name), pose)
 
 
-def with_gas(scenes: list[Json], case: Case) -> list[Json]:
-    """Scenes of a case whose first shows what the gas of its cycle does; as they are where there is none."""
-    if not scenes or "cycle" not in case.sections:
+def loaded(scenes: list[Json], case: Case) -> list[Json]:
+    """Scenes of a case whose first shows its gas and what presses in its joints; as they are where nothing is known."""
+    if not scenes or "operation" not in case.sections:
         return scenes
     try:
-        drive = drive_of(case)
-        acting = acting_on(case, drive)
+        one = turn(case)
     except BadInput:
         return scenes
-    return [charged(scenes[0], drive, acting), *scenes[1:]]
+    return [pressed(charged(scenes[0], one.drive, one.acting), one), *scenes[1:]]
 
 
 def turning(case: Case, guide: Guide | None = None) -> list[Json]:
@@ -173,4 +172,4 @@ def turning(case: Case, guide: Guide | None = None) -> list[Json]:
         found.append(scene(shapes, "the machine to scale", turns, turns * FRAMES))
     if guide is not None:
         found.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
-    return with_gas(found, case)
+    return loaded(found, case)

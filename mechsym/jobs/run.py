@@ -49,6 +49,7 @@ from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, 
 from mechsym.torsion.startup import numbers as start_numbers
 from mechsym.torsion.twist import (
     Settling,
+    ShaftLimits,
     doubts,
     natural_frequencies,
     sections,
@@ -155,7 +156,7 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         lines.append("there is no [load]: nothing brakes the flywheel, and the speed is not that of steady running")
     if rate is not None:
         lines.append(f"friction and reactions: their fixed point contracts by {rate:.3g} or less a turn")
-    lines += [*words(train), *twist_words(train, twist)] if train else []
+    lines += [*words(train), *twist_words(train, twist, case.sections.get("shaft", ShaftLimits()))] if train else []
     lines += [*(findings(starts[0]) if starts else ()), *(sentences(settles) if settles else ())]
     if engine and result.end == "stall":
         where = math.degrees(result.columns[engine.coordinate][-1])

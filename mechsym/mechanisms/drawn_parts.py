@@ -1,5 +1,6 @@
 """Lines and circles with a role, and the parts that drawings of mechanisms share."""
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
@@ -24,6 +25,7 @@ class Line:
     role: str
     points: tuple[Point, ...]  #: Corners [m]
     space: tuple[tuple[float, float, float], ...] = ()  #: The same in space, where it is drawn there [m]
+    of: int = 0  #: Number of its cylinder; 0: of none, or of the only one
 
 
 @record
@@ -34,6 +36,7 @@ class Circle:
     centre: Point  #: Middle [m]
     radius: float  #: Radius [m]
     space: tuple[tuple[float, float, float], ...] = ()  #: Its middle in space, where it is drawn there [m]
+    of: int = 0  #: Number of its cylinder; 0: of none, or of the only one
 
 
 Shapes = tuple[Line | Circle, ...]
@@ -125,9 +128,9 @@ def turned(
 
     for shape in found:
         if isinstance(shape, Line):
-            yield Line(role=shape.role, points=tuple(place(point) for point in shape.points))
+            yield dataclasses.replace(shape, points=tuple(place(point) for point in shape.points))
         else:
-            yield Circle(role=shape.role, centre=place(shape.centre), radius=shape.radius)
+            yield dataclasses.replace(shape, centre=place(shape.centre))
 
 
 def sketched(said: "Listing", parameters: Mapping[str, float], angle: Radian, bore: Metre | None) -> Shapes:

@@ -3,6 +3,7 @@
 Sizes are expressions of its parameters as text (see `amounts`), or numbers where a mechanism is put together of lists.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
@@ -72,6 +73,7 @@ class BearingRole:
     phase: float = 0.0  #: Angle of its crank from the first one [rad]
     sense: float = 1.0  #: In which its shaft turns, 1 or -1 [-]
     z: Size = 0.0  #: Place along the shaft [m]
+    ways: tuple[float, ...] = (0.0, math.pi / 2)  #: Directions of its reactions in the frame [rad]
     main: str = ""  #: Of a crank pin: the main bearing that carries its throw
 
 
@@ -83,6 +85,7 @@ class GuideRole:
     reaction: str | None  #: None where it carries nothing
     travel: str  #: Output: travel along it
     at: str = ""  #: Place in [friction]: `guides`; empty: it is its own
+    way: float = math.pi / 2  #: Direction of its reaction in the frame [rad]
 
 
 @record

@@ -8,6 +8,7 @@
 Cylinders of a bank stand at their places along the shaft; where the case gives none, side by side at an even pitch.
 """
 
+import dataclasses
 import functools
 import math
 from collections.abc import Iterable, Sequence
@@ -71,7 +72,11 @@ def _at_the_end(p: Scalar, angle: float, bore: float | None) -> Iterable[Line | 
             own = tuple(slider_crank(r, l1 + l2, offset, angle + local_shift(p)[i], bore))
         if i not in shown:
             own = tuple(s for s in own if s.role == "crank") + tuple(s for s in own if s.role == "joint")[:1]
-        yield from turned(own, bank, sense, origin)
+        yield from turned(_numbered(own, i), bank, sense, origin)
+
+
+def _numbered(shapes: Iterable[Line | Circle], i: int) -> Iterable[Line | Circle]:
+    return (dataclasses.replace(shape, of=i + 1) for shape in shapes)
 
 
 def _hung(p: Scalar, i: int, angle: float, bore: float | None) -> Iterable[Line | Circle]:
@@ -118,8 +123,8 @@ def _along(
         (hangs, _), (end, _), reach = _rod(p, i, angle)
         points = ((z - 1.8 * half, 0.0), (z - half, 0.0), (z - half, height), (z + half, height), (z + half, 0.0))
         yield Line(role="crank", points=(*points, (z + 1.8 * half, 0.0)))
-        yield Line(role="rod", points=((z, hangs), (z, end)))
-        yield from _cylinder_along(z, end, reach, 2 * r, bore)
+        rod = Line(role="rod", points=((z, hangs), (z, end)))
+        yield from _numbered((rod, *_cylinder_along(z, end, reach, 2 * r, bore)), i)
 
 
 def _rod(p: Scalar, i: int, angle: float) -> tuple[Point, Point, float]:

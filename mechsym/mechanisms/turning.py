@@ -63,6 +63,7 @@ def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames
         closed = isinstance(shape, Circle) or shape.points[0] == shape.points[-1]
         moving = paths[:, at].tolist() if moves[at].any() else []
         shapes.append({"role": shape.role, "r": radius, "closed": closed, "at": places(shape), "moves": moving})
+        shapes[-1] |= {"of": shape.of} if shape.of else {}
         if shape.space:
             rows = [[round(scale * v, 1) for p in frame[number].space for v in p] for frame in all_frames]
             shapes[-1]["space"] = rows if moving else rows[:1]
@@ -107,6 +108,7 @@ def filled(shown: Json, charges: Sequence[Pushed]) -> Json:
             continue
         away = [float(np.abs(_share(depth) - _share(one.travel)).max()) for one in charges]
         number = min(range(len(charges)), key=lambda k: (round(away[k], 2), drawn[k]))
+        number = shown["shapes"][crown].get("of", number + 1) - 1
         drawn[number] += 1
         share = np.rint(100 * charges[number].force / most).astype(int)
         rows.append({"wall": wall, "piston": crown, "share": share.tolist()})
@@ -130,19 +132,18 @@ def pushed(shown: Json, loads: Sequence[Load]) -> Json:
     return shown | {"loads": rows, "most": most}
 
 
+def corners(shown: Json, role: str) -> Iterator[tuple[int, np.ndarray]]:
+    """Cylinder and corners of each line or circle of a role that moves, x + i y at its frames, (n, corners) [m]."""
+    left, top = shown["origin"]
+    for shape in (s for s in shown["shapes"] if s["role"] == role and s["moves"] and (s["r"] or not s["closed"])):
+        x, y = np.moveaxis(_places(shape)[np.arange(shown["count"]) % len(shape["moves"])], -1, 0)
+        yield shape.get("of", 0), (x - left - 1j * (y - top)) / shown["scale"]
+
+
 def _pixels(shown: Json, at: np.ndarray) -> list[list[float]]:
     (left, top), scale = shown["origin"], shown["scale"]
     found: list[list[float]] = np.round([left + scale * at.real, top - scale * at.imag], 1).T.tolist()
     return found
-
-
-def cranks(shown: Json) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Where each crank that a scene draws starts and ends, x + i y at its frames [m]."""
-    left, top = shown["origin"]
-    for shape in (s for s in shown["shapes"] if s["role"] == "crank" and s["moves"] and not s["closed"]):
-        x, y = np.moveaxis(_places(shape)[np.arange(shown["count"]) % len(shape["moves"])], -1, 0)
-        places = (x - left - 1j * (y - top)) / shown["scale"]
-        yield places[:, 0], places[:, -1]
 
 
 _WALLS = "wall head head wall".split()  # corners of a cylinder as it is drawn

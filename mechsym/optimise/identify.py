@@ -32,9 +32,9 @@ from mechsym.optimise.fit import (
     approach,
     closest,
     grid,
-    require_plausible,
     unit_columns,
 )
+from mechsym.optimise.preview import require_plausible
 from mechsym.optimise.trace import Trace
 from mechsym.plausible import Doubt
 from mechsym.quantities.results import part, quantity, result

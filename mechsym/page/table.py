@@ -32,7 +32,9 @@ class Grid:
     @property
     def stacked(self) -> bool:
         """Whether a phone shows each row as a block: where columns beside each other would be cut."""
-        return sum(max((len(row[i]) for row in self.rows), default=0) for i in range(len(self.headings))) > _PHONE
+        words = (max(map(len, heading.split()), default=0) for heading in self.headings)  # between which it breaks
+        cells = (max((len(row[i]) for row in self.rows), default=0) for i in range(len(self.headings)))
+        return sum(map(max, words, cells)) > _PHONE
 
 
 def grid(

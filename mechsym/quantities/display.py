@@ -221,6 +221,8 @@ def _parts(numbers: list[float], digits: int) -> list[bool]:
 def _cell(value: object, digits: int) -> str:
     if value is None or value != value:
         return "-"
+    if isinstance(value, (bool, np.bool_)):
+        return "yes" if value else "no"
     if not isinstance(value, (float, np.floating)):
         return ", ".join(str(v) for v in value) if isinstance(value, (list, tuple)) else str(value)
     whole = abs(value) < 10**_MOST and float(value).is_integer()

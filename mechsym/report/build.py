@@ -8,7 +8,7 @@ from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cases.provenance import SourcedValue, sourced
 from mechsym.files import Json, inputs
-from mechsym.jobs.export import turning, with_gas
+from mechsym.jobs.export import loaded, turning
 from mechsym.jobs.measured import MeasuredDiagram
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import listing
@@ -121,9 +121,7 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
 def _turning(one: CaseReport) -> list[Json]:
     """What turns at the head of a report: the engine with its hinge, or the machine alone, and what presses in it."""
     of_parts = next((scenes for found in one.parts if (scenes := found.turning())), None)
-    scenes = with_gas(of_parts, one.case) if of_parts else turning(one.case)
-    presses = next((found.pressed for found in one.parts if found.pressed), None)
-    return [presses(scenes[0]), *scenes[1:]] if scenes and presses else scenes
+    return loaded(of_parts, one.case) if of_parts else turning(one.case)
 
 
 def _title(reports: Sequence[CaseReport]) -> str:

@@ -19,7 +19,7 @@ from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.friction import AUXILIARIES, NO_PLACE
 from mechsym.forces.result import Forces
-from mechsym.forces.shown import borne, pressed
+from mechsym.forces.shown import borne, named
 from mechsym.forces.summary import half
 from mechsym.hinge.result import complete, ripple_text
 from mechsym.hinge.shown import scenes
@@ -38,14 +38,12 @@ from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
 from mechsym.quantities.display import figure, key_words, quantity_text, shown_in
 from mechsym.quantities.results import tell, units_of
-from mechsym.report.motion import over_time
-from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
+from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart, over_time
 from mechsym.sizing.rows import tightest
 from mechsym.torsion import twist
 from mechsym.torsion.shown import criticals, span
 
 _GIVES = "The engine gives"  # with which a sentence on the power at the shaft begins: it stands first
-_LETTERS = {"p": "gas pressure p", "F": "gas force F", "F a": "gas force F_a", "F b": "gas force F_b"}
 
 
 def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
@@ -57,7 +55,7 @@ def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...])
         name="forces", title=title, view=found.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
         verdict=f"{_friction(found)}.", facts=tuple(numbers.numbers.facts), grids=(_borne(found),),
         decide=reasons, doubts=doubts, silent=("rigid links at constant speed; friction of the first order",),
-        numbers=tell(numbers), beside=tuple(criticals(numbers.vibration)), pressed=lambda shown: pressed(shown, found),
+        numbers=tell(numbers), beside=tuple(criticals(numbers.vibration)),
     )  # fmt: skip
 
 
@@ -81,18 +79,12 @@ def _borne(found: Forces) -> Grid:
     rows = borne(found)
     several = any(row["of"] for row in rows)
     cells = [
-        (_named(row), *([row["of"]] if several else []), *_extremes(row), row["on"])
+        (named(row), *([row["of"]] if several else []), *_extremes(row), row["on"])
         for row in rows
     ]  # fmt: skip
     headings = ("quantity", *(["of"] if several else []), "largest", "smallest", "on")
     right = tuple(name in ("largest", "smallest") for name in headings)
     return Grid(title="What bears what", headings=headings, rows=tuple(cells), numbers=right)
-
-
-def _named(row: Json) -> str:
-    """A load's name as people say it; which cylinders it is of stands beside it."""
-    name = row["quantity"].replace("_", " ").replace("*", "").replace("  ", " ").strip()
-    return _LETTERS.get(name, name)
 
 
 def _extremes(row: Json) -> list[str]:

@@ -34,10 +34,7 @@ def solve(elements: tuple[Numbers, ...], touching: set[int], v: Array, mass: Arr
     force by each element's own [-]. Returns blow: of several that are
     hit at once the one in which each keeps its own restitution; others may be as right.
 
-    Raises
-    ------
-    BadInput
-        No impulses satisfy all conditions, or friction would give energy to the bodies
+    Raises BadInput: no impulses satisfy all conditions, or friction would give energy to the bodies.
     """
     stops = sorted(touching)
     sliding = [i for i, e in enumerate(elements) if isinstance(e.role, FrictionRole) and e.contact in touching]

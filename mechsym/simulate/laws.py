@@ -61,10 +61,7 @@ _RANGES = {"restitution": (0, 1), "stiffness": (0, np.inf), "damping": (0, np.in
 def numbers(problem: Problem) -> tuple[Numbers, ...]:
     """Stops and friction of a problem with their numbers.
 
-    Raises
-    ------
-    BadInput
-        A number is outside its range
+    Raises BadInput: a number is outside its range.
     """
     elements = []
     for role in problem.unilateral:
@@ -179,10 +176,7 @@ def _solved(s: _Letters, residual: ca.SX) -> ca.SX:
 def model(problem: Problem) -> Model:
     """The equations of a problem with stops and friction.
 
-    Raises
-    ------
-    BadInput
-        The mechanism closes by constraint, or what acts cannot go with friction that sticks
+    Raises BadInput: the mechanism closes by constraint, or what acts cannot go with friction that sticks.
     """
     elements, mechanism = numbers(problem), problem.mechanism
     _require_suited(problem)

@@ -177,6 +177,7 @@ class StudiedSweep:
     points: int = quantity("-")  #: How many there are
     numbers: SweepNumbers = part(inline=True)
     picture: str  # as SVG
+    see: str  # what it shows
     rows: list[Json]  # smallest and largest of the main results
 
 

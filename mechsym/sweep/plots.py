@@ -1,6 +1,7 @@
 """The picture of a sweep: lines over one axis, maps over two, histograms and scatter for samples; gaps are marked."""
 
 import functools
+import textwrap
 from collections.abc import Mapping
 
 import numpy as np
@@ -12,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from mechsym.cases import schema
 from mechsym.cases.keys import keys
 from mechsym.cycle.columns import WORDS
-from mechsym.quantities.display import key_words, without_unit
+from mechsym.quantities.display import figure, key_words, without_unit
 from mechsym.style import BLUE, GREY, INK, PAPER, RED, SERIES, axis_unit, bare
 from mechsym.style.panels import NOTHING
 from mechsym.sweep import Axis, Sweep, failures, main_results
@@ -20,6 +21,7 @@ from mechsym.sweep.data import indices
 
 _MOST = 6  # panels
 _LONGEST = 44  # letters that stand at an axis
+_WIDE = 32  # letters of a line beside an axis
 _FEW = 4  # values of an axis that are drawn as lines of their own
 _COUNTS = 12  # steps of a count that is drawn with whole numbers
 _TRUTHS = ("feasible", "met", "kept", "holds", "converged", "proven")  # 1 is yes
@@ -27,15 +29,20 @@ _CLOUD = 8  # samples below which points are no scatter
 _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
 
-def picture(result: Sweep) -> Figure | None:
-    """The main results of a sweep, see `mechsym.sweep.main_results`; None for a single point, or gaps only."""
+def _shown(result: Sweep) -> dict[str, np.ndarray]:
+    """The results that a picture has panels for; none for a single point, or gaps only."""
     # main results, without those that stay the same or are round-off; all when none is left
     found = main_results(result)
     sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
     lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
     chosen = found if result.show or not lively else lively
-    shown = dict(list(chosen.items())[:_MOST])
-    if not shown or len(result.points) == 1:
+    return dict(list(chosen.items())[:_MOST]) if len(result.points) > 1 else {}
+
+
+def picture(result: Sweep) -> Figure | None:
+    """The main results of a sweep, see `mechsym.sweep.main_results`; None where there is nothing to draw."""
+    shown = _shown(result)
+    if not shown:
         return None
     if result.sobol and indices(result):
         return _indices(result)
@@ -50,6 +57,25 @@ def picture(result: Sweep) -> Figure | None:
         pair = (min(long), max(long)) if wide else (first, second[0])
         return (_maps if wide else _lines)(result, shown, pair)
     return _lines(result, shown, (first, None))
+
+
+def caption(result: Sweep) -> str:
+    """What the picture of a sweep shows: between which values each result lies, or on what it hangs most."""
+    if result.sobol and (rows := indices(result)):
+        names = list(dict.fromkeys(row.result for row in rows))[:_MOST]
+        most = [max((row for row in rows if row.result == name), key=lambda row: row.total) for name in names]
+        told = [f"{key_words(row.result, WORDS)} hangs most on {said(row.key)}, "
+                f"{figure(row.total, 3)} of its variance with the others" for row in most]  # fmt: skip
+        return "; ".join(told) + "; whiskers are intervals of 95 %."
+    told = []
+    for name, column in _shown(result).items():
+        values, label = _scaled(name, column[np.isfinite(column)], result.units[name])
+        words, _, unit = label.removesuffix("]").partition(" [")
+        ends = " to ".join(dict.fromkeys(figure(float(end(values)), 4) for end in (np.min, np.max)))
+        ends += f" {unit}".removesuffix(" -")
+        truth = f": yes at {int(values.sum())} of {values.size}"
+        told.append(words + (truth if _truth(name, column) else f" {ends}"))
+    return "; ".join(told) + "." if told else ""
 
 
 def _words(result: Sweep, axes: list[int]) -> bool:
@@ -150,10 +176,11 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
         for k, y in enumerate(values):
             label = None if other is None else _value(other, other.values[k])
             # nothing lies between two words, and many dots hide the line
-            style = "o" if isinstance(along.values[0], str) else "o-" if len(x) <= 25 else "-"
+            few = len(x) < 3 or isinstance(along.values[0], str)  # two points make no curve
+            style = "o" if few else "o-" if len(x) <= 25 else "-"
             (drawn_line,) = axis.plot(x, y, style, color=SERIES[k % len(SERIES)], markersize=3, label=label)
             alike = [i for i, other_y in enumerate(values) if np.allclose(y, other_y, rtol=1e-3, equal_nan=True)]
-            if len(alike) > 1 and style != "o":  # curves on each other take turns, so that each is seen
+            if len(alike) > 1 and not few:  # curves on each other take turns, so that each is seen
                 drawn_line.set_linestyle((4 * alike.index(k), (4, 4 * (len(alike) - 1))))
         gaps = np.isnan(values).any(axis=0)
         if gaps.any():
@@ -162,7 +189,7 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
         if _changes_sign(values):
             axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_xlabel(across)
-        axis.set_ylabel(told)
+        axis.set_ylabel(textwrap.fill(told, _WIDE))
         _places(axis.yaxis, name, column)
     if other is not None:
         handles, labels = axes[0].get_legend_handles_labels()

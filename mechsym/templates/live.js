@@ -59,6 +59,7 @@
         ...p.curves.map(([, name], k) => ({ label: name, class: name ? "u-named" : "u-level", value: (_, v) => read(v, ...p.y), spanGaps: false,
           stroke: () => look(k).stroke, width: Math.max(1, 1.2 * parseFloat(look(k).strokeWidth)),
           dash: /\d/.test(look(k).strokeDasharray) ? look(k).strokeDasharray.match(/[\d.]+/g).map(v => 1.3 * v) : undefined, pxAlign: 0, points: { show: false } }))],
+      legend: { markers: { width: 2, dash: (_, k) => k && /\d/.test(look(k - 1).strokeDasharray) ? "dashed" : "solid" } },
       cursor: { sync: { key: p.across }, drag: { x: true, y: false }, points: { size: 6 } },
       hooks: { draw: [marks],
         setCursor: [u => { if (turn && u.cursor.event) crank(u.cursor.left >= 0 ? u.posToVal(u.cursor.left, "x") : null); }],

@@ -16,7 +16,7 @@ from mechsym.simulate.result import period_means
 from mechsym.simulate.speed import Speed
 from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import FinishedRun, StartUp
-from mechsym.torsion.twist import ShaftSection, TrainVibration, critical_words, pairs, section_words
+from mechsym.torsion.twist import ShaftSection, TrainVibration, beyond, critical_words, pairs, section_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,7 +36,7 @@ def startup_view(start: StartUp) -> View:
         Card(
             name="largest twist",
             value=quantity_text(start.twist_peak, "rad", 4),
-            about=f"a linear shaft is a model up to {limit}",
+            about=f"the shaft is taken to bear {limit}",
             mark="" if bears else "no",
         ),
         Card(name="largest torque of the shaft", value=quantity_text(start.torque_peak, "N*m", 4)),
@@ -156,6 +156,8 @@ def of_run(run: FinishedRun) -> Iterator[Finding]:
             words += f"{figure(stay.t_start, 3)} s on; it twists by {twist}"
             yield Finding(rank=NOT_MET, words=words, value=start.twist_peak, unit="rad")
     yield from criticals(run.vibration)
+    for words, peak in beyond(run.vibration, run.twist) if run.vibration else ():
+        yield Finding(rank=NOT_MET, words=words, value=peak, unit="rad")
     if settling := drift(run):
         yield settling
 

@@ -18,7 +18,7 @@ M_i are torques of the sections of the elastic shaft, R_i those of a rigid one; 
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from mechsym.quantities import record
 from mechsym.quantities.display import figure, quantity_text
 from mechsym.quantities.records import Record
 from mechsym.quantities.results import part, quantity, result
-from mechsym.quantities.units import Radian, RadPerSecond, Second
+from mechsym.quantities.units import Metre, NewtonMetre, Pascal, Radian, RadPerSecond, Second
 from mechsym.simulate import Result
 from mechsym.torsion import modes as torsion
 
@@ -329,18 +329,36 @@ def critical_words(critical: CriticalOrder) -> str:
     )
 
 
-def twist_words(train: TrainVibration, twist: Sequence[ShaftSection]) -> tuple[str, ...]:
-    """What a run says of the twist that the shaft can bear."""
-    lines = []
+def shaft_diameter(torque: NewtonMetre, shear: Pascal) -> Metre:
+    r"""Diameter of a solid round shaft whose surface bears a shear stress, :math:`d = (16 M / (\pi \tau))^{1/3}`.
+
+    Source: Timoshenko, Strength of Materials, torsion of a circular shaft. Valid: elastic, without notches.
+    """
+    return float(np.cbrt(16 * torque / (np.pi * shear)))
+
+
+def twist_words(train: TrainVibration, twist: Sequence[ShaftSection], limits: ShaftLimits) -> tuple[str, ...]:
+    """What a run says of the twist, and of the stress that it means for the shaft."""
+    lines, yields = [], f"{quantity_text(limits.shear_limit, 'Pa', 3)} of shear"
+    for place, section in enumerate(twist):
+        peak, torque = quantity_text(section.twist_peak, "rad", 3), quantity_text(section.torque_peak, "N*m", 4)
+        needed = shaft_diameter(section.torque_peak, limits.shear_limit)
+        bears = f"a solid shaft of {quantity_text(needed, 'm', 3)} or more bears it with {yields}"
+        if limits.diameter:
+            stress = limits.shear_limit * (needed / limits.diameter) ** 3
+            bears = f"{quantity_text(stress, 'Pa', 3)} of shear in the shaft, which yields at {yields}"
+        lines.append(f"largest twist from {section_words(place, len(twist))} {peak}, shaft torque {torque}: {bears}")
+    return (*lines, *(words for words, _ in beyond(train, twist)))
+
+
+def beyond(train: TrainVibration, twist: Sequence[ShaftSection]) -> Iterator[tuple[str, Radian]]:
+    """Sections of a shaft that a run twists further than they bear, in words, and by how much."""
     for place, (section, limit) in enumerate(zip(twist, train.twist_limit, strict=True)):
-        peak, most = (quantity_text(angle, "rad", 3) for angle in (section.twist_peak, limit))
-        lines.append(
-            f"largest twist from {section_words(place, len(twist))} {peak}, shaft torque "
-            f"{quantity_text(section.torque_peak, 'N*m', 4)}; the linear spring stands for a shaft up to {most}"
-        )
         if section.twist_peak > limit:
-            lines.append(f"the model does not hold: the twist is beyond {most}, no linear spring nor a whole shaft")
-    return tuple(lines)
+            peak, most = (quantity_text(angle, "rad", 3) for angle in (section.twist_peak, limit))
+            where = section_words(place, len(twist))
+            words = f"the model does not hold: the shaft from {where} twists by {peak}, it yields or breaks at {most}"
+            yield words, section.twist_peak
 
 
 def doubts(train: TrainVibration, twist: Sequence[ShaftSection] = ()) -> tuple[Doubt, ...]:

@@ -1,10 +1,12 @@
 """`mechsym codesign` on two speeds of the marine engine: its JSON, its exit status, its report, bad input."""
 
+import html
 import json
 import re
 from pathlib import Path
 
 import pytest
+from captions import numbers_of, unsaid
 from pictures import drawn, faults, ids
 
 from mechsym.cli import main
@@ -64,6 +66,17 @@ def test_json_of_two_speeds(done):
     assert all(0.1 < share < 0.25 for share in numbers["losses"]["share"])
     assert numbers["misfire_speed_share"] == [0.0, 0.0]  # so small a flywheel does not survive one
     assert numbers["doubts"] == []
+
+
+@pytest.mark.slow
+def test_what_captions_say_is_drawn(done):
+    _, _, folder, figures = done
+    page = html.unescape((folder / "report.html").read_text(encoding="utf-8"))
+    told = re.findall(r"(?s)<figure[^>]*>.*?<title[^>]*>(.*?)</title>.*?<figcaption>(.*?)</figcaption>", page)
+    titles = {figure.get_label(): figure for figure in figures}
+    shown = {title: see for title, see in told if title in titles}
+    assert len(shown) >= 6 and sum(len(numbers_of(see)) for see in shown.values()) >= 10
+    assert {see: missing for title, see in shown.items() if (missing := unsaid(see, titles[title]))} == {}
 
 
 @pytest.mark.slow

@@ -4,6 +4,7 @@ import io
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 from built_in import needed
 from click.testing import CliRunner
+from matplotlib.figure import Figure
 from matplotlib.text import Text
 from scipy.interpolate import PPoly
 
@@ -23,10 +25,12 @@ from mechsym.out.cad.curve import cubic, nurbs, offset
 
 ezdxf = pytest.importorskip("ezdxf", reason="the extra cad is not installed")
 
+from ezdxf import bbox  # noqa: E402
+
 from mechsym.out.cad import check  # noqa: E402
 from mechsym.out.cad.check import measured  # noqa: E402
 from mechsym.out.cad.dxf import text, write  # noqa: E402
-from mechsym.out.cad.sheet import periodic, plain, sheet  # noqa: E402
+from mechsym.out.cad.sheet import periodic, plain, sheet, spring_text  # noqa: E402
 
 WITH_GUIDE = ("zotov-89", "zotov-142", "generator")
 
@@ -190,6 +194,26 @@ def test_no_line_of_the_track_crosses_words_and_none_leave_the_frame(shops, name
                 [math.sin(turned), math.cos(turned)],
             ] + words_at
             assert not box.count_contains(off), (words.get_text(), line)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", WITH_GUIDE)
+def test_another_program_draws_the_file_and_no_line_crosses_its_words(shops, name):
+    """The drawing add-on of ezdxf, which renders what is in the file."""
+    matplotlib, drawing = pytest.importorskip("ezdxf.addons.drawing.matplotlib"), ezdxf.addons.drawing
+    shop = shops(name)
+    lines = [f"guide of {name}", plain(spring_text(shop.guide.spring))]
+    content = text(track(shop.guide, shop.rollers, 1e-6, shop.kinks), 0.02, lines)
+    document = ezdxf.read(io.StringIO(content))
+    space, axis = document.modelspace(), Figure().add_subplot()
+    drawing.Frontend(drawing.RenderContext(document), matplotlib.MatplotlibBackend(axis)).draw_layout(space)
+    assert not document.audit().errors and len(axis.get_children()) > 12
+    words = space.query("TEXT")
+    assert all(ord(letter) >= 32 and letter != "^" for one in words for letter in one.dxf.text)
+    drawn = bbox.extents(e for e in space if e.dxftype() != "TEXT")
+    tops = [one.dxf.insert.y + one.dxf.height for one in words]
+    assert max(tops) < drawn.extmin.y  # below all lines
+    assert all(re.search(r"\d\.\d{3} mm, area \d+\.\d{3} mm²$", w.dxf.text) for w in words if "exact" in w.dxf.text)
 
 
 @pytest.mark.parametrize(("paper", "text"), [("A = 3 cm^2", "A = 3 cm²"), ("1 kg*m^2, 2 m^3", "1 kg*m², 2 m³")])

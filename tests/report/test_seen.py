@@ -46,9 +46,14 @@ def test_the_machine_moves_on_the_first_screen_and_nothing_is_cut(browser, file,
     assert tab.evaluate("document.documentElement.scrollWidth") <= size[0]
     wide = "[...document.querySelectorAll('svg')].map(s => s.getBoundingClientRect().right)"
     assert max(tab.evaluate(wide)) <= size[0]
-    # on a phone a picture of two columns of panels is one below the other
-    below = tab.locator("svg.below").count()
-    assert below > 3 if size[0] < 700 else below == 0
+    # on a phone a picture of two columns of panels is one below the other, each once
+    lefts = "[...document.querySelector('.live').children].map(panel => panel.getBoundingClientRect().left)"
+    places = set(tab.evaluate(lefts))
+    assert len(places) == 1 if size[0] < 700 else len(places) == 2
+    live = "[...document.querySelectorAll('svg[data-panels]')].map(s => JSON.parse(s.dataset.panels).panels.length)"
+    panels, drawn = tab.evaluate(live), tab.evaluate("document.querySelectorAll('.live > div').length")
+    assert len(panels) > 3 and sum(panels) == drawn
+    assert tab.locator("svg[data-panels]:visible").count() == 0
     tab.close()
 
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from mechsym.cli import mechsym
 from mechsym.jobs.forces import vibration
 from mechsym.jobs.machine import turn
 from mechsym.jobs.run import run
-from mechsym.torsion.twist import doubts, operating_range, twist_words, words
+from mechsym.torsion.twist import ShaftLimits, doubts, operating_range, twist_words, words
 
 NAME = "alpha-stirling"
 
@@ -87,7 +88,18 @@ def test_a_diameter_says_what_twist_the_shaft_bears(tmp_path):
     assert found.twist_limit == (pytest.approx(yields / 6500),)
     done = run(case, check="none")
     assert [d.code for d in done.doubts] == ["twist"]
-    assert "the model does not hold" in " ".join(twist_words(found, done.twist))
+    told = twist_words(found, done.twist, case.sections["shaft"])
+    stress = 16 * done.twist[0].torque_peak / (math.pi * 0.012**3)
+    assert f"{stress / 1e6:.3g} MPa of shear in the shaft, which yields at 250 MPa" in told[0]
+    assert "the model does not hold" in told[1]
+    assert told[1] in [finding.words for finding in done.view.findings()]
+
+
+def test_without_a_diameter_the_one_is_told_that_bears_the_torque():
+    done = run(cases.load(NAME), check="none")
+    (told,) = twist_words(done.vibration, done.twist, ShaftLimits())
+    needed = float(re.search(r"a solid shaft of ([\d.]+) mm or more bears it with 200 MPa of shear", told)[1])
+    assert 16 * done.twist[0].torque_peak / (math.pi * (1e-3 * needed) ** 3) == pytest.approx(200e6, rel=0.01)
 
 
 def test_the_operating_range():

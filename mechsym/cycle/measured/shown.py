@@ -23,6 +23,9 @@ _READ = 12  # cycles whose curves are read one by one
 _FAINT = 0.35
 
 
+_CLOUD = 8  # cycles below which points are no scatter
+
+
 @shows(DiagramCombustion)
 def combustion_view(found: DiagramCombustion) -> View:
     """Answer first: mean pressures, variation, burn angles; then pressure, heat, loop and scatter."""
@@ -35,7 +38,7 @@ def combustion_view(found: DiagramCombustion) -> View:
     if burns:
         see = "Burnt share of the mean cycle with its Wiebe function, and the net heat that is released."
         pictures.insert(1, Picture(name="burning", see=see, draw=lambda: _burning(found)))
-    if len(found.cycles) > 1:
+    if len(found.cycles) >= _CLOUD:
         pictures.append(Picture(name="cycles", see="Every point is a cycle: what varies from one to the next.",
                                 draw=lambda: _cloud(found)))  # fmt: skip
     return View(

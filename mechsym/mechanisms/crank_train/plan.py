@@ -41,7 +41,9 @@ def roles(p: CrankTrainParameters) -> PartRoles:
         ),
         rotors=(RotorRole(name="flywheel", angle="phi", load="M", inertia="I_f", weight=_weight(p)),),
         guides=tuple(
-            GuideRole(name=f"side_force_{i}", reaction=f"side_force_{i}", travel=f"x_{i}", at="guides")
+            GuideRole(
+                name=f"side_force_{i}", reaction=f"side_force_{i}", travel=f"x_{i}", at="guides", way=_ways(p, i)[1]
+            )
             for i in cylinders
         ),
         bearings=(*pins, *mains),
@@ -68,7 +70,7 @@ def _opposed(p: CrankTrainParameters) -> bool:
 def _pins(p: CrankTrainParameters, i: int) -> tuple[BearingRole, BearingRole]:
     piston_pin = BearingRole(
         name=f"piston_pin_{i}", at="piston_pins", turns=f"psi_{i}",
-        reactions=(f"piston_pin_force_along_{i}", f"piston_pin_force_across_{i}"),
+        reactions=(f"piston_pin_force_along_{i}", f"piston_pin_force_across_{i}"), ways=_ways(p, i),
     )  # fmt: skip
     if each(p, "master")[i - 1]:
         knuckle = BearingRole(
@@ -85,6 +87,12 @@ def _pins(p: CrankTrainParameters, i: int) -> tuple[BearingRole, BearingRole]:
             reactions=(f"pin_force_x_{i}", f"pin_force_y_{i}"),
         ),
     )  # fmt: skip
+
+
+def _ways(p: CrankTrainParameters, i: int) -> tuple[float, float]:
+    """Along the cylinder, and across it in the sense of rotation [rad]."""
+    bank = each(p, "bank")[i - 1]
+    return bank, bank + each(p, "sense")[p.throw[i - 1] - 1] * math.pi / 2
 
 
 def _main(p: CrankTrainParameters, k: int) -> BearingRole:

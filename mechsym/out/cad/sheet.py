@@ -141,7 +141,7 @@ def _table(axis: "Axes", shop: Workshop) -> None:
     )
     table.auto_set_font_size(False)
     table.set_fontsize(9)
-    notes = [row for note in _notes(shop) for row in textwrap.wrap(note, 90)]
+    notes = [row for note in _notes(shop) for row in textwrap.wrap(note.replace("± ", "±\u00a0"), 90)]
     axis.text(0, 0.31, "\n".join(notes), va="top", fontsize=8.5, linespacing=1.5)
 
 
