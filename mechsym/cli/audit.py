@@ -18,7 +18,7 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 
 
 @click.command(short_help="Check published hand formulas against the derivations.")
-@click.argument("paper", required=False, type=click.Path(path_type=Path, dir_okay=False))
+@click.argument("paper", required=False, type=click.Path(path_type=Path))
 @click.option("--source", help="Only this source: file stem or short name.")
 @click.option("--formula", metavar="TEXT", help="A formula of your own, in Python syntax or LaTeX.")
 @click.option("--against", metavar="NAME.QUANTITY", help="What the formula claims to be, e.g. crosshead.inertia.")
@@ -55,13 +55,15 @@ def audit(
 ) -> None:  # fmt: skip
     """Compare published hand formulas with the derivations; repair misprints by search.
 
-    PAPER is a LaTeX file: each of its display equations is one row. --out writes a page of formulas of your own.
+    PAPER is a text (.tex, .md, .txt with $ and $$) or a folder of them: each of its display equations is one row.
+    Without --theory it is judged against itself, its units, and the theories that fit. --out writes a page.
 
     Exit status of formulas: 0 exact, a truncation, right under a convention, or a claim kept; 1 misprint, nearer,
     wrong, or a claim broken; 3 mixed or untestable. 1 too when the audit differs from the recorded findings.
 
     \b
     Example: mechsym audit --source zotov2024
+    Example: mechsym audit paper.md --out page
     Example: mechsym audit --code src --sarif findings.sarif --baseline accepted.sarif
     Example: mechsym audit paper.tex --theory slider_crank --letters "\\omega=phid" --out page
     Example: mechsym audit --formula "R*sin(phi) + R*lam*sin(2*phi)" --against crosshead.dx_dphi --letters "R=r1+r2"
@@ -76,6 +78,8 @@ def audit(
             raise BadInput(
                 "a paper, --formula, --file and --code stand alone; use one of them without --source and --write"
             )
+        if paper is not None and not said["theory"]:
+            ctx.exit(_whole(paper, against, out, said))
         if code is not None and whole:
             ctx.exit(_repository(Path(code), against, out, sarif, baseline, said))
         rows = _own(formula, against, file, code, said) if paper is None else _paper(paper, against, said)
@@ -100,6 +104,22 @@ def audit(
             "--against, --letters, --out and --case belong to --formula; write for example --formula 'r*sin(phi)'"
         )
     ctx.exit(_published(source, write, certificate))
+
+
+def _whole(paper: Path, against: str | None, out: Path | None, said: dict[str, Any]) -> int:
+    from mechsym.audit.hosts.whole import check_whole, listed, page_of, summary_of
+    from mechsym.files import write_text
+    from mechsym.quantities.results import tell
+
+    kinds = ("letters", "case", "assume", "claim", "convention")
+    if given := [f"--{k}" for k in kinds if said[k]] + ["--against"] * bool(against):
+        raise BadInput(f"{', '.join(given)}: a whole paper is judged by its own letters; with them give --theory too")
+    rows, cover = check_whole(paper)
+    if out is not None:
+        click.echo(str(write_text(out / "audit.html", page_of(str(paper), rows, cover))), err=True)
+    told = {"rows": rows, "coverage": tell(cover)}
+    emit(told, lambda: "\n".join([summary_of(rows, cover), *listed(rows)]))
+    return _status([r for r in rows if r["verdict"] != "untestable"])
 
 
 def _repository(

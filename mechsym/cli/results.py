@@ -15,7 +15,11 @@ _BESIDE = {"doubts": "mechsym.plausible:Doubt", "accepted": "mechsym.plausible:D
            "headline": "mechsym.page.finding:Finding"}  # fmt: skip
 #: Command: the results that it may give, each "module:class"
 RESULTS = {
-    "audit": ("mechsym.audit.row:Compared", "mechsym.audit.hosts.paper:EquationPlace"),
+    "audit": (
+        "mechsym.audit.row:Compared",
+        "mechsym.audit.hosts.paper:EquationPlace",
+        "mechsym.audit.hosts.whole:Coverage",
+    ),
     "balance": ("mechsym.jobs.forces:BalanceOfEngine",),
     "compare": ("mechsym.cycle.columns:EngineComparison",),
     "cycle": (

@@ -52,6 +52,7 @@ class Listing(TypedDict):
     watched: NotRequired[list[str]]  #: Points that `m.watch` names
     undetermined: NotRequired[list[str]]  #: Reactions that joints hold against one another, in space
     redundant: NotRequired[list[str]]  #: Which joints these are, in words
+    tensors: NotRequired[dict[str, list[str]]]  #: Inertia of bodies in space: xx, yy, zz, xy, xz, yz
     open_sides: NotRequired[list[str]]  #: Joints of loops of pins whose side nobody chose
 
 
@@ -97,6 +98,7 @@ def _own(m: Declaration) -> Json:
         "watched": [*m.watched],
         "undetermined": m.undetermined,
         "redundant": m.redundant,
+        "tensors": m.tensors,
         "open_sides": [side.joint for side in m.sides if side.pins and not side.by],
     }
     return {key: value for key, value in said.items() if value}

@@ -8,154 +8,15 @@ import ast
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import NoReturn
+from zlib import crc32
 
-from mechsym.audit.read.spelling import plain
-from mechsym.audit.read.tree import MAX_DEPTH, Node, binary, call, name, negative, number, piecewise
+from mechsym.audit.read.letter import WORDS, Cursor, derivative, letter, place
+from mechsym.audit.read.tree import MAX_DEPTH, Node, binary, call, letters, meaning, name, negative, number, piecewise
 from mechsym.errors import BadInput
 
-_GREEK = {
-    "alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "vartheta", "kappa", "lambda",
-    "mu", "nu", "xi", "pi", "rho", "varrho", "sigma", "tau", "phi", "varphi", "chi", "psi", "omega", "Delta", "Sigma",
-    "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
-}  # fmt: skip
-_DECORATED = {"\\vec": "", "\\boldsymbol": "", "\\bar": "bar", "\\overline": "bar", "\\hat": "hat", "\\tilde": "tilde"}
-_PAIRS = {")": "(r + l)", "}": "{r + l}", "]": "\\sqrt[3]{r}"}
-WORDS = {"\\mathrm", "\\text", "\\mbox", "\\mathit", "\\mathbf", "\\operatorname", "\\textrm", "\\mathsf"}
-
-
-@dataclass
-class Cursor:
-    """Where the reader is; the one thing that changes while reading."""
-
-    tokens: list[str]
-    #: Next token, and how deep the reader is in brackets
-    position: int = 0
-    depth: int = 0
-    spelled: dict[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX
-
-    def peek(self, ahead: int = 0) -> str:
-        """A token that is not taken yet."""
-        index = self.position + ahead
-        return self.tokens[index] if index < len(self.tokens) else ""
-
-    def take(self, wanted: str = "") -> str:
-        """The next token, refused where it is not the wanted one."""
-        token = self.peek()
-        if wanted and token != wanted:
-            way = f"close what is open, as in {_PAIRS[wanted]}" if wanted in _PAIRS else f"write {wanted} there"
-            raise BadInput(f"LaTeX: {wanted!r} is missing {place(self)}; {way}")
-        self.position += 1
-        return token
-
-
-def place(cursor: Cursor) -> str:
-    """Where the reader is, for messages."""
-    before = "".join(cursor.tokens[max(0, cursor.position - 6) : cursor.position])
-    return f"after {before!r}" if before else "at the start"
-
-
-def letter(cursor: Cursor, bare: bool) -> Node:
-    """Read a letter with dots and subscript; `bare`: the one token after a fraction or a power, without subscript."""
-    start = cursor.position
-    while cursor.peek() in _DECORATED and cursor.peek(1) != "{":
-        cursor.take()
-    # \\vec{r} is r; a bar or a hat makes another letter
-    decorated = cursor.peek() in _DECORATED
-    start = cursor.position if decorated else start
-    mark = _DECORATED[cursor.take()] if decorated else ""
-    dots = 0 if decorated else {"\\dot": 1, "\\ddot": 2}.get(cursor.peek(), 0)
-    if dots:
-        cursor.take()
-    braced = decorated or dots > 0 and cursor.peek() == "{"
-    if braced:
-        cursor.take("{")
-    base = _base(cursor)
-    subscript = "" if bare and not dots and not decorated else _subscript(cursor)
-    if braced:
-        cursor.take("}")
-        subscript = subscript or _subscript(cursor)
-    if not decorated:
-        subscript += _star(cursor, bare)
-        if cursor.peek() == "'":
-            raise BadInput(f"LaTeX: primes are not read {place(cursor)}; write \\frac{{dx}}{{d\\varphi}} for x'")
-    plain_name = plain(base, subscript, dots) + mark
-    tokens = cursor.tokens[start : cursor.position]
-    pairs = zip(tokens, [*tokens[1:], ""], strict=True)
-    spelled = "".join(f"{t} " if t[0] == "\\" and t[-1].isalpha() and n[:1].isalpha() else t for t, n in pairs)
-    cursor.spelled.setdefault(plain_name, spelled)
-    return name(plain_name)
-
-
-def _star(cursor: Cursor, bare: bool) -> str:
-    # E^* is one letter
-    for length, mark in ((2, ("*",)), (2, ("\\ast",)), (4, ("{", "*", "}")), (4, ("{", "\\ast", "}"))):
-        if not bare and tuple(cursor.peek(i) for i in range(length)) == ("^", *mark):
-            cursor.position += length
-            return "star"
-    return ""
-
-
-def _base(cursor: Cursor) -> str:
-    token = cursor.take()
-    if token in WORDS:
-        cursor.take("{")
-        word = ""
-        while cursor.peek().isalnum():
-            word += cursor.take()
-        cursor.take("}")
-        return word
-    after = cursor.peek()
-    if token == "\\Delta" and (len(after) == 1 and after.isalpha() or after.startswith("\\") and after[1:] in _GREEK):
-        return f"Delta{_base(cursor)}"
-    if token[1:] in _GREEK and token.startswith("\\"):
-        return token[1:]
-    if len(token) == 1 and token.isalpha():
-        return token
-    cursor.position -= 1
-    if not token:
-        raise BadInput(f"LaTeX: the formula ends {place(cursor)}; write what belongs there, a letter or a bracket")
-    raise BadInput(f"LaTeX: {token!r} is not read {place(cursor)}; use fractions, roots, powers, letters and functions")
-
-
-def _subscript(cursor: Cursor) -> str:
-    if cursor.peek() != "_":
-        return ""
-    cursor.take()
-    if cursor.peek() != "{":
-        return cursor.take()
-    text, depth = "", 0
-    while cursor.peek():
-        token = cursor.take()
-        depth += {"{": 1, "}": -1}.get(token, 0)
-        if depth == 0:
-            return text
-        if token not in WORDS:
-            text += token
-    raise BadInput(f"LaTeX: the subscript's closing brace is missing {place(cursor)}; write it as in m_{{rod}}")
-
-
-def derivative(cursor: Cursor) -> str | None:
-    r"""Read what follows `\frac` as `dx_dphi` or `d2x_dphi2`; None when it is an ordinary fraction."""
-    # \frac{d x}{d \varphi} and \frac{d^2 x}{d \varphi^2} are one letter, dx_dphi and d2x_dphi2
-    text = "".join(cursor.tokens[cursor.position : cursor.position + 24])
-    d, letter = r"(?:d|\\mathrm\{d\}|\\partial)", r"\\?[A-Za-z]+(?:_\w|_\{\w+\})?"
-    match = re.match(rf"\{{{d}(\^2|\^\{{2\}})?({letter})\}}\{{{d}({letter})(\^2|\^\{{2\}})?\}}", text)
-    if match is None or bool(match[1]) != bool(match[4]):
-        return None
-    end, length = cursor.position, 0
-    while length < match.end():
-        length += len(cursor.tokens[end])
-        end += 1
-    cursor.position = end
-    above, below = (plain(*re.sub(r"[\\{}]", "", match[i]).partition("_")[::2]) for i in (2, 3))
-    whole = f"d2{above}_d{below}2" if match[1] else f"d{above}_d{below}"
-    cursor.spelled[whole] = rf"\frac{match[0]}"
-    return whole
-
-
+PLUS_MINUS = "plusminus"  #: What stands for either sign
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|\d+(?:(?:\.|,|\{,\})\d+)?|[^\W\d_]|\S")
 _SILENT = {
     "\\,", "\\;", "\\:", "\\!", "\\ ", "\\quad", "\\qquad", "\\displaystyle", "\\limits", "\\nolimits", "~", "$",
@@ -165,18 +26,21 @@ _FUNCTIONS = {
     "sin": "sin", "cos": "cos", "tan": "tan", "tg": "tan", "cot": "cot", "ctg": "cot", "arcsin": "asin",
     "arccos": "acos", "arctan": "atan", "arctg": "atan", "exp": "exp", "ln": "log", "log": "log",
 }  # fmt: skip
+_SEVERAL = ("atan2", "min", "max", "hypot")
+_FUNCTIONS |= {n: n for n in _SEVERAL} | {"sen": "sin"}
 _FRACTIONS = {"\\frac", "\\dfrac", "\\tfrac"}
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
-_TIMES, _OVER = {"*", "\\cdot", "\\times"}, {"/", "\\div"}
-_STOP = {")", "]", "}", "\\}", "|", "+", "-", "\\over", ""}
+_TIMES, _OVER = {"*", "\\cdot", "\\times", ".", "\\ast", "\\bullet", "·"}, {"/", "\\div", ":"}
+_SUMS = ("+", "-", "\\pm", "\\mp")
+_STOP = {")", "]", "}", "\\}", "|", "\\over", "", ",", *_SUMS}
 _SPELLED = (*sorted({*_FUNCTIONS, "asin", "acos", "atan", "sqrt"}, key=len, reverse=True),)
 
 
-def read_latex(text: str) -> tuple[Node, dict[str, str]]:
+def read_latex(text: str, whole: bool = False) -> tuple[Node, dict[str, str]]:
     """Read LaTeX without an equals sign: the tree, and plain names to the LaTeX that was written for them."""
     text = text.replace("²", "^{2}").replace("³", "^{3}")
     silent = _SILENT if r"\begin" in text else {*_SILENT, "&"}
-    cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent])
+    cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent], whole=whole)
     tree = _sum(cursor)
     if cursor.peek():
         raise BadInput(f"LaTeX: {cursor.peek()!r} does not fit {place(cursor)}; take it away or open its bracket")
@@ -197,9 +61,12 @@ def _sum(cursor: Cursor) -> Node:
     tree = _product(cursor)
     if sign == "-":
         tree = _signed(tree)
-    while cursor.peek() in ("+", "-"):
-        operator = ast.Add if cursor.take() == "+" else ast.Sub
-        tree = binary(operator, tree, _product(cursor))
+    while cursor.peek() in _SUMS:
+        operator = cursor.take()
+        term = _product(cursor)
+        if operator in ("\\pm", "\\mp"):  # either sign: a letter that is 1 or -1
+            term = binary(ast.Mult, name(PLUS_MINUS), term)
+        tree = binary(ast.Add if operator in ("+", "\\pm") else ast.Sub, tree, term)
     return tree
 
 
@@ -232,11 +99,24 @@ def _product(cursor: Cursor) -> Node:
 
 
 def _power(cursor: Cursor) -> Node:
+    euler = cursor.peek() == "e" and cursor.peek(1) == "^"
     tree = _factor(cursor)
     if cursor.peek() == "^":
         cursor.take()
-        tree = binary(ast.Pow, tree, _argument(cursor))
+        if _degrees(cursor):
+            return binary(ast.Div, binary(ast.Mult, tree, name("pi")), number(180))
+        exponent = _argument(cursor)
+        # e to the power of a letter is the exponential, e^2 the square of a letter
+        tree = call("exp", exponent) if euler and letters(exponent) else binary(ast.Pow, tree, exponent)
     return tree
+
+
+def _degrees(cursor: Cursor) -> bool:
+    for marks in (("\\circ",), ("{", "\\circ", "}")):
+        if tuple(cursor.peek(i) for i in range(len(marks))) == marks:
+            cursor.position += len(marks)
+            return True
+    return False
 
 
 def _argument(cursor: Cursor) -> Node:
@@ -293,10 +173,48 @@ def _factor(cursor: Cursor, bare: bool = False) -> Node:
             return call("sum", _product(cursor))
         if token == "\\begin":
             return _cases(cursor)
+        if token in ("\\underbrace", "\\overbrace"):
+            cursor.take()
+            tree = _group(cursor)
+            if cursor.peek() in ("_", "^"):
+                _subscript_of(cursor)
+            return tree
+        if cursor.whole and token in _INTEGRALS:
+            return _integral(cursor)
         function = _function_name(cursor)
         if function:
             return _function(cursor, function)
         return letter(cursor, bare)
+
+
+_INTEGRALS = {"\\int", "\\oint", "\\iint", "\\lim"}
+
+
+def _subscript_of(cursor: Cursor) -> None:
+    cursor.take()
+    if cursor.peek() != "{":
+        cursor.take()
+        return
+    depth = 0
+    while token := cursor.peek():
+        cursor.take()
+        depth += {"{": 1, "}": -1}.get(token, 0)
+        if not depth:
+            return
+
+
+def _integral(cursor: Cursor) -> Node:
+    # to the end of the group: one symbol, known by what is printed
+    start, depth = cursor.position, 0
+    while token := cursor.peek():
+        depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(token, 0)
+        if depth < 0:
+            break
+        cursor.take()
+    text = "".join(cursor.tokens[start : cursor.position])
+    plain_name = f"integral{crc32(text.encode()):08x}"
+    cursor.spelled[plain_name] = text
+    return name(plain_name)
 
 
 def _cases(cursor: Cursor) -> Node:
@@ -328,7 +246,7 @@ def _cases(cursor: Cursor) -> Node:
 
 
 def _inner(cursor: Cursor, text: str) -> Node:
-    tree, spelled = read_latex(text.strip().rstrip(".,;"))
+    tree, spelled = read_latex(text.strip().rstrip(".,;"), cursor.whole)
     cursor.spelled.update(spelled)
     return tree
 
@@ -363,6 +281,8 @@ def _function(cursor: Cursor, function: str) -> Node:
         power = _argument(cursor)
         if ast.dump(power) == ast.dump(negative(number(1))):
             function, power = f"a{function}", None
+    if function in _SEVERAL:
+        return _several(cursor, function)
     if cursor.peek() in _CLOSING:
         argument = _group(cursor)
         if cursor.peek() == "^" and power is None:
@@ -372,6 +292,20 @@ def _function(cursor: Cursor, function: str) -> Node:
         argument = _run(cursor, function)
     tree = call(function, argument)
     return tree if power is None else binary(ast.Pow, tree, power)
+
+
+def _several(cursor: Cursor, function: str) -> Node:
+    # atan2(y, x), min(a, b)
+    opening = cursor.take("(" if cursor.peek() != "\\{" else "")
+    arguments = [_sum(cursor)]
+    while cursor.peek() == ",":
+        cursor.take()
+        arguments.append(_sum(cursor))
+    cursor.take(_CLOSING[opening])
+    several = meaning(function, arguments)
+    if several is None:
+        raise BadInput(f"LaTeX: {function} takes two arguments {place(cursor)}; write {function}(a, b)")
+    return several
 
 
 def _run(cursor: Cursor, function: str) -> Node:

@@ -1,0 +1,235 @@
+"""Which shipped theories a text is about: found by the values of its own formulas, and what they then say of the rest.
+
+A theory fits where two formulas of the text with at least two letters are its quantities at random states, under one
+reading of the letters: by their names and units, and by which of the theory's quantities they must be.
+"""
+
+import ast
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from itertools import islice, product
+
+import numpy as np
+
+from mechsym.audit.judge.dimensions import kind_of
+from mechsym.audit.judge.kinds import Kinds
+from mechsym.audit.judge.world import World
+from mechsym.audit.read.algebra import FLOATS, evaluate
+from mechsym.audit.read.said import Said
+from mechsym.audit.read.tree import Node, letters, name, walk
+from mechsym.audit.theory.catalogue import named, names
+from mechsym.audit.theory.record import Theory, complete
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+_STATES = 16
+_READINGS = 80  # readings of the letters of one formula that are tried
+_CLOSE = 1e-9
+_SAME = {"R": "r", "L": "l", "varphi": "phi", "psi": "beta"}
+_UNFIT = re.compile("_(?:constraints|truncated|printed)$")  # what an author has cut short is no theory
+_INNER = re.compile(
+    "residual_|bias|force_phi|force_theta|force_alpha|R_[xy]_|.*_phi$|generalized_force|.*energy"
+)  # names that no text has
+_SPARE = {"force", "piston", "of", "on", "the", "total"}
+
+
+@record
+class Met:
+    """A formula that is a quantity of a theory."""
+
+    quantity: str
+    sign: int  #: -1 where the text counts it the other way [-]
+
+
+@dataclass
+class Fit:
+    """A theory with the reading of the text's letters under which it fits."""
+
+    theory: Theory
+    values: dict[str, np.ndarray]
+    kinds: dict[str, tuple[object, ...] | None]
+    asked: list[str] = field(default_factory=list)  #: Quantities that a formula may be
+    table: np.ndarray = field(default_factory=lambda: np.empty((0, _STATES)))  #: Their values, a row for each
+    meant: dict[str, str] = field(default_factory=dict)
+    met: dict[tuple[int, int], Met] = field(default_factory=dict)  #: By place of the equation and its side
+    strong: set[int] = field(default_factory=set)  #: Equations that can hardly agree by chance
+
+    def of_kind(self, kind: tuple[object, ...] | None) -> list[str]:
+        """Names of the theory that have a unit, all where it is not known."""
+        return [n for n in self.values if n != "pi" and (kind is None or self.kinds.get(n) in (None, kind[:4]))]
+
+
+@cache
+def _states(theory_name: str) -> "Fit":
+    theory = named(theory_name)
+    rng = np.random.default_rng(3)
+    values: dict[str, np.ndarray] = {"pi": np.full(_STATES, np.pi)}
+    for letter, about in theory.letters.items():
+        sign = 1.0 if about.positive else rng.choice((-1.0, 1.0), _STATES)
+        values[letter] = (about.value or 1.0) * rng.uniform(0.7, 1.4, _STATES) * sign
+        if about.domain:
+            values[letter] = rng.uniform(*about.domain, _STATES)
+        if letter == theory.angle:
+            values[letter] = rng.uniform(-6, 6, _STATES)
+    with np.errstate(all="ignore"):
+        for wish in [*theory.results, *theory.tape, *_rates(theory)]:
+            try:
+                if wish in theory.tape:
+                    complete(theory, values, [wish], FLOATS)
+            except (BadInput, ValueError, TypeError, RecursionError, KeyError):
+                values.pop(wish, None)
+    values = {n: v for n, v in values.items() if np.shape(v) == (_STATES,)}
+    kinds = {n: _kind(theory, n) for n in values}
+    asked = [q for q in (*theory.results, *_rates(theory)) if q in values and not _INNER.match(q)]
+    return Fit(theory=theory, values=values, kinds=kinds, asked=asked, table=np.array([values[q] for q in asked]))
+
+
+def _rates(theory: Theory) -> list[str]:
+    # of what moves: travel, and the angles of links
+    moving = [q for q in theory.results if q in ("x", "s", "beta", "psi", "x0")]
+    return [f"{q}_{d}" for q in moving for d in ("d", "dd")] if theory.angle else []
+
+
+def _kind(theory: Theory, letter: str) -> tuple[object, ...] | None:
+    try:
+        kind = kind_of(theory, name(letter))
+    except (BadInput, RecursionError):
+        return None
+    return None if kind is None else tuple(kind[:4])
+
+
+def fits(world: World) -> list[Fit]:
+    """The theories that fit a text, those that say most of it first."""
+    sides = list(_sides(world))
+    used = {n.replace("_", "") for *_, tree in sides for n in letters(tree)}
+    found = []
+    for theory_name in names() if sides else ():
+        if _UNFIT.search(theory_name) or not _alike(theory_name, used, world.angle):
+            continue
+        fit = replace(_states(theory_name), meant={}, met={}, strong=set())
+        for order, side, tree in sides:
+            _meet(fit, world, order, side, tree)
+        found.append(fit)
+    prose = world.paper.prose.lower()
+    strange = {f.theory.name: sum(w not in prose for w in f.theory.name.split("_")) for f in found}
+    kept: list[Fit] = []
+    for fit in sorted(found, key=lambda f: (strange[f.theory.name], -len(f.strong), len(f.theory.name))):
+        # what says nothing new fits by chance
+        if len(fit.strong - {o for f in kept for o in f.strong}) > 1:
+            kept.append(fit)
+    return kept
+
+
+def _alike(theory_name: str, used: set[str], angle: str) -> bool:
+    theory = named(theory_name)
+    own = {n.replace("_", "") for n in (*theory.letters, *theory.results)}
+    return sum(n in own or _SAME.get(n, "") in own for n in used) + bool(angle and theory.angle) > 2
+
+
+def _sides(world: World) -> Iterator[tuple[int, int, Node]]:
+    for order, said in enumerate(world.paper.said):
+        for k, side in enumerate(said.sides):
+            if k and not said.inline:
+                yield order, k, world.plain(side)
+
+
+def _by_name(fit: Fit, world: World, letter: str) -> str:
+    theory = fit.theory
+    if world.angle and letter.startswith(world.angle) and theory.angle:
+        rest = letter[len(world.angle) :]
+        if rest in ("", "d", "dd") and theory.angle + rest in fit.values:
+            return theory.angle + rest
+    for wanted in (letter, _SAME.get(letter, letter)):
+        for known in fit.values:
+            if known.replace("_", "") == wanted.replace("_", "") and _one_kind(fit, world.kinds, letter, known):
+                return known
+    return ""
+
+
+def _one_kind(fit: Fit, kinds: Kinds, letter: str, known: str) -> bool:
+    mine, its = kinds.of(letter), fit.kinds.get(known)
+    return mine is None or its is None or tuple(mine[:4]) == its
+
+
+def _meet(fit: Fit, world: World, order: int, side: int, tree: Node) -> None:
+    used = [n for n in letters(tree) if n != "pi"]
+    heavy = sum(isinstance(n, (ast.BinOp, ast.Call)) for _, n in walk(tree))
+    if not used or heavy < 1 or len(used) > 9:
+        return
+    said = world.paper.said[order]
+    left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
+    turning = any(isinstance(n, ast.Call) for _, n in walk(tree))
+    strong = len(used) > 1 and heavy > 2 and (turning or len(used) > 3)
+    choices = [_choices(fit, world, letter, strong) for letter in used]
+    if not all(choices):
+        return
+    for reading in islice(product(*choices), _READINGS):
+        if len(set(reading)) < len(reading):
+            continue
+        quantity, sign = _quantity(fit, world, tree, dict(zip(used, reading, strict=True)), left)
+        if not quantity:
+            continue
+        fit.meant |= dict(zip(used, reading, strict=True))
+        if left and sign > 0:
+            fit.meant.setdefault(left, quantity)
+        fit.met[order, side] = Met(quantity=quantity, sign=sign)
+        if strong:
+            fit.strong.add(order)
+        return
+
+
+def _choices(fit: Fit, world: World, letter: str, strong: bool) -> list[str]:
+    if letter in fit.meant:
+        return [fit.meant[letter]]
+    if by_name := _by_name(fit, world, letter):
+        kind = world.kinds.of(letter)
+        # an F may be the force of the gas, or all of it
+        return [
+            by_name,
+            *(n for n in fit.of_kind(kind) if n != by_name and kind is not None and n in fit.theory.results),
+        ][:10]
+    kind = world.kinds.of(letter)
+    if not strong:
+        return []  # a product of three letters is one of many things
+    return [n for n in fit.of_kind(kind) if kind is not None or n in fit.theory.letters or n in fit.theory.results][:24]
+
+
+def _quantity(fit: Fit, world: World, tree: Node, reading: Mapping[str, str], left: str) -> tuple[str, int]:
+    given = {"pi": fit.values["pi"]} | {k: fit.values[v] for k, v in reading.items()}
+    with np.errstate(all="ignore"):
+        try:
+            value = np.asarray(evaluate(tree, given, FLOATS), dtype=float)
+        except (KeyError, ValueError, TypeError):
+            return "", 0
+    if value.shape != (_STATES,) or not np.all(np.isfinite(value)) or np.ptp(value) == 0:
+        return "", 0
+    kind = world.kinds.of(left) if left else None
+    wanted = fit.meant.get(left, "")
+    for sign in (1, -1):
+        close = np.all(np.abs(value - sign * fit.table) <= _CLOSE * (np.abs(fit.table) + 1e-300), axis=1)
+        for quantity in (fit.asked[i] for i in np.flatnonzero(close)):
+            same_kind = kind is None or fit.kinds.get(quantity) in (None, tuple(kind[:4]))
+            if same_kind and quantity not in reading.values() and wanted in ("", quantity):
+                return quantity, sign
+    return "", 0
+
+
+def candidates(fit: Fit, said: Said, world: World) -> Sequence[str]:
+    """Quantities that a text's words call what an equation gives, of the right unit, that no other formula is."""
+    left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
+    if not left:
+        return []
+    if left in fit.meant:
+        return [fit.meant[left]]
+    about = world.paper.named.get(left)
+    around = f"{said.before} {about.meaning if about else ''}".lower()
+    taken, kind = set(fit.meant.values()), world.kinds.of(left)
+    chosen = []
+    for quantity in fit.theory.results:
+        words = set(re.findall(r"[a-z]{4,}", quantity.lower())) - _SPARE
+        fits_kind = kind is None or fit.kinds.get(quantity) in (None, tuple(kind[:4]))
+        if words and quantity not in taken and fits_kind and all(w in around for w in words):
+            chosen.append(quantity)
+    return chosen[:3]

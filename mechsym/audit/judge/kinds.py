@@ -1,0 +1,383 @@
+"""Units of the equations of a text: each must have one on both sides, by what its nomenclature says of the letters.
+
+A letter with an index has the unit of the letter without one. A number that may carry a unit (0.4 in `t + 0.4`) makes
+an equation empirical: nothing is said of it.
+"""
+
+import ast
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from mechsym.audit.read.said import Said, Text
+from mechsym.audit.read.spelling import SYMBOLS
+from mechsym.audit.read.tree import Node, argument_of, function_of, letters, value_of, walk
+from mechsym.audit.read.units import KINDS
+from mechsym.errors import BadInput
+from mechsym.quantities import dimension, record
+from mechsym.quantities.units import scale
+
+Kind = tuple[Fraction, ...]  # exponents of kg, m, s, K, of a factor 60 and of a factor 1000
+PURE: Kind = (Fraction(0),) * 6
+_LENGTH: Kind = (Fraction(0), Fraction(1), *PURE[2:])
+_SIXTY, _THOUSAND = 4, 5
+_SCALED = {"kW": 3, "kN": 3, "kPa": 3, "kJ": 3, "MPa": 6, "MW": 6, "MJ": 6}
+_CONVERTS = {Fraction(30), Fraction(60), Fraction(120)}
+#: Whole numbers that formulas have of themselves; any other may carry a unit
+_PLAIN = {
+    *map(Fraction, (*range(1, 13), 16, 24, 30, 32, 48, 60, 64, 96, 120, 128, 180, 360)),
+    Fraction(1, 2),
+    Fraction(1, 4),
+}
+_PLAIN |= {Fraction(3, 2), Fraction(3, 4), Fraction(5, 2), Fraction(1, 8), Fraction(4, 3)}
+_UNITS = ("kg", "m", "s", "K")
+
+
+_STEMS = "|".join([*sorted(SYMBOLS, key=len, reverse=True), "[A-Za-z]"])
+_RATE = re.compile(rf"((?:{_STEMS})\w*?)(dd?)")
+_STEP = re.compile(rf"(?:Delta|delta|d)((?:{'|'.join(sorted(SYMBOLS, key=len, reverse=True))}|[A-Zxyzms])\w*)")
+_MARKED = re.compile(r"(\w+?)(?:bar|hat|tilde|star)")
+_INDEX = re.compile(rf"({_STEMS})(\w+)")
+
+
+class Clash(BadInput):
+    """Two parts of an expression that have different units."""
+
+
+class _Unknown(Exception):  # noqa: N818 not an error: nothing can be said
+    pass
+
+
+@record
+class Odd:
+    """An equation whose units do not fit."""
+
+    said: Said
+    part: int  #: Which side, counted from the left [-]
+    why: str
+
+
+@dataclass
+class Kinds:
+    """The kinds of the letters of a text: printed, or inferred from what defines them."""
+
+    printed: dict[str, Kind] = field(default_factory=dict)
+    inferred: dict[str, Kind] = field(default_factory=dict)
+    bare: dict[str, Kind] = field(default_factory=dict)  #: Of letters that a relative with a unit for an index tells
+    scaled: set[str] = field(default_factory=set)  #: Letters that the table measures in no unit of the SI
+    turns: set[str] = field(default_factory=set)  #: Letters in revolutions a minute that formulas take as a number
+
+    def of(self, letter: str) -> Kind | None:
+        """Kind of a letter, of its rate, or of the one without its index."""
+        for known in (self.inferred, self.printed):
+            if letter in known:
+                return known[letter]
+        if "prime" in letter or letter in SYMBOLS:
+            return None
+        if (rate := _RATE.fullmatch(letter)) and (still := self.of(rate[1])) is not None:
+            # the dot on a mass or a heat may mean the angle
+            return (*still[:2], still[2] - len(rate[2]), *still[3:]) if still in (PURE, _LENGTH) else None
+        if within := _MARKED.fullmatch(letter) or _STEP.fullmatch(letter):
+            return self.of(within[1])
+        base = _INDEX.fullmatch(letter)
+        if base is None:
+            return self.bare.get(letter)
+        if base[2][0].isdigit():
+            return self.printed.get(base[1])
+        kind = self.printed.get(base[1], self.bare.get(base[1]))
+        if kind is None or kind == PURE and base[1] not in SYMBOLS:
+            return None  # a number lends its kind to no other letter
+        if len(base[2]) > 1:
+            return kind
+        # c_p beside a c_v that is no c
+        like = {
+            k[:4] for n, k in self.printed.items() if len(n) == len(letter) and n[:-1] == base[1] and n not in SYMBOLS
+        }
+        return kind if like <= {kind[:4]} else None
+
+    def kind(self, tree: Node) -> Kind:
+        """Kind of an expression. Raises Clash, and _Unknown where a letter is unknown or a number may have a unit."""
+        value = value_of(tree)
+        if value is not None:
+            return _number(Fraction(value))
+        if isinstance(tree, ast.Name):
+            known = PURE if tree.id in ("pi", "plusminus") else self.of(tree.id)
+            if known is None:
+                raise _Unknown
+            return known
+        if isinstance(tree, ast.UnaryOp):
+            return self.kind(tree.operand)
+        if isinstance(tree, ast.IfExp):
+            return self._same(tree.body, tree.orelse)
+        if isinstance(tree, ast.Call):
+            return self._called(str(function_of(tree)), tree.args[0])
+        if isinstance(tree, ast.BinOp):
+            return self._operation(tree)
+        raise _Unknown
+
+    def _called(self, function: str, argument: Node) -> Kind:
+        inner = self.kind(argument)
+        if function in ("abs", "sum"):
+            return inner
+        if function == "sqrt":
+            return tuple(e / 2 for e in inner)
+        if any(inner[:4]):
+            raise Clash(f"the argument of {function} has the unit {text(inner)}")
+        return PURE
+
+    def _operation(self, tree: ast.BinOp) -> Kind:
+        if isinstance(tree.op, (ast.Add, ast.Sub)):
+            return self._same(tree.left, tree.right)
+        if isinstance(tree.op, ast.Pow):
+            exponent, base = value_of(tree.right), self.kind(tree.left)
+            if exponent is None:
+                if any(base[:4]):
+                    raise _Unknown
+                return PURE
+            return tuple(e * Fraction(exponent) for e in base)
+        sign = 1 if isinstance(tree.op, ast.Mult) else -1
+        left, right = self.kind(tree.left), self.kind(tree.right)
+        return tuple(a + sign * b for a, b in zip(left, right, strict=True))
+
+    def _same(self, left: Node, right: Node) -> Kind:
+        try:
+            first = self.kind(left)
+        except _Unknown:
+            self.kind(right)
+            raise
+        second = self.kind(right)
+        if first[:4] != second[:4]:
+            if value_of(left) == 0 or value_of(right) == 0:
+                return second if value_of(left) == 0 else first
+            raise Clash(f"{text(first)} is added to {text(second)}")
+        return first if any(first[4:]) else second
+
+
+def _number(value: Fraction) -> Kind:
+    if value and abs(value) not in _PLAIN:
+        raise _Unknown
+    sixty = Fraction(int(abs(value) in _CONVERTS))
+    return (*PURE[:4], sixty, Fraction(0))
+
+
+def text(kind: Kind) -> str:
+    """A kind as a unit."""
+    shown = [f"{u}^{e}" if e != 1 else u for u, e in zip(_UNITS, kind, strict=False) if e]
+    return " ".join(shown) or "1"
+
+
+def of_unit(unit: str) -> Kind:
+    """Kind of a printed unit."""
+    return (*map(Fraction, dimension(unit)), Fraction(0), Fraction(0))
+
+
+def kinds_of(paper: Text) -> Kinds:
+    """What the nomenclature, units behind equations, and definitions tell."""
+    kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")})
+    for letter, about in paper.named.items():
+        words = re.findall(r"[a-z]+", about.meaning.lower())
+        called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
+        unit = about.unit or ("" if re.match("(?:d|delta|Delta)[A-Za-z]", letter) else KINDS.get(called, ""))
+        if unit:
+            kinds.printed[letter] = of_unit(unit)
+        if about.unit == "rpm":
+            kinds.turns.add(letter)
+        elif about.unit and scale(about.unit) != 1:
+            kinds.scaled.add(letter)
+    used = {n for said in paper.said for side in said.sides for n in letters(side)}
+    for side in (side for said in paper.said for side in said.sides):
+        for _, node in walk(side):
+            argument = argument_of(node, "sin", "cos", "tan", "cot")
+            if argument is not None and all(
+                isinstance(n, ast.Name | ast.operator) or value_of(n) is not None for n in _sum(argument)
+            ):
+                kinds.printed |= {n: PURE for n in letters(argument) if kinds.of(n) is None}
+    for letter in used:
+        unit = next((u for u in _SCALED if letter.endswith(u) and len(letter) > len(u)), "")
+        if unit:
+            kinds.printed[letter] = (*map(Fraction, dimension(unit)), Fraction(0), Fraction(-_SCALED[unit], 3))
+            kinds.bare.setdefault(letter.removesuffix(unit), (*kinds.printed[letter][:4], Fraction(0), Fraction(0)))
+    for said in paper.said:
+        if said.shown.unit and said.sides and isinstance(said.sides[0], ast.Name):
+            kinds.printed.setdefault(said.sides[0].id, of_unit(said.shown.unit))
+    for _ in range(3):
+        for said in paper.said:
+            _infer(kinds, said)
+    _numbers_of_turns(kinds, paper.said)
+    return kinds
+
+
+def _infer(kinds: Kinds, said: Said) -> None:
+    # the letter that an equation defines, where its other side is known
+    if not said.sides or not isinstance(said.sides[0], ast.Name) or kinds.of(said.sides[0].id) is not None:
+        return
+    known = [k for side in said.sides[1:] if (k := _kind(kinds, side)) is not None]
+    if known and all(k == known[0] for k in known):
+        kinds.inferred[said.sides[0].id] = (*known[0][:4], Fraction(0), Fraction(0))
+
+
+def _kind(kinds: Kinds, tree: Node) -> Kind | None:
+    try:
+        return kinds.kind(tree)
+    except (_Unknown, Clash):
+        return None
+
+
+def _numbers_of_turns(kinds: Kinds, said: Sequence[Said]) -> None:
+    # N/60 in two equations: N counts revolutions a minute, and stands for sixty times its value in all
+    counts = Counter(letter for s in said for side in s.sides for letter in _over_sixty(side) & kinds.turns)
+    for letter in kinds.turns:
+        if counts[letter] > 1:
+            kinds.printed[letter] = (*kinds.printed[letter][:4], Fraction(1), Fraction(0))
+
+
+def _sum(tree: Node) -> list[Node]:
+    if isinstance(tree, ast.BinOp) and isinstance(tree.op, (ast.Add, ast.Sub)):
+        return [*_sum(tree.left), *_sum(tree.right)]
+    return [tree.right] if isinstance(tree, ast.BinOp) and value_of(tree.left) is not None else [tree]
+
+
+def _over_sixty(tree: Node) -> set[str]:
+    used: set[str] = set(letters(tree))
+    constants = {abs(Fraction(v)) for _, n in walk(tree) if (v := value_of(n)) is not None}
+    return used if constants & _CONVERTS else set()
+
+
+def odd(kinds: Kinds, said: Sequence[Said]) -> tuple[list[Odd], set[str]]:
+    """Equations whose units do not fit, and the names of those whose units were compared and do."""
+    misfits, fitting = [], set()
+    for one in said:
+        if not one.sides or one.inline:
+            continue
+        sides: list[tuple[int, Kind]] = []
+        for i, side in enumerate(one.sides):
+            if value_of(side) == 0:
+                continue
+            try:
+                sides.append((i, kinds.kind(side)))
+            except Clash as clash:
+                misfits.append(Odd(said=one, part=i, why=str(clash)))
+            except _Unknown:
+                continue
+        misfits += _unlike(kinds, one, sides)
+        if (len(sides) > 1 or len(one.sides) > 1 and value_of(one.sides[-1]) == 0 and sides) and not _unlike(
+            kinds, one, sides
+        ):
+            fitting.add(id_of(one))
+    return misfits, fitting
+
+
+def id_of(said: Said) -> str:
+    """What an equation is known by."""
+    return f"{said.shown.begins}:{said.shown.text}"
+
+
+def _unlike(kinds: Kinds, one: Said, sides: Sequence[tuple[int, Kind]]) -> list[Odd]:
+    if len({k for _, k in sides}) < 2:
+        return []
+    plain = Counter(k[:4] for _, k in sides)
+    common = plain.most_common(1)[0][0] if len(sides) > 2 else sides[0][1][:4]
+    misfits = [
+        Odd(said=one, part=i, why=f"its unit is {text(k)}, and that of the other side {text((*common, *PURE[4:]))}")
+        for i, k in sides if k[:4] != common
+    ]  # fmt: skip
+    if misfits:
+        return misfits
+    for place, factor in ((_SIXTY, "60"), (_THOUSAND, "1000")):
+        if place == _THOUSAND and kinds.scaled & set(letters_of(one)):
+            continue
+        first = sides[0][1][place]
+        misfits += [
+            Odd(said=one, part=i, why=f"a factor {factor} is missing between the units of its sides")
+            for i, k in sides[1:] if k[place] != first
+        ]  # fmt: skip
+    return misfits
+
+
+@record
+class TableSlip:
+    """A letter whose printed unit no equation can use."""
+
+    letter: str
+    printed: str
+    wanted: str
+    line: int
+    equations: Sequence[str]
+
+
+def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list[TableSlip], list[Odd]]:
+    """Letters of the table to blame, whose other unit mends two equations or more; and the misfits that are left."""
+    slips: list[TableSlip] = []
+    left = list(misfits)
+    while left:
+        best: tuple[int, str, Kind] | None = None
+        for letter in sorted({n for o in left for n in letters_of(o.said) if n in paper.named and paper.named[n].unit}):
+            for kind in _wanted(kinds, letter):
+                count = _mended(kinds, letter, kind, paper.said) + _sure(letter, left)
+                if count > 1 and (best is None or count > best[0]):
+                    best = (count, letter, kind)
+        if best is None:
+            return slips, left
+        _, letter, kind = best
+        about = paper.named[letter]
+        mended = [o for o in left if letter in letters_of(o.said)]
+        kinds.printed[letter] = kind
+        kinds.inferred.pop(letter, None)
+        left, _ = odd(kinds, paper.said)
+        names = list(dict.fromkeys(o.said.name for o in mended if all(o.said.name != m.said.name for m in left)))
+        slips.append(TableSlip(letter=letter, printed=about.unit, wanted=text(kind), line=about.line, equations=names))
+    return slips, left
+
+
+def _sure(letter: str, misfits: Sequence[Odd]) -> int:
+    # a table that says otherwise than all forms of the letter's own equation
+    return int(
+        any(o.part == 0 and len(o.said.sides) > 2 and getattr(o.said.sides[0], "id", "") == letter for o in misfits)
+    )
+
+
+def letters_of(said: Said) -> Iterable[str]:
+    """All letters of an equation."""
+    return {n for side in said.sides for n in letters(side)}
+
+
+def _wanted(kinds: Kinds, letter: str) -> set[Kind]:
+    known = kinds.of(letter)
+    if known is None:
+        return set()
+    tried = {(*map(Fraction, dimension(u)), Fraction(0), Fraction(0)) for u in _TRIED}
+    return {k for k in tried if k[:4] != known[:4]}
+
+
+_TRIED = (
+    "-", "m", "m^2", "m^3", "s", "kg", "K", "N", "N*m", "Pa", "W", "J/kg/K", "m/s", "m/s^2", "rad/s", "rad/s^2",
+    "kg*m^2", "kg/m^3", "N/m", "J/kg", "kg/s", "W/m/K", "W/m^2/K", "N*s/m", "N*m*s", "kg*m", "m^3/s", "Pa*s",
+)  # fmt: skip
+
+
+def _mended(kinds: Kinds, letter: str, kind: Kind, said: Sequence[Said]) -> int:
+    # how many equations another unit mends; none where it spoils one
+    own = [s for s in said if letter in letters_of(s) or any(n.startswith(letter) for n in letters_of(s))]
+    before, _ = odd(kinds, own)
+    old = kinds.printed.get(letter)
+    kinds.printed[letter] = kind
+    now, _ = odd(kinds, own)
+    if old is None:
+        del kinds.printed[letter]
+    else:
+        kinds.printed[letter] = old
+    had, has = ({id_of(o.said) for o in misfits} for misfits in (before, now))
+    return 0 if has - had else len(had - has)
+
+
+def findings(kinds: Kinds, misfits: Sequence[Odd]) -> list[Odd]:
+    """Misfits that no letter of doubtful unit explains: a form of several, or a left side whose own unit is printed."""
+    kept = []
+    for one in misfits:
+        left = one.said.sides[0]
+        named = isinstance(left, ast.Name) and kinds.of(left.id) is not None and left.id not in kinds.inferred
+        if len(one.said.sides) > 2 or named or one.part and not isinstance(left, ast.Name):
+            kept.append(one)
+    return kept

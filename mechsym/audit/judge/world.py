@@ -1,0 +1,365 @@
+"""What a text says of its own letters, as a theory: definitions in their order, what is solved for, rates of angles.
+
+Two forms of one thing are compared in it at random states; where they differ, the auditor's own search looks for the
+slip. A letter that a later section defines anew means the new thing from there on.
+"""
+
+import ast
+import re
+import zlib
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mechsym.audit.judge.kinds import PURE, Kinds, text
+from mechsym.audit.read.algebra import FLOATS, evaluate
+from mechsym.audit.read.reader import RESERVED
+from mechsym.audit.read.said import Said, Text
+from mechsym.audit.read.tree import (
+    Node,
+    argument_of,
+    binary,
+    call,
+    function_of,
+    is_operation,
+    letters,
+    name,
+    substitute,
+    walk,
+)
+from mechsym.audit.theory.record import Letter, Theory, complete, dependencies
+from mechsym.audit.theory.tape import TheoryTape
+from mechsym.quantities import record
+
+_STATES = 48
+_CLOSE = 1e-9
+_ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
+_OPAQUE = re.compile(r"integral\w{8}|constant|function")
+_FORCES = re.compile(r"[FMNTSQRK]\w*")
+_INVERSE = {"sin": "asin", "tan": "atan", "asin": "sin", "acos": "cos", "atan": "tan", "exp": "log", "log": "exp"}
+_PRIME = re.compile(r"(\w+?)((?:prime)+)")
+
+
+@record
+class Defined:
+    """A letter and what a text says that it is."""
+
+    order: int  #: Place of the equation in the text [-]
+    letter: str
+    tree: Node
+    side: int = 0  #: Which side of the equation it is; 0 where the equation was solved for the letter [-]
+
+
+@dataclass
+class World:
+    """The letters of a text and what is said of them."""
+
+    paper: Text
+    kinds: Kinds
+    angle: str = ""
+    aliases: dict[str, str] = field(default_factory=dict)  #: Author's letter to the rate of the angle that it is
+    defined: list[Defined] = field(default_factory=list)
+    theories: dict[tuple[int, ...], Theory] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Find the angle that runs, its rates, and all definitions."""
+        self.angle = _angle(self.paper.said)
+        self._name_alike()
+        self._name_rates()
+        for order, said in enumerate(self.paper.said):
+            self._define(order, said)
+        self._name_motion()
+        self._name_applied()
+
+    def _name_alike(self) -> None:
+        # a nu that is a v where the same letter has one
+        used = {n for said in self.paper.said for side in said.sides for n in letters(side)} | set(self.paper.named)
+        self.aliases |= {
+            n: n.replace("nu", "v") for n in used if "nu" in n and n != "nu" and n.replace("nu", "v") in used
+        }
+
+    def _name_applied(self) -> None:
+        # S(theta) where only an S_piston is a function of the angle
+        sign = {"lam": "lambda"}.get(self.angle, self.angle)
+        for letter in (
+            set(re.findall(rf"(?<![A-Za-z_\\{{]])([A-Za-z])\s*\(\s*\\(?:var)?{sign}\s*\)", self.paper.prose))
+            if sign
+            else ()
+        ):
+            turning = {d.letter for d in self.defined if d.letter.startswith(letter) and self.turns(d.letter)}
+            if len(turning) == 1 and all(d.letter != letter for d in self.defined):
+                self.aliases[letter] = turning.pop()
+
+    def _name_rates(self) -> None:
+        rates = {f"{self.angle}d": 1, f"{self.angle}prime": 1, f"d{self.angle}_dt": 1, f"{self.angle}dd": 2}
+        for said in self.paper.said:
+            names = [s.id for s in said.sides if isinstance(s, ast.Name)]
+            for rate, order in rates.items():
+                if self.angle and len(names) > 1 and rate in names:
+                    self.aliases |= {
+                        n: f"{self.angle}{'d' * order}" for n in names if n != f"{self.angle}{'d' * order}"
+                    }
+        written = {n for said in self.paper.said for side in said.sides for n in letters(side)}
+        for usual in ("omega", "Omega", "w"):
+            about = self.paper.named.get(usual)
+            fits = usual != "w" or about and about.unit == "rad/s"
+            if self.angle and usual in written and f"{self.angle}d" not in self.aliases.values() and fits:
+                self.aliases[usual] = f"{self.angle}d"
+
+    def _define(self, order: int, said: Said) -> None:
+        if not said.sides or said.claim:
+            return
+        sides = [self.plain(s) for s in said.sides]
+        left = sides[0]
+        if isinstance(left, ast.Name):
+            if left.id == f"{self.angle}d" and self.angle:
+                self._solve(order, sides[0], sides[1:], any_letter=True)
+            elif self._may_define(left.id, said, order):
+                for k, side in enumerate(sides[1:], 1):
+                    opaque = any(_OPAQUE.fullmatch(n) for n in letters(side))
+                    if not opaque and left.id not in self._reach(side) and not _is_rate(side):
+                        self.defined.append(Defined(order=order, letter=left.id, tree=side, side=k))
+                        return
+            return
+        self._solve(order, left, sides[1:], any_letter=False)
+
+    def _may_define(self, letter: str, said: Said, order: int) -> bool:
+        if letter in RESERVED or letter == self.angle or letter in (f"{self.angle}d", f"{self.angle}dd"):
+            return False
+        if _PRIME.fullmatch(letter) or re.fullmatch(r"d\d?\w+_d\w+", letter) or self._rate_of(letter):
+            return False
+        before = [d for d in self.defined if d.letter == letter]
+        return not before or self.paper.said[before[-1].order].section != said.section and not said.inline
+
+    def _rate_of(self, letter: str) -> bool:
+        known = {d.letter for d in self.defined}
+        return any(letter.endswith(dots) and letter[: -len(dots)] in known for dots in ("d", "dd"))
+
+    def _solve(self, order: int, left: Node, right: Sequence[Node], any_letter: bool) -> None:
+        # the one letter that nothing has defined yet: under a sine, or a force in a balance
+        known = {d.letter for d in self.defined}
+        for side in right:
+            for whole, other in ((left, side), (side, left)):
+                for target in _targets(whole, known | {self.angle, f"{self.angle}d", f"{self.angle}dd"}, any_letter):
+                    if target in letters(other) or target in self.kinds.turns and not any_letter:
+                        continue
+                    if (solved := isolate(whole, target, other)) is not None and target not in self._reach(solved):
+                        self.defined.append(Defined(order=order, letter=target, tree=solved))
+                        return
+
+    def _reach(self, tree: Node) -> set[str]:
+        reached, waiting = set(), list(letters(tree))
+        latest = {d.letter: d.tree for d in self.defined}
+        while waiting:
+            letter = waiting.pop()
+            if letter in reached:
+                continue
+            reached.add(letter)
+            waiting += letters(latest[letter]) if letter in latest else [s for s in _stems(letter) if s in latest]
+        return reached
+
+    def _name_motion(self) -> None:
+        # a letter that is called an acceleration, beside one that is called the velocity of the same thing
+        if not self.angle:
+            return
+        called = {word: self._called(word) for word in ("travel", "velocity", "acceleration")}
+        for slower, faster in (("travel", "velocity"), ("velocity", "acceleration")):
+            known = {d.letter for d in self.defined}
+            for letter in called[faster]:
+                base = next((k for k in called[slower] if k in known and self.turns(k)), "")
+                if base and letter not in known:
+                    self.defined.append(Defined(order=-1, letter=letter, tree=name(f"{base}_d")))
+
+    def _called(self, word: str) -> list[str]:
+        alike = {"travel": ("travel", "displacement", "position")}.get(word, (word,))
+        told = [k for k, about in self.paper.named.items() if any(w in about.meaning.lower() for w in alike)]
+        angular = {k for k in told if "angular" in self.paper.named[k].meaning.lower()}
+        return [k for k in told if k not in angular]
+
+    def turns(self, letter: str) -> bool:
+        """Whether a defined letter changes with the angle."""
+        return self.angle in self._reach(name(letter))
+
+    def plain(self, tree: Node) -> Node:
+        """A side with the rates of the angle under their names, and sums over parts as one letter."""
+
+        def changed(node: Node) -> Node | None:
+            if isinstance(node, ast.Name) and node.id in self.aliases:
+                return name(self.aliases[node.id])
+            if isinstance(node, ast.Call) and function_of(node) == "sum":
+                return name(f"sum{zlib.crc32(ast.dump(node).encode()):08x}")
+            return None
+
+        return substitute(tree, changed)
+
+    def theory(self, order: int, believed: Mapping[str, Node] | None = None) -> Theory:
+        """The definitions that hold at an equation; `believed`: what letters are taken to be instead."""
+        latest: dict[str, int] = {}
+        for index, one in enumerate(self.defined):
+            if one.order <= order or one.letter not in latest:
+                latest[one.letter] = index
+        key = tuple(sorted(latest.values()))
+        if believed is None and key in self.theories:
+            return self.theories[key]
+        tape = {self.defined[i].letter: self.defined[i].tree for i in key} | dict(believed or {})
+        theory = self._made(tape)
+        if believed is None:
+            self.theories[key] = theory
+        return theory
+
+    def _made(self, tape: Mapping[str, Node]) -> Theory:
+        used = {n for said in self.paper.said for side in said.sides for n in letters(self.plain(side))}
+        used |= {n for tree in tape.values() for n in letters(tree)} | (
+            {self.angle, f"{self.angle}d", f"{self.angle}dd"} if self.angle else set()
+        )
+        bare = {n for n in used if n not in tape and not self._derivative(n, tape) and n != "pi"}
+        known = all(self.kinds.of(n) is not None for n in bare)
+        rods = tuple(sorted(self._rods(tape) & bare))
+        values = {n: self._letter(n, known, n in rods) for n in sorted(bare)}
+        ordered = dict(_in_order(tape))
+        return Theory(
+            name="paper", letters=values, tape=TheoryTape(ordered, values, self.angle, declared=True),
+            results=tuple(ordered), angle=self.angle, rods=rods,
+        )  # fmt: skip
+
+    def _derivative(self, letter: str, tape: Mapping[str, Node]) -> bool:
+        if slope := re.fullmatch(r"d\d?(\w+?)_d(\w+?)\d?", letter):
+            return slope[1] in tape
+        if prime := _PRIME.fullmatch(letter):
+            return prime[1] in tape and bool(self.angle)
+        stem = re.fullmatch(r"(\w+?)_?dd?", letter)
+        return bool(stem and stem[1] in tape and self.angle and self.turns(stem[1]))
+
+    def _rods(self, tape: Mapping[str, Node]) -> set[str]:
+        ratio = [t.right.id for t in tape.values() if is_operation(t, ast.Div) and isinstance(t.right, ast.Name)
+                 and isinstance(t.left, ast.Name)]  # fmt: skip
+        return {r for r in ratio if r in ("l", "L")}
+
+    def _letter(self, letter: str, known: bool, rod: bool) -> Letter:
+        kind = self.kinds.of(letter)
+        unit = "-" if not known or kind is None or kind == PURE else text(kind).replace(" ", "*")
+        if letter == self.angle or letter.startswith(self.angle) and letter in (f"{self.angle}d", f"{self.angle}dd"):
+            unit = {0: "rad", 1: "rad/s", 2: "rad/s^2"}[len(letter) - len(self.angle)]
+            return Letter(unit=unit, value=1.0, sign="any")
+        share = zlib.crc32(letter.encode()) % 100 / 250
+        return Letter(unit=unit, value=4.0 if rod else 0.8 + share, sign="positive")
+
+
+def _is_rate(tree: Node) -> bool:
+    return isinstance(tree, ast.Name) and bool(_PRIME.fullmatch(tree.id) or re.fullmatch(r"d\d?\w+_d\w+", tree.id))
+
+
+def _stems(letter: str) -> list[str]:
+    # what a derivative is one of: x of dx_dphi, x_d, xd and xprime
+    slope = re.fullmatch(r"d\d?(\w+?)_d\w+", letter)
+    return [slope[1]] if slope else [s for s in (re.sub(r"(?:_?dd?|(?:prime)+)$", "", letter),) if s != letter]
+
+
+def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:
+    done: set[str] = set()
+
+    def put(letter: str, above: frozenset[str]) -> Iterator[tuple[str, Node]]:
+        if letter in done or letter in above:
+            return
+        for n in letters(tape[letter]):
+            for need in (n, *_stems(n)):
+                if need in tape:
+                    yield from put(need, above | {letter})
+        if letter not in done:
+            done.add(letter)
+            yield letter, tape[letter]
+
+    for letter in tape:
+        yield from put(letter, frozenset())
+
+
+def _angle(said: Sequence[Said]) -> str:
+    # what sines and cosines are taken of most often, and no equation gives
+    given = {s.sides[0].id for s in said if s.sides and isinstance(s.sides[0], ast.Name)}
+    given |= {
+        a.id for s in said if s.sides for a in [argument_of(s.sides[0], "sin", "cos", "tan")] if isinstance(a, ast.Name)
+    }
+    counts: Counter[str] = Counter()
+    for one in said:
+        for side in one.sides:
+            for _, node in walk(side):
+                argument = argument_of(node, "sin", "cos", "tan", "cot")
+                for n in letters(argument) if argument is not None else ():
+                    if n not in given and any(n.startswith(a) for a in _ANGLES):
+                        counts[n] += 1
+    return counts.most_common(1)[0][0] if counts else ""
+
+
+def _targets(tree: Node, known: set[str], any_letter: bool) -> list[str]:
+    counts = Counter(n.id for _, n in walk(tree) if isinstance(n, ast.Name))
+    under = [a.id for _, n in walk(tree) if isinstance(a := argument_of(n, "sin", "tan"), ast.Name)]
+    forces = [n for n in counts if _FORCES.fullmatch(n) and is_operation(tree, ast.Add, ast.Sub)]
+    chosen = list(counts) if any_letter else [*under, *forces]
+    return [
+        n for n in dict.fromkeys(chosen) if counts[n] == 1 and n not in known and n != "pi" and not n.endswith("dd")
+    ]
+
+
+def isolate(tree: Node, letter: str, other: Node) -> Node | None:
+    """What a letter is where tree = other, None where it cannot be told: the letter stands in the tree once."""
+    while not (isinstance(tree, ast.Name) and tree.id == letter):
+        if isinstance(tree, ast.UnaryOp):
+            tree, other = tree.operand, ast.UnaryOp(op=ast.USub(), operand=other)
+        elif isinstance(tree, ast.Call) and (inverse := _INVERSE.get(str(function_of(tree)))):
+            tree, other = tree.args[0], call(inverse, other)
+        elif isinstance(tree, ast.BinOp) and not isinstance(tree.op, ast.Pow):
+            inside = letter in letters(tree.left)
+            part, rest = (tree.left, tree.right) if inside else (tree.right, tree.left)
+            back = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}[type(tree.op)]
+            if not inside and isinstance(tree.op, (ast.Sub, ast.Div)):
+                other = binary(type(tree.op), rest, other)
+            else:
+                other = binary(back, other, rest)
+            tree = part
+        else:
+            return None
+    return other
+
+
+@record
+class States:
+    """Random values of all letters of a theory, at which forms are compared."""
+
+    theory: Theory
+    values: dict[str, np.ndarray]
+
+    def value(self, tree: Node) -> np.ndarray:
+        """Values of an expression, nan where it has none."""
+        with np.errstate(all="ignore"):
+            complete(self.theory, self.values, letters(tree), FLOATS)
+            return np.broadcast_to(np.asarray(evaluate(tree, self.values, FLOATS), dtype=float), (_STATES,))
+
+
+def states(theory: Theory, seed: int = 5) -> States:
+    """States of a theory, the same each time."""
+    rng = np.random.default_rng(seed)
+    values = {"pi": np.full(_STATES, np.pi)}
+    for letter, about in theory.letters.items():
+        signs = rng.choice((-1.0, 1.0), _STATES) if not about.positive else 1.0
+        values[letter] = about.value * rng.uniform(0.5, 1.6, _STATES) * signs
+        if letter == theory.angle:
+            values[letter] = rng.uniform(-6, 6, _STATES)
+    return States(theory=theory, values=values)
+
+
+def alike(at: States, left: Node, right: Node) -> bool | None:
+    """Whether two forms are the same at all states; None where too few have a value."""
+    first, second = at.value(left), at.value(right)
+    good = np.isfinite(first) & np.isfinite(second)
+    if np.count_nonzero(good) < 8 or np.isfinite(first).sum() != np.isfinite(second).sum() and good.sum() < 12:
+        return None
+    size = np.maximum(np.abs(first), np.abs(second))[good]
+    gap = np.abs(first - second)[good]
+    return bool(np.all(gap <= _CLOSE * np.maximum(size, 1e-12)) and np.any(size > 1e-12))
+
+
+def free(theory: Theory, tree: Node) -> set[str]:
+    """Letters that an expression is made of in the end."""
+    return dependencies(theory, letters(tree)) & theory.letters.keys()

@@ -1,0 +1,161 @@
+r"""The display equations of a text as it comes: LaTeX, or prose with `$$`, numbers in the margin, units in brackets."""
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import replace
+
+from mechsym.audit.read.units import unit_of
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+_ROWS = ("align", "gather", "eqnarray", "flalign", "alignat")
+_WHOLE = ("equation", "multline", "displaymath", "math")
+_OPENING = re.compile(
+    rf"\\begin\{{(?P<name>{'|'.join((*_ROWS, *_WHOLE))})(?P<star>\*?)\}}(?:\{{\d+\}})?|\\\[|(?<!\\)\$\$"
+)
+MOST = 3000  #: Equations of one file
+_LONGEST = 6000  # characters of a display; two `$$` further apart are no pair
+_COMMENT = re.compile(r"(?<!\\)%[^\n]*")
+_REMARK = re.compile(r"^[ \t]*%[^\n]*", re.MULTILINE)
+_INNER = re.compile(r"\\(?:begin|end)\{(?:split|aligned|alignedat|gathered|subequations)\}(?:\[\w\]|\{\d+\})?")
+_NESTED = re.compile(r"\\(begin|end)\{|\\\\(?:\s*\[[\d.]+\s*\w+\])?")
+_LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
+_TAG = re.compile(r"\\tag\*?\s*\{\s*\(?([^{}()]*)\)?\s*\}|\\eqno\s*\(?([\w.]+)\)?")
+_MARGIN = re.compile(r"[ \t]*(?:\n[ \t]*)?\(?[ \t]*\(?(\d+(?:[.\-]\d+)*[a-z]?)\)[ \t.;,]*(?=\n|$)")
+_TRAILING = re.compile(r"(?:\\q?quad|\\[,;:! ]|~|\s|\.)+\((\d+(?:\.\d+)*[a-z]?)\)\s*$")
+_UNNUMBERED = re.compile(r"\\(?:nonumber|notag)\b")
+_SIGN = r"(?:[=+\-]|\\(?:approx|simeq|cdot|times|equiv)\b)"
+_SPACE = r"(?:\s|~|\\q?quad\b|\\[,;:! ]|\{\})"
+_GOES_ON = re.compile(rf"{_SPACE}*{_SIGN}")
+_OPEN = re.compile(rf"{_SIGN}\s*$")
+_WORDS = re.compile(
+    rf"[,;.]?{_SPACE}*\\(?:text|mbox|intertext|textrm|mathrm)\s*\{{\s*(?:for|if|where|when|with|and|at|in|per|"
+    r"positive|negative|otherwise|as)\b[^{}]*\}.*$|[,;]\s*(?:\\q?quad|\\ )+\s*(?:for|if|where|with|when)\b.*$",
+    re.DOTALL,
+)
+_TWO = re.compile(
+    rf"[,;]{_SPACE}*(?:\\q?quad\b|\\[;, ]|~){_SPACE}*(?=[^=]*=)|\\(?:implies|Rightarrow|Longrightarrow|iff|"
+    rf"Leftrightarrow)(?![A-Za-z])|\\q?quad{_SPACE}*(?=\\?[A-Za-z][^=,;]{{0,40}}=)|\\text\s*\{{\s*,?\s*and\s*\}}"
+)
+_LIMIT = re.compile(r"(?<![\\{]),[^=,]*(?:<|>|\\leq?\b|\\geq?\b|\\ll\b|\\gg\b)[^=]*$")
+_BRACKET = re.compile(rf"{_SPACE}*(?:\\left)?\[([^\[\]]{{1,60}}?)(?:\\right)?\]{_SPACE}*[.,;]?\s*$")
+
+
+@record
+class Displayed:
+    """One equation as it stands in the file."""
+
+    number: str  #: As it would be printed, empty where it has none
+    label: str
+    text: str
+    line: int  #: Where it begins, counted from 1 [-]
+    aside: str = ""  #: Words behind it that are no formula
+    unit: str = ""  #: Unit in brackets behind it
+    begins: int = 0  #: Where it stands in the file [-]
+
+
+@record
+class _Block:
+    body: str
+    start: int
+    rows: bool
+    numbered: bool
+    number: str = ""
+
+
+def displayed(text: str) -> list[Displayed]:
+    """All display equations of a text in their order; numbers are counted as LaTeX counts them."""
+    latex = r"\begin{document}" in text or r"\documentclass" in text
+    text = (_COMMENT if latex else _REMARK).sub(lambda m: " " * len(m[0]), text)
+    equations: list[Displayed] = []
+    breaks = [m.start() for m in re.finditer("\n", text)]
+    count = 0
+    for block in _blocks(text, max(text.find(r"\begin{document}"), 0)):
+        before = len(equations)
+        for start, row in _rows(block.body) if block.rows else [(0, block.body)]:
+            tag, label = _TAG.search(row), _LABEL.search(row)
+            counts = block.numbered and not _UNNUMBERED.search(row) and not tag and bool(row.strip())
+            count += counts
+            plain = _plain(row)
+            if not plain:
+                continue
+            trailing = _TRAILING.search(plain)
+            plain = plain[: trailing.start()] if trailing else plain
+            number = (tag[1] or tag[2] or "").strip() if tag else str(count) if counts else block.number
+            number = trailing[1] if trailing and not number else number
+            begins = block.start + start + len(row) - len(row.lstrip())
+            line = bisect_right(breaks, begins) + 1
+            one = Displayed(number=number, label=label[1] if label else "", text=plain, line=line, begins=begins)
+            if equations and _joins(equations[-1].text, plain, len(equations) > before):
+                last = equations.pop()
+                number, name = last.number or number, last.label or one.label
+                one = replace(last, number=number, label=name, text=f"{last.text} {plain}")
+                before = min(before, len(equations))
+            equations.append(one)
+        if len(equations) > MOST:
+            raise BadInput(f"it has more than {MOST} equations; give a part of it")
+    return [part for equation in equations for part in _parts(equation)]
+
+
+def _joins(last: str, plain: str, same_block: bool) -> bool:
+    # a row that begins with a sign goes on; across displays only what an open or leading equals sign asks for
+    if same_block:
+        return bool(_GOES_ON.match(plain) or _OPEN.search(last))
+    return bool(re.match(rf"{_SPACE}*=", plain) or re.search(r"=\s*$", last))
+
+
+def _blocks(text: str, at: int) -> Iterator[_Block]:
+    while match := _OPENING.search(text, at):
+        at = match.end()
+        name, star = match["name"], match["star"] or ""
+        closing = "$$" if match[0] == "$$" else rf"\end{{{name}{star}}}" if name else r"\]"
+        close = text.find(closing, at, at + _LONGEST)
+        body = text[at:close] if close >= 0 else ""
+        if not body.strip() or match[0] == "$$" and re.search(r"\n[ \t]*\n|\n#", body.strip() if "=" in body else body):
+            continue  # a sign that closes nothing: the next one opens
+        rows = name in _ROWS or bool(_INNER.search(body)) and "{split}" not in body
+        start, at = at, close + len(closing)
+        margin = _MARGIN.match(text, at) if not name else None
+        numbered = name in (*_ROWS, "equation", "multline") and not star
+        yield _Block(body=body, start=start, rows=rows, numbered=bool(numbered), number=margin[1] if margin else "")
+        at = margin.end() if margin else at
+
+
+def _rows(body: str) -> Iterator[tuple[int, str]]:
+    # rows of an alignment; line ends inside cases and the like are left alone
+    body = _INNER.sub(lambda m: " " * len(m[0]), body)
+    depth, start = 0, 0
+    for mark in _NESTED.finditer(body):
+        if mark[1]:
+            depth += 1 if mark[1] == "begin" else -1
+        elif depth == 0:
+            yield start, body[start : mark.start()]
+            start = mark.end()
+    if body[start:].strip():
+        yield start, body[start:]
+
+
+def _plain(row: str) -> str:
+    for pattern in (_TAG, _LABEL, _UNNUMBERED, _INNER):
+        row = pattern.sub(" ", row)
+    if r"\begin{" not in row:
+        row = re.sub(r"\\\\(?:\s*\[[\d.]+\s*\w+\])?", " ", row).replace("&", " ")
+    return " ".join(row.split())
+
+
+def _parts(equation: Displayed) -> Iterator[Displayed]:
+    # a = b, \quad c = d is two statements; words behind and a unit in brackets are set aside
+    words = _WORDS.search(equation.text) if r"\begin{" not in equation.text else None
+    text = equation.text[: words.start()] if words and words.start() else equation.text
+    aside = words[0].strip(" ,;") if words and words.start() else ""
+    for part in _TWO.split(text):
+        limit = _LIMIT.search(part)
+        if limit and "=" in part[: limit.start()]:
+            part, aside = part[: limit.start()], limit[0].strip(" ,")
+        unit = _BRACKET.search(part)
+        known = unit_of(unit[1]) if unit and "=" in part[: unit.start()] else None
+        if unit and known:
+            part = part[: unit.start()]
+        if part.strip(" .,;\\"):
+            yield replace(equation, text=part.strip(" .,;"), aside=aside, unit=known or "")

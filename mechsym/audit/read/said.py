@@ -1,0 +1,182 @@
+r"""What the equations of a whole text say, side by side, in one spelling of its letters.
+
+A text has its own words: `CR` is one letter where a table names it, `S(\theta)` is S, `Q_2^3` the heat from 2 to 3.
+"""
+
+import ast
+import re
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import field, replace
+from itertools import islice
+
+from mechsym.audit.read.displays import MOST, Displayed, displayed
+from mechsym.audit.read.latex import read_latex
+from mechsym.audit.read.reader import statement
+from mechsym.audit.read.spelling import SYMBOLS
+from mechsym.audit.read.tree import Node, check
+from mechsym.audit.read.units import Named, nomenclature
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+_ANGLES = r"\\(?:theta|vartheta|varphi|phi|alpha|psi)"
+_APPLIED = re.compile(
+    rf"(?P<of>[A-Za-z}}'])\s*(?:\\left)?\(\s*(?:{_ANGLES}(?:_\{{?\w+\}}?)?|t)\s*(?:\\right)?\)(?!\s*\^)"
+)
+_CALLED = re.compile(r"(?:\\?(?:sin|cos|tan|tg|cot|ctg|exp|ln|log|sqrt|arc\w+)\s*|\^\s*\{[^{}]*\}|[\s\d]d\s*)$")
+_SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
+_INLINE = re.compile(r"(?<![\\$])\$([^$\n]{3,200}?)\$(?!\$)")
+_INDEXED = re.compile(r"([A-Z])_(\d|\{\d\})\^(\d|\{\d\})")
+_NO_EQUATION = re.compile(r"\\(?:to|rightarrow|longrightarrow|le|leq|ge|geq|ll|gg|neq|in|propto|sim)(?![A-Za-z])|[<>]")
+_TIDY = (
+    (re.compile(r"\\(?:left|right)\s*\."), " "),
+    (re.compile(r"\\mathrm\s*\{\s*d\s*\}"), "d"),
+    (re.compile(r"(?<=\d),\s(?=\d)"), "."),
+    (re.compile(r"\\(?:mathbf|mathsf|mathit|boldsymbol|bm|vec|mathrm|rm)\s*(?=[A-Za-z\\])"), " "),
+    (re.compile(r"(?<![A-Za-z\\])const(?:ant)?\b\.?"), r"\\text{constant}"),
+    (re.compile(r"(?<![\\A-Za-z])f\s*\([^()=]*,[^()=]*\)|(?<==)\s*f\s*\([^()=]*\)\s*$"), r"\\text{function}"),
+    (re.compile(r"[−–]"), "-"),
+    (re.compile(r"\\(?:bar|overline)\s*\{\s*([A-Za-z])\s*\}\s*([a-z])(?![A-Za-z_])"), r"\\bar{\\text{\1\2}}"),
+)
+
+
+@record
+class Said:
+    """An equation with its sides as trees; what cannot be read has none, and says why."""
+
+    shown: Displayed
+    name: str
+    sides: tuple[Node, ...] = ()
+    texts: tuple[str, ...] = ()
+    claim: str = ""
+    why: str = ""
+    section: int = 0  #: Which section it stands in, counted [-]
+    before: str = ""  #: Words in front of it
+    inline: bool = False
+    spelled: Mapping[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX
+
+
+@record
+class Text:
+    """A text with its equations and its nomenclature."""
+
+    said: Sequence[Said]
+    named: Mapping[str, Named]  #: By plain name
+    prose: str
+
+
+def read_text_whole(text: str) -> Text:
+    """All equations of a text in their order, those within its lines as well."""
+    shown = displayed(text)
+    written = nomenclature(text)
+    words = _words(written, shown)
+    indexed = _indexed(text)
+    named: dict[str, Named] = {}
+    for symbol, about in written.items():
+        if plain := _plain(symbol, words):
+            named.setdefault(plain, about)
+    starts = [m.start() for m in _SECTION.finditer(text)]
+    lines = _line_starts(text)
+    everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
+    said = []
+    for equation, inline in everything:
+        section = sum(start <= lines[equation.line - 1] for start in starts)
+        one = _read(equation, words, indexed, section, text[max(0, equation.begins - 240) : equation.begins], inline)
+        if one.sides or not inline:
+            said.append(one)
+    return Text(said=said, named=named, prose=text)
+
+
+def _line_starts(text: str) -> list[int]:
+    starts = [0]
+    starts += [m.end() for m in re.finditer("\n", text)]
+    return starts
+
+
+def _inline(text: str) -> Iterator[Displayed]:
+    # a letter that a sentence defines: $\lambda = r/l$; data with a unit are none
+    breaks = [m.start() for m in re.finditer("\n", text)]
+    for match in islice(_INLINE.finditer(text), MOST):
+        inside = match[1]
+        if inside.count("=") == 1 and not re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|$)|\\text|\\mathrm", inside):
+            line = bisect_right(breaks, match.start()) + 1
+            yield Displayed(number="", label="", text=inside.strip(), line=line, begins=match.start())
+
+
+def _words(written: Mapping[str, Named], shown: Sequence[Displayed]) -> list[str]:
+    # letters of several characters: those of the nomenclature, and left sides that are one word
+    words = {s.split("_")[0] for s in written if re.fullmatch(r"[A-Za-z]{2,5}(?:_.*)?", s)}
+    singles = {s.split("_")[0] for s in written if re.fullmatch(r"[A-Za-z](?:_.*)?", s)}
+    for equation in shown:
+        left = equation.text.partition("=")[0].strip()
+        if re.fullmatch(r"[A-Za-z]{2,5}", left) and not set(left) <= singles and left[0] != "d":
+            words.add(left)
+    return sorted(words - {"sin", "cos", "tan", "exp", "log", "ln", "tg"}, key=len, reverse=True)
+
+
+def _indexed(text: str) -> frozenset[str]:
+    # Q_2^3 is a name where such a letter never stands without its upper index
+    pairs: dict[str, set[tuple[str, str]]] = {}
+    for match in _INDEXED.finditer(text):
+        pairs.setdefault(match[1], set()).add((match[2].strip("{}"), match[3].strip("{}")))
+    return frozenset(
+        base for base, both in pairs.items() if len(both) > 1 and all(abs(int(i) - int(j)) in (1, 3) for i, j in both)
+    )
+
+
+def _plain(symbol: str, words: Sequence[str]) -> str:
+    try:
+        tree = read_latex(_prepared(symbol.partition("=")[0].strip(), words, frozenset()), whole=True)[0]
+    except BadInput:
+        return ""
+    return tree.id if isinstance(tree, ast.Name) else ""
+
+
+def _prepared(text: str, words: Sequence[str], indexed: frozenset[str]) -> str:
+    text = "".join(rf"\{_COMMANDS[c]} " if c in _COMMANDS else c for c in text)
+    for pattern, instead in _TIDY:
+        text = pattern.sub(instead, text)
+    text += "}" * (text.count("{") - text.count("}") == 1)  # one brace lost at the end
+    text = _INDEXED.sub(lambda m: f"{m[1]}_{{{m[2].strip('{}')}{m[3].strip('{}')}}}" if m[1] in indexed else m[0], text)
+    for word in words:
+        inside = r"\s*".join(word)
+        text = re.sub(rf"(?<![A-Za-z\\])(?<!_\{{)(?<!text\{{){inside}(?![A-Za-z])", rf"\\text{{{word}}}", text)
+    return _APPLIED.sub(lambda m: m[0] if _CALLED.search(text[: m.start() + 1]) else m["of"], text)
+
+
+_COMMANDS = {sign: "lambda" if name == "lam" else name for name, sign in SYMBOLS.items()} | {"ϕ": "varphi"}
+
+
+def _read(
+    shown: Displayed, words: Sequence[str], indexed: frozenset[str], section: int, before: str, inline: bool
+) -> Said:
+    name = shown.number or shown.label or f"line {shown.line}"
+    head = Said(shown=shown, name=name, section=section, before=before, inline=inline)
+    try:
+        return _sides(head, _prepared(shown.text, words, indexed))
+    except BadInput as error:
+        return replace(head, why=str(error))
+    except RecursionError:
+        return replace(head, why="it is nested too deep to be read")
+
+
+def _sides(head: Said, text: str) -> Said:
+    zero = re.search(r"=\s*0\s*$", text)
+    if not zero and _NO_EQUATION.search(text.partition("=")[2] or text) and r"\begin" not in text:
+        raise BadInput("it is a range, a limit or an inequality, no equation")
+    if zero and text.count("=") == 1:
+        parts: tuple[str, ...] = (text[: zero.start()], "0")
+        claim = ""
+    else:
+        said = statement(text)
+        if not said.left:
+            raise BadInput("there is no equals sign")
+        parts, claim = (said.left, *said.right), said.claim
+    spelled: dict[str, str] = {}
+    trees = []
+    for part in parts:
+        tree, how = read_latex(part, whole=True)
+        check(tree)
+        spelled |= how
+        trees.append(tree)
+    return replace(head, sides=tuple(trees), texts=parts, claim=claim, spelled=spelled)

@@ -1,0 +1,113 @@
+r"""Units as papers print them, and the nomenclature of a text: what each letter is called and measured in."""
+
+import re
+from collections.abc import Iterator
+
+from mechsym.audit.read.spelling import SYMBOLS
+from mechsym.errors import BadInput
+from mechsym.quantities import dimension, record
+
+_MARKS = (
+    (re.compile(r"\\(?:mathrm|text|textrm|mathbf|mathit|rm|textsuperscript|unit|mbox|operatorname)\b"), " "),
+    (re.compile(r"\\(?:cdot|times)\b|[·⋅∙×]"), "*"),
+    (re.compile(r"\\(?:degree|circ|deg)\b"), "deg"),
+    (re.compile(r"\\frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}"), r"\1/(\2)"),
+    (re.compile(r"\\(?:q?quad|[,;:! ])|[~$\\{}]"), " "),
+    (re.compile(r"<[^<>]*>"), ""),
+    (re.compile(r"\s*([*/^])\s*"), r"\1"),
+    (re.compile(r"(?<=[A-Za-z\d])\.(?=[A-Za-z])"), "*"),
+    (re.compile(r"\^\(?\s*(-?\d)\s*\)?"), r"^\1"),
+    (re.compile(r"\b1/(?=[A-Za-z])"), "-/"),
+)
+_RUSSIAN = {
+    "Н": "N", "м": "m", "кг": "kg", "с": "s", "Па": "Pa", "рад": "rad", "мм": "mm", "Дж": "J", "Вт": "W", "К": "K",
+}  # fmt: skip
+_SPELLED = {
+    "r/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "rev/min": "rpm", "1/min": "rpm", "Nm": "N*m", "kWh": "kW*h",
+    "°": "deg", "degrees": "deg", "rad.": "rad", "–": "-", "—": "-", "--": "-", "-": "-", "[-]": "-", "sec": "s",
+}  # fmt: skip
+PURE = (0, 0, 0, 0)
+#: What a quantity is measured in by what it is called, where its table says nothing
+KINDS = {
+    "power": "W", "torque": "N*m", "force": "N", "pressure": "Pa", "work": "J", "energy": "J", "heat": "J",
+    "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
+    "efficiency": "-", "ratio": "-", "factor": "-", "number": "-",
+}  # fmt: skip
+
+
+@record
+class Named:
+    """A letter of a nomenclature."""
+
+    meaning: str
+    unit: str  #: As `dimension` reads it, empty where none is printed
+    line: int  #: Of the file [-]
+
+
+def unit_of(text: str) -> str | None:
+    r"""A unit as the program writes it, None where the text is none: `\text{N}\cdot\text{m}` is `N*m`.
+
+    >>> unit_of("J/(kg.K)"), unit_of(r"\text{kg}\cdot\text{m}^2"), unit_of("x + 1")
+    ('J/kg/K', 'kg*m^2', None)
+    """
+    for pattern, instead in _MARKS:
+        text = pattern.sub(instead, text)
+    text = "".join(" ".join(text.split()).split(" ") if re.search(r"[*/^]\s|\s[*/^]", text) else [text.strip()])
+    text = _SPELLED.get(text, text)
+    text = re.sub(r"[А-Яа-я]+", lambda m: _RUSSIAN.get(m[0], m[0]), text)
+    text = re.sub(r"/\(([^()]*)\)", lambda m: "/" + re.sub(r"[* ]", "/", m[1].strip()), text)
+    text = re.sub(r"\bkWh\b", "kW*h", text).replace("g/kW*h", "g/kW/h").replace("(", "").replace(")", "")
+    text = re.sub(r"(?<=[A-Za-z])([23])\b", r"^\1", text) if "^" not in text else text
+    try:
+        dimension(text)
+    except BadInput:
+        return None
+    return text if text.strip() else None
+
+
+_SYMBOL = r"(\$[^$\n]{1,40}\$|\\\([^\n]{1,40}?\\\)|[A-Za-zα-ωΑ-Ω][\w{}\\^]{0,12})"
+_LISTED = re.compile(
+    rf"{_SYMBOL}\s*(?:[–—=:-]|is the|denotes the)\s*([A-Za-z][^\[\]\n;,$&|]{{2,70}}?)\s*\[([^\[\]\n]{{1,40}})\]"
+)
+_PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n]{1,24}\$?)\s*\)")
+_CELLS = re.compile(r"(?<!\\)&|\||\t")
+
+
+def nomenclature(text: str) -> dict[str, Named]:
+    """Letters as they are spelled there, with what they are called and measured in."""
+    names: dict[str, Named] = {}
+    for number, row in enumerate(text.split("\n"), 1):
+        if len(row) > 6000:
+            continue
+        for symbol, meaning, unit in (*_cells(row), *((m[1], m[2], m[3]) for m in _LISTED.finditer(row))):
+            known = unit_of(unit) if unit else None
+            for one in re.split(r",\s*(?![^{]*\})", symbol.strip("$ ")):
+                one = spelled(one)
+                if one and one not in names and (known or not unit.strip()):
+                    names[one] = Named(meaning=meaning.strip(), unit=known or "", line=number)
+        for match in _PROSE.finditer(row):
+            one = spelled(match[2])
+            if match[1] in KINDS and one and len(one) < 20 and one not in names:
+                names[one] = Named(meaning=match[1], unit="", line=number)
+    return names
+
+
+def _cells(row: str) -> Iterator[tuple[str, str, str]]:
+    # symbol, meaning and unit of a row of a table; what has no unit in its last cell may still name a letter
+    cells = [c.strip() for c in _CELLS.split(row.replace(r"\\", "").replace(r"\hline", ""))]
+    cells = cells[1:-1] if row.strip().startswith("|") else cells
+    for start in range(0, len(cells) - 1, 3):
+        group = cells[start : start + 3]
+        symbol = group[0]
+        wordy = len(group) > 1 and re.search(r"[A-Za-z]{3}", group[1]) and "=" not in group[1]
+        if symbol and len(symbol) <= 60 and wordy and not re.search(r"[A-Za-z]{3,} [A-Za-z]", symbol.replace("\\", "")):
+            yield symbol, group[1], group[2] if len(group) > 2 else ""
+
+
+def spelled(symbol: str) -> str:
+    """A letter of prose as LaTeX: `σ _{FP}` is `\\sigma_{FP}`."""
+    symbol = re.sub(r"</?sub>|<[^<>]*>", "", symbol.strip(" $*").replace("<sub>", "_"))
+    symbol = re.sub(r"\s*([_^{}])\s*", r"\1", symbol)
+    back = {sign: rf"\{'lambda' if name == 'lam' else name} " for name, sign in SYMBOLS.items()}
+    symbol = "".join(back.get(c, c) for c in symbol).strip()
+    return re.sub(r"\\(?:mathrm|text|textrm|rm|mathbf)\b\s*", "", symbol)
