@@ -142,8 +142,9 @@ def corners(shown: Json, role: str) -> Iterator[tuple[int, np.ndarray]]:
 
 def _pixels(shown: Json, at: np.ndarray) -> list[list[float]]:
     (left, top), scale = shown["origin"], shown["scale"]
-    found: list[list[float]] = np.round([left + scale * at.real, top - scale * at.imag], 1).T.tolist()
-    return found
+    found = np.rint([left + scale * at.real, top - scale * at.imag]).astype(int).T
+    once: list[list[float]] = found[:1].tolist() if (found == found[0]).all() else found.tolist()
+    return once
 
 
 _WALLS = "wall head head wall".split()  # corners of a cylinder as it is drawn

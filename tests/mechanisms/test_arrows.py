@@ -54,7 +54,7 @@ def test_arrows_of_a_linkage_stand_at_its_joints(name):
         drawn = (s["moves"][k] if s["moves"] else s["at"] for s in shown["shapes"])
         corners = np.concatenate([np.reshape(at, (-1, 2)) for at in drawn])
         for load in shown["loads"]:
-            assert np.hypot(*(corners - load["at"][k]).T).min() < 1.0, (load["name"], k)
+            assert np.hypot(*(corners - load["at"][k % len(load["at"])]).T).min() < 1.0, (load["name"], k)
 
 
 def at_one_place(shown, names):
