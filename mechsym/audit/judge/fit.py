@@ -216,6 +216,13 @@ def _quantity(fit: Fit, world: World, tree: Node, reading: Mapping[str, str], le
     return "", 0
 
 
+def readings(fit: Fit, world: World, used: Sequence[str]) -> list[dict[str, str]]:
+    """What the letters of a formula mean in a theory: as other formulas have shown, or as they are called."""
+    by_name = {n: _by_name(fit, world, n) for n in used}
+    both = ({n: fit.meant.get(n) or by_name[n] for n in used}, {n: by_name[n] or fit.meant.get(n, "") for n in used})
+    return [r for i, r in enumerate(both) if all(r.values()) and (not i or r != both[0])]
+
+
 def candidates(fit: Fit, said: Said, world: World) -> Sequence[str]:
     """Quantities that a text's words call what an equation gives, of the right unit, that no other formula is."""
     left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
