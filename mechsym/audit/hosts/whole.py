@@ -339,7 +339,7 @@ def _rows_of(file: Path) -> list[Row]:
     world = World(paper=paper, kinds=kinds)
     judge = _Judge(world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted)
     rows = []
-    for order, said in enumerate(paper.said):
+    for order, said in enumerate(world.paper.said):
         if not said.inline:
             rows.append(_row(file, said, judge.verdict(order, said) if said.sides else None, slips))
     return rows

@@ -58,7 +58,8 @@ class Fit:
 
     def of_kind(self, kind: tuple[object, ...] | None) -> list[str]:
         """Names of the theory that have a unit, all where it is not known."""
-        return [n for n in self.values if n != "pi" and (kind is None or self.kinds.get(n) in (None, kind[:4]))]
+        outer = [n for n in self.values if n != "pi" and not _INNER.match(n)]
+        return [n for n in outer if kind is None or self.kinds.get(n) in (None, kind[:4])]
 
 
 @cache
