@@ -92,8 +92,8 @@ def truncated(exam: Examination, start: Repair) -> str | None:
     return f"leaves out {_powers({k for p in standing for k in p.missing[:1]})} and what follows"
 
 
-def search(exam: Examination, start: Repair) -> Found:
-    """What is wrong with a formula that is neither exact nor a truncation, and its repairs."""
+def search(exam: Examination, start: Repair, one: bool = False) -> Found:
+    """What is wrong with a formula that is neither exact nor a truncation, and its repairs; `one`: of one edit."""
     mixed = _mixed(exam, start)
     single = exact_repair(exam, start)
     if single is not None and (not mixed or _of_number(start.tree) or _is_slip(exam, start.tree, single.edits)):
@@ -108,7 +108,7 @@ def search(exam: Examination, start: Repair) -> Found:
             return Found(repairs=(lost,))
     if mixed or mended:
         return Found(repairs=() if mixed else tuple(mended), mixed=mixed, note=mixed)
-    pair, cut = paired_repair(exam, start)
+    pair, cut = (None, "") if one else paired_repair(exam, start)
     return Found(repairs=(pair,)) if pair else Found(nearer=raised[0] if raised else None, note=cut)
 
 
