@@ -96,6 +96,7 @@ dist: | .venv/ready-all
 	$(BIN)/python -m twine check --strict dist/*
 	$(BIN)/check-wheel-contents dist/*.whl
 	$(BIN)/python tests/everywhere.py dist
+	$(BIN)/python tests/everywhere.py dist tutorials
 
 # machine-made inputs against the command line, FUZZ of them; finds go to tests/corpus
 fuzz: | $(READY)

@@ -26,12 +26,12 @@ _SCROLL = '<div class="equation">{}</div>'
 
 def mathml(latex: str, display: str = "block") -> str:
     """A formula as MathML; lines that are aligned keep their places."""
-    text = " ".join(latex.split()).replace(r"\arg", r"\mathrm{arg}")
+    text = " ".join(latex.split()).replace(r"\arg", r"\mathrm{arg}").replace("{aligned}", "{align*}")
     if "&" in text or r"\\" in text:
-        text = text if r"\begin" in text else rf"\begin{{aligned}}{text}\end{{aligned}}"
-    # a backslash before a space is a space
-    made = convert(text.replace("\\ ", r"\;"), display=display)
-    if "<mi>\\" in made or "<mo>\\" in made:
+        text = text if r"\begin" in text else rf"\begin{{align*}}{text}\end{{align*}}"
+    # a backslash before a space is a space, two are the end of a line
+    made = convert(re.sub(r"(?<!\\)\\ ", r"\\;", text), display=display)
+    if any(f"<{kind}>{sign}" in made for kind in ("mi", "mo") for sign in ("\\", "&<")):
         raise ValueError(f"not read: {latex}")
     return made
 

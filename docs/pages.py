@@ -3,6 +3,7 @@
 import json
 import re
 import shlex
+import tomllib
 from importlib import resources
 from pathlib import Path
 
@@ -245,7 +246,8 @@ def theories() -> str:
     for name in catalogue.names():
         theory = catalogue.theory(name)
         letters = ", ".join(f"`{letter}` [{one.unit}]" for letter, one in theory.letters.items())
-        parts.append(f"## {name}\n\n{theory.data or ''}\n\nLetters: {escaped(letters)}.\n")
+        source = tomllib.loads(shipped[name]).get("source") if name in shipped else theory.data
+        parts.append(f"## {name}\n\n{source or ''}\n\nLetters: {escaped(letters)}.\n")
         known = [n for n in theory.results if not n.startswith("_")]
         parts.append(
             "Quantities: "

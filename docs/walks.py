@@ -6,7 +6,8 @@
 ```python picture=NAME   draws `figure` while the site is built, and when the tests run it
 ```text            is not run
 
-`python docs/walks.py [PAGE..]` runs them and writes docs/printed; tests/test_docs_runs.py holds that it stays true.
+`python docs/walks.py [PAGE..]` runs them and writes docs/printed, `quoted-PAGE` what the prose of a page quotes;
+tests/test_docs_runs.py holds that it stays true.
 """
 
 import contextlib
@@ -23,6 +24,20 @@ from pathlib import Path
 HERE = Path(__file__).parent
 PRINTED = HERE / "printed"
 PAGES = [HERE / "start.md", HERE / "engine.md", *sorted((HERE / "tutorials").glob("*.md"))]
+#: Commands whose answers a page has in its prose and in its tables, beside the blocks that it shows
+QUOTED = {
+    "engine": (
+        "cycle {examples}/gpu-3.toml",
+        'cycle {examples}/gpu-3.toml --set "cycle.mean_pressure=6.9 MPa" --set "cycle.p_back=6.9 MPa"',
+    ),
+    "codesign": (
+        "codesign zotov-89 --ripple 2% --peers",
+        "codesign zotov-89 --ripple 5% --peers",
+        "codesign zotov-89 --ripple 2% --free spring.A,spring.H,guide.rho0",
+        "codesign zotov-89 --ripple 0.2% --springs 2 --speeds 60,89,105,142",
+        "codesign zotov-89 --ripple 2% --cylinders 12",
+    ),
+}
 SHOWN = 26  # lines of what a block printed
 _BLOCK = re.compile(
     r"^```(?P<kind>sh|python|toml|tex|csv)(?: (?P<how>file|picture)=(?P<name>[\w.-]+))?\n(?P<text>.*?)^```$",
@@ -175,7 +190,14 @@ def examples() -> dict[str, tuple[str, ...]]:
 def answered(lines: tuple[str, ...]) -> str:
     """What the last of some commands prints, in an empty folder."""
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-        return [typed(f"mechsym {line}", Path(folder), (0, 1)) for line in lines][-1]
+        placed = [line.replace("{examples}", str(HERE.parent / "examples")) for line in lines]
+        return [typed(f"mechsym {line}", Path(folder), (0, 1)) for line in placed][-1]
+
+
+def quoted(page: str) -> dict[str, str]:
+    """What docs/printed has of the commands that a page quotes."""
+    files = [PRINTED / f"quoted-{page}-{k}.txt" for k in range(len(QUOTED[page]))]
+    return {line: file.read_text(encoding="utf-8") for line, file in zip(QUOTED[page], files, strict=True)}
 
 
 def main(names: list[str]) -> None:
@@ -190,6 +212,10 @@ def main(names: list[str]) -> None:
             (PRINTED / f"{page.stem}.json").write_text(
                 json.dumps(said, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
             )
+    for page in QUOTED:
+        if f"quoted-{page}" in names:
+            for k, line in enumerate(QUOTED[page]):
+                (PRINTED / f"quoted-{page}-{k}.txt").write_text(answered((line,)), encoding="utf-8")
     for line, lines in examples().items():
         if not names or shlex.split(line)[0] in names:
             (PRINTED / f"{pages.slug(line)}.txt").write_text(answered(lines), encoding="utf-8")

@@ -32,24 +32,12 @@ def casadi(source: object, inputs: Sequence[sp.Basic] = ()) -> ca.Function:
 
     source: what to convert; the methods give `mass_matrix` and `forcing` of all states, in the units of the source.
 
-    Parameters
-    ----------
-    inputs : sequence of Symbol, dynamicsymbol or Derivative, optional
-        Arguments in order, each in its own unit; without them all free letters, sorted by name. Arguments are called
-        `q1` for q1(t), `q1d` for its derivative
-
-    Raises
-    ------
-    BadInput
-        A letter is missing among the inputs, or a node has no counterpart; the message names it
-
-    Notes
-    -----
+    inputs: arguments in order, each in its own unit; without them all free letters, sorted by name. Arguments are
+    called `q1` for q1(t), `q1d` for its derivative. Raises BadInput: a letter is missing among the inputs, or a node
+    has no counterpart; the message names it.
     Source: sympy.physics.mechanics, `mass_matrix_full`, `forcing_full`; kinematic equations are put into the forcing.
     Valid: real arguments.
 
-    Examples
-    --------
     >>> from sympy import Symbol, atan2
     >>> from mechsym import convert
     >>> x, y = Symbol("x"), Symbol("y")

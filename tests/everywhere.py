@@ -2,10 +2,13 @@
 
 Each one designs a hinge, proves a formula, checks the derivations and writes an FMU that fmpy validates, from an empty
 folder and from the folder that holds the clone, where a folder of the same name must not hide what is installed.
+`python tests/everywhere.py dist tutorials` does the tutorials in the first Python by their text alone: what a page says
+is installed into a clean environment, its blocks are typed in an empty folder, and print what the page shows.
 """
 
 import glob
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -70,9 +73,57 @@ def tried(place, wheel, home):
     return failed
 
 
-def main(folder):
+def walked(page, wheel, place, home):
+    """Do a tutorial in a new environment; what it printed otherwise than it says."""
+    from test_docs_runs import agree
+
+    sys.path.insert(0, str(CLONE / "docs"))
+    import walks
+
+    subprocess.run([place, "-m", "venv", home], check=True)
+    text, python, folder = page.read_text(encoding="utf-8"), home / "bin" / "python", home / "empty"
+    extras = re.search(r'`pip install "[^"[]*\.whl(.*?)"`', text)[1]
+    subprocess.run([python, "-m", "pip", "install", "--quiet", f"{wheel}{extras}"], check=True)
+    folder.mkdir()
+    env = os.environ | {"PATH": f"{home / 'bin'}:{os.environ['PATH']}"}
+    kept, before, wrong = walks.kept(page), "", []
+
+    def typed(what, command, status=0, **how):
+        done = subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, check=False, **how)
+        same = agree(done.stdout.replace(f"{folder}/", "").replace(str(Path.home()), "~"), kept[what])
+        wrong.extend([] if done.returncode == status and same else [f"{what}: {done.returncode} {done.stderr[-300:]}"])
+
+    for one in walks.blocks(text):
+        if one["how"] == "file":
+            (folder / one["name"]).write_text(one["text"], encoding="utf-8")
+        elif one["kind"] == "sh":
+            for line in one["text"].splitlines():
+                command, _, status = line.partition("  # exit ")
+                typed(line, command, int(status or 0), shell=True)
+        else:  # names of earlier blocks are there, what they printed is not printed again
+            quiet = f"import contextlib, io\nwith contextlib.redirect_stdout(io.StringIO()): exec({before!r})\n"
+            typed(one["text"], [python, "-c", quiet + one["text"]])
+            before += one["text"]
+    return wrong
+
+
+def tutorials(wheel):
+    """Do all of them; 1 when anything was otherwise."""
+    _, place = next(interpreters())
+    failures = 0
+    for page in sorted((CLONE / "docs" / "tutorials").glob("*.md")):
+        with tempfile.TemporaryDirectory() as home:
+            wrong = walked(page, wheel, place, Path(home).resolve() / "venv")
+        print(f"{page.stem}: {'; '.join(wrong) or 'every block prints what the page shows'}", flush=True)
+        failures += len(wrong)
+    return int(failures > 0)
+
+
+def main(folder, what=""):
     """Try the wheel of a folder everywhere; 1 when anything failed."""
     (wheel,) = Path(folder).resolve().glob("*.whl")
+    if what == "tutorials":
+        return tutorials(wheel)
     failures = 0
     for version, place in interpreters():
         with tempfile.TemporaryDirectory() as home:
@@ -84,4 +135,4 @@ def main(folder):
 
 if __name__ == "__main__":
     os.environ.pop("PYTHONPATH", None)
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))

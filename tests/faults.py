@@ -120,7 +120,7 @@ class Runner:
         self.requests, self.answers = os.pipe(), os.pipe()
         self.process = os.fork()
         if self.process == 0:
-            from mechsym.files import transaction
+            from mechsym import transaction
 
             transaction._lives = lambda process: process == os.getpid()
             os.close(self.requests[1])

@@ -28,8 +28,9 @@ from mechsym.jobs.run import run
 
 TESTS = Path(__file__).parent
 LIMIT = 60  # time of a row by the clock [s]
-OWN = (TESTS.parent / "examples" / "mechanisms", TESTS / "plausible" / "own")
-_NAMES = ("hand", "peers", "trackers", "office", "laws", "shop")
+EXAMPLES = TESTS.parent / "examples"
+OWN = (EXAMPLES / "mechanisms", EXAMPLES / "space", TESTS / "plausible" / "own")
+_NAMES = ("hand", "peers", "trackers", "office", "laws", "shop", "field")
 LISTS = {name: tomllib.loads((TESTS / "plausible" / f"{name}.toml").read_text()) for name in _NAMES}
 
 

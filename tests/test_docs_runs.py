@@ -61,6 +61,13 @@ def test_examples_that_take_longer_print_what_their_pages_show(walks):
     assert [li for li, ls in heavy.items() if not agree(walks.answered(ls), pages.printed(li).partition("\n")[2])] == []
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("page", ["engine", pytest.param("codesign", marks=pytest.mark.heavy)])
+def test_what_the_prose_of_a_page_quotes_is_what_its_commands_print(page, walks):
+    kept = walks.quoted(page)
+    assert [line for line in kept if not agree(walks.answered((line,)), kept[line])] == []
+
+
 def test_texts_agree_by_words_and_digits():
     assert agree("ripple 2.001 % at 60 rpm", "ripple 2.0 %  at 60 rpm") and agree("left 1e-12 J", "left 3e-13 J")
     assert not agree("ripple 2.1 % at 60 rpm", "ripple 2.0 % at 60 rpm")
@@ -72,9 +79,9 @@ TASKS = re.findall(
 )
 
 
-def test_twenty_tasks_have_their_pages(monkeypatch):
+def test_tasks_have_their_pages(monkeypatch):
     monkeypatch.syspath_prepend(str(DOCS))
-    assert len(TASKS) == 20 == len({task for task, *_ in TASKS})
+    assert len(TASKS) == 25 == len({task for task, *_ in TASKS})
     for task, page, command in TASKS:
         name = re.fullmatch(r"made/commands/(\w+)\.md", page)
         there = name[1] in COMMANDS if name else page == "made/sections.md" or (DOCS / page).is_file()
@@ -89,7 +96,7 @@ def test_twenty_tasks_have_their_pages(monkeypatch):
 def test_the_command_of_a_task_answers_it(task, command, walks, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     cases = Path(importlib.import_module("mechsym").__file__).parent / "cases"
-    line = command.replace("{cases}", str(cases))
+    line = command.replace("{cases}", str(cases)).replace("{examples}", str(DOCS.parent / "examples"))
     assert walks.typed(line, tmp_path, (0, 1)).strip()
 
 

@@ -202,7 +202,7 @@ def silent_fields(node, lines):
         beside = lines[field.end_lineno - 1].partition("#:")[2]
         group = above if above.startswith("#:") else "" if beside else group
         # a limit of the guide brings its unit along
-        own = field.value is not None and re.search(r"quantity\(|\.setting\(", ast.unparse(field.value))
+        own = field.value is not None and re.search(r"quantity\(|seen\(|\.setting\(", ast.unparse(field.value))
         kind = ast.unparse(field.annotation)
         if NUMBER.search(kind) and not NAMED.search(kind):
             block = group

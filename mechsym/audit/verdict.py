@@ -51,8 +51,9 @@ class Decision:
     note: str = ""
 
 
-def decide(question: Question, settled: bool = False) -> Decision:
-    """Compare a printed formula with the derived quantity; `settled`: its author's way of counting is known."""
+def decide(question: Question, settled: bool = False, one: bool = False) -> Decision:
+    """Compare a printed formula with the derived quantity; `settled`: its author's way of counting is known; `one`:
+    two slips at once are not searched for."""
     exam = examine(question)
     plain = _plain(exam)
     if plain is not None:
@@ -63,7 +64,7 @@ def decide(question: Question, settled: bool = False) -> Decision:
             words = "exact" if judged.verdict == "exact" else f"a truncation of relative order {judged.order}"
             note = joined(judged.note, f"{words} at {condition.told}")
             return replace(judged, verdict="convention", note=note)
-    return _searched(exam, settled)
+    return _searched(exam, settled, one)
 
 
 def _plain(exam: Examination) -> Decision | None:
@@ -90,7 +91,7 @@ def _plain(exam: Examination) -> Decision | None:
     return None if note is None else _decision(exam, "truncation", start, note=note, domain=domain(exam.question))
 
 
-def _searched(exam: Examination, settled: bool) -> Decision:
+def _searched(exam: Examination, settled: bool, one: bool) -> Decision:
     question, tree = exam.question, exam.question.formula.tree
     start = standing(exam, tree)
     condition = next(conditions(question), None)
@@ -101,7 +102,7 @@ def _searched(exam: Examination, settled: bool) -> Decision:
         if condition is not None:  # a slip in a formula for constant speed
             exam = examine(under(question, condition))
             start = standing(exam, tree)
-        outcome = search(exam, start)
+        outcome = search(exam, start, one)
     if single is None and condition is not None:
         if outcome.repairs and outcome.repairs[0].edits[-1].kind == "left out":
             # a term to be taken away at constant speed may as well have lost what vanishes there

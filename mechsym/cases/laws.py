@@ -20,6 +20,8 @@ from dataclasses import replace
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from mechsym.cycle.kinds import four_stroke, kind_of
 from mechsym.files import Json
 from mechsym.machine.loads import Load, PropellerLoad, TableLoad
@@ -253,7 +255,8 @@ def by_links(
     of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors, (longest, moving)))
     pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
     forces = max(pushes, default=0.0), max(turns, default=0.0)
-    together = (*_masses(links, letters, units), *_stress(links, letters, *forces))
+    slides = "m" in listing["coordinates"].values()
+    together = (*_masses(links, letters, units, slides), *_stress(links, letters, *forces))
     for doubt in (*of_links, *together):
         if doubt.code not in worst or far(doubt) > far(worst[doubt.code]):
             worst[doubt.code] = doubt
@@ -275,9 +278,14 @@ def _length(link: Json, letters: Mapping[str, float]) -> float:
     return max(math.dist(p, q) for p, q in combinations(points, 2))
 
 
-def _masses(links: Sequence[Json], letters: Mapping[str, float], units: Mapping[str, str]) -> Iterator[Doubt]:
-    """Letters in kg by the longest link, or twice the longest letter: none is heavier than a cube of steel of it."""
-    lengths = [2 * abs(letters[name]) for name, unit in units.items() if unit == "m"]
+def _masses(
+    links: Sequence[Json], letters: Mapping[str, float], units: Mapping[str, str], slides: bool
+) -> Iterator[Doubt]:
+    """Letters in kg by the longest link, or twice the longest letter: none is heavier than a cube of steel of it.
+
+    A body that slides where its coordinate says is as wide as no letter tells.
+    """
+    lengths = [] if slides else [2 * abs(letters[name]) for name, unit in units.items() if unit == "m"]
     longest = max([_length(link, letters) for link in links] or lengths, default=0.0)
     for name, unit in units.items() if longest > 0 else ():
         if unit == "kg" and letters[name] > 0:
@@ -307,8 +315,30 @@ def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]
     for kind, texts in (("spring", listing.get("springs", ())), ("damper", listing.get("dampers", ()))):
         for text in texts:
             yield from proportion(f"{kind}_sign", f"{kind} {text}", _number(text, letters))
+    yield from _swinging(listing, letters)
+    for name, (xx, yy, zz, xy, xz, yz) in listing.get("tensors", {}).items():
+        rows = [[_number(entry, letters) for entry in row] for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
+        moments = np.linalg.eigvalsh(rows)
+        if moments[0] > 0:
+            about = f"largest principal moment of {name} / sum of the other two"
+            yield from proportion("principal_moments", about, moments[2] / (moments[0] + moments[1]))
     if joints := listing.get("open_sides", ()):
         yield from proportion("open_side", f"loops of pins whose side nobody chose ({', '.join(joints)})", len(joints))
+
+
+def _swinging(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]:
+    """The heaviest mass on the softest spring, m g/k, and the strongest damper beside them, c/(2 sqrt(k m))."""
+    units = listing["parameters"]
+
+    def values(texts: Collection[str], unit: str) -> list[float]:
+        return [letters[text] for text in texts if units.get(text) == unit and letters[text] > 0]
+
+    masses, springs = values(units, "kg"), values(listing.get("springs", ()), "N/m")
+    if masses and springs and not listing.get("links"):  # links carry what no spring does
+        yield from proportion("spring_rest", "heaviest mass * g / softest spring", 9.81 * max(masses) / min(springs))
+    for damping in values(listing.get("dampers", ()), "N*s/m") if masses and springs else ():
+        share = damping / (2 * math.sqrt(max(springs) * max(masses)))
+        yield from proportion("damping_share", f"damper {damping:g} N*s/m / (2 sqrt(spring * mass))", share)
 
 
 _OfAll = tuple[float, float]  # longest link [m], and what all weigh [kg]
@@ -358,8 +388,8 @@ def _of(
         yield from proportion("point_speed", f"speed of the outermost joint of {name}", speed)
 
 
-def _point(pair: Sequence[str], letters: Mapping[str, float]) -> tuple[float, float]:
-    return _number(pair[0], letters), _number(pair[1], letters)
+def _point(place: Sequence[str], letters: Mapping[str, float]) -> tuple[float, ...]:
+    return tuple(_number(text, letters) for text in place)
 
 
 def _number(text: str, letters: Mapping[str, float]) -> float:

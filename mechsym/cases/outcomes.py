@@ -129,11 +129,15 @@ def of_run(
 
 
 def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
-    """Sense of rotation in a run, whether the drive drives, and how many turns lie between two results."""
+    """Speeds of what slides, sense of rotation, whether the drive drives, and turns between two results."""
     wanted, work = case.sections.get("simulation"), run.energy.work
-    if run.rate != "rad/s":
-        return ()
     found: tuple[Doubt, ...] = ()
+    for name, speed in run.speeds.items():
+        if speed.units["max"] == "m/s":
+            fastest = max(abs(speed["min"]), abs(speed["max"]))
+            found += proportion("point_speed", f"highest speed along {name}", fastest)
+    if run.rate != "rad/s":
+        return found
     if wanted is not None and wanted.output_step:
         fastest = max(abs(run.speed_min), abs(run.speed_max))
         what = "simulation.output_step in turns of the run"

@@ -48,8 +48,8 @@ def prove(
               mechsym prove chmielewski --t-end 3 --out proof
     """
     from mechsym import cases, mechanisms
-    from mechsym.jobs.prove import GUIDES, of_guides_at, of_mechanism_at, usual_case
-    from mechsym.mechanisms.record import generated
+    from mechsym.jobs.prove import GUIDES, subjects_of, usual_case
+    from mechsym.proof.outputs import rounding
     from mechsym.quantities.results import tell
 
     if name != GUIDES and name not in mechanisms.names() and name in cases.names() or name.endswith(".toml"):
@@ -60,14 +60,11 @@ def prove(
     if name != GUIDES:
         mechanisms.parameters_class(name)  # refuses what is none
     case = only_of(case_of(case_name or usual_case(name), pairs(overrides)), "prove")
-    functions = 2 if name == GUIDES else len(generated(name).FUNCTIONS)
-    with progress(samples * functions, f"samples of {name}") as bar:
-        if name == GUIDES:
-            found = of_guides_at(case, samples, bar.update)
-        else:
-            found = of_mechanism_at(name, case, _ranges(given), samples, bar.update)
-    emit(tell(found), lambda: _text(found))
-    if not found.holds:
+    subjects, words = subjects_of(name, case, _ranges(given))
+    with progress(samples * len(subjects), f"samples of {name}") as bar:
+        proven = rounding(name, subjects, samples, words, bar.update)
+    emit(tell(proven), lambda: _text(proven))
+    if not proven.holds:
         sys.exit(1)
 
 

@@ -65,17 +65,9 @@ def share_of_delay(
 
     s_slope: dphi/ds at the nodes, n at least 6. Returns share: 1 where the end gas ignites by itself, shape (k,).
 
-    Parameters
-    ----------
-    p, T : ndarray, shape (n,) or (k, n), or CasADi row
-        Pressure and temperature of the end gas at the nodes, of k cycles side by side [Pa, K]
-
-    Notes
-    -----
+    p, T: pressure and temperature of the end gas at the nodes, of k cycles side by side [Pa, K], shape (n,) or (k, n).
     Source: J. C. Livengood, P. C. Wu, Proc. Combust. Inst. 5 (1955) 347. Valid: the delay depends on the instant alone.
 
-    Examples
-    --------
     >>> n = np.ones(9)
     >>> tau = float(ignition_delay(2e6, 800.0, 95.0))
     >>> round(float(share_of_delay(200.0 * tau * n, 2e6 * n, 800.0 * n, 200.0, 95.0)), 12)

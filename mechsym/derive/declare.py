@@ -88,6 +88,7 @@ class Declaration(Linkage, Elements, Drawing):
         self.watched: dict[str, object] = {}
         self.faces: list[tuple[Any, Expr, Any, Any]] = []
         self.undetermined: list[str] = []  # reactions that joints hold against one another, in space
+        self.tensors: dict[str, list[str]] = {}  # inertia of bodies in space: xx, yy, zz, xy, xz, yz
         self.redundant: list[str] = []
         self._start_linkage()
         self._start_roles()

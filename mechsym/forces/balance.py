@@ -80,23 +80,11 @@ def balance(
 ) -> BalancedEngine:
     """Weights that leave the least force and couple on the frame, or the least peak of the main bearings.
 
-    Parameters
-    ----------
-    weights : str
-        Places on the crankshaft: `ends`, the first and the last throw; `webs`, every throw; `none`
-    shafts : sequence of int
-        Orders of the balancer shafts, a pair that turns both ways for each
-    least : str
-        `frame`, or `mains`: the counterweights are for the largest load of a main bearing, the shafts for the frame
-    largest : float, optional
-        Unbalance that one weight may have
-    apart : float
-        Distance of the two shafts of a pair along the reference axis, the one above that leaves less roll
-
-    Raises
-    ------
-    BadInput
-        The mechanism does not tell its momentum, or `mains` is asked for where the places of the bearings are not known
+    weights: places on the crankshaft: `ends`, the first and the last throw; `webs`, every throw; `none`. shafts: orders
+    of the balancer shafts, a pair that turns both ways for each. least: `frame`, or `mains`: the counterweights are for
+    the largest load of a main bearing, the shafts for the frame. largest: unbalance that one weight may have. apart:
+    distance of the two shafts of a pair along the reference axis, the one above that leaves less roll. Raises BadInput:
+    the mechanism does not tell its momentum, or `mains` is asked for where the places of the bearings are not known.
     """
     if not turn.momentum:
         raise BadInput(f"{turn.drive.name} does not tell its momentum; a mechanism with links of known mass does")

@@ -91,11 +91,8 @@ def tangential(pin: Pin) -> Newton[Array]:
 def power_residual(turn: Turn, loads: Loads) -> Pure:
     """Largest gap between the power from the energies and that from the forces on the crank.
 
-    Returns
-    -------
-    residual : float
-        Relative to the largest power of gas or load; where the declaration names no crank pin, the gap to the power
-        that the equations of motion ask for
+    Returns residual: relative to the largest power of gas or load; where the declaration names no crank pin, the gap to
+    the power that the equations of motion ask for.
     """
     size = max(np.abs(turn.gas_power).max(), np.abs(turn.torque * turn.omega).max())
     other = pin_torque(loads) if loads.pins else -turn.driving
@@ -105,11 +102,8 @@ def power_residual(turn: Turn, loads: Loads) -> Pure:
 def polar(loads: Loads) -> dict[str, tuple[Newton[Array], Newton[Array]]]:
     """Polar diagrams: loads on the pins in their cranks, on the main bearings in the frame.
 
-    Returns
-    -------
-    curves : dict of str to (ndarray, ndarray)
-        By name: along the crank and across it for a pin, x and y for a bearing; what the shaft presses with is the
-        opposite of what it is pressed with
+    Returns curves: by name: along the crank and across it for a pin, x and y for a bearing; what the shaft presses with
+    is the opposite of what it is pressed with.
     """
     pins = {pin.name: (radial(pin), tangential(pin)) for pin in loads.pins}
     return pins | {name: (-x, -y) for name, (x, y) in loads.bearings.items()}

@@ -265,11 +265,8 @@ def columns(turn: Turn, loads: Loads, chains: Mapping[str, Chain] | None = None)
 
     chains: chains of the sources by name.
 
-    Returns
-    -------
-    columns : Columns
-        `phi_deg` first, then `p`, what acts, motion, pins, bearings, guides, reactions, `torque`, chains, and all other
-        inputs and outputs of the declaration; each of shape (n,)
+    Returns columns: `phi_deg` first, then `p`, what acts, motion, pins, bearings, guides, reactions, `torque`, chains,
+    and all other inputs and outputs of the declaration; each of shape (n,).
     """
     table: dict[str, np.ndarray] = {"phi_deg": np.degrees(turn.phi)}
     if turn.acting:

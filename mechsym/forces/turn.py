@@ -127,10 +127,7 @@ Gases: TypeAlias = "Gas | Sequence[Acting] | None"
 def turn(drive: CrankDrive, gas: Gases, omega: RadPerSecond) -> Turn:
     """One cycle at a speed.
 
-    Parameters
-    ----------
-    gas : Gas, sequence of Acting or None
-        Of every cylinder alike, or of each; None: only inertia and weight act
+    gas: of every cylinder alike, or of each; with none of it only inertia and weight act.
     """
     acts = acting(drive, gas)
     return at(drive, acts, omega, angles(period_of(acts)))

@@ -109,13 +109,7 @@ def constant_load_speed(
 
     missing: work that is wanted and missing; inertia: reduced inertia; omega: mean speed in time.
 
-    Returns
-    -------
-    phid : ndarray, shape (n,), or None
-        Speed; None if no motion with that mean speed exists: the crank would stop
-
-    Notes
-    -----
+    Returns phid: speed; None if no motion with that mean speed exists: the crank would stop, shape (n,).
     Neutrally stable: a run that starts elsewhere keeps another c and another ripple.
     """
 

@@ -29,7 +29,7 @@ from mechsym.page import Shown
 from mechsym.quantities import record
 from mechsym.quantities.display import figure, per_cent, ratio_text
 from mechsym.quantities.records import Record
-from mechsym.quantities.results import computed, quantity, result
+from mechsym.quantities.results import computed, quantity, result, seen
 from mechsym.quantities.units import Pure
 from mechsym.simulate.steady import Flywheel, Steady
 
@@ -42,40 +42,15 @@ class Offer:
     track: Guide  # or why there is none
     verdict: Verdict
 
-    @computed()
-    def balance(self) -> str:
-        """Part of the torque that is balanced."""
-        return self.taken.kind
-
-    @computed("-")
-    def shaft_ratio(self) -> float:
-        """Turns of the guide's shaft by those of the crank."""
-        return self.track.parameters.shaft_ratio
-
-    @computed("-")
-    def feasible(self) -> bool:
-        """Whether the guide can be built."""
-        return self.verdict.feasible
-
-    @computed()
-    def reason(self) -> str:
-        """The limits that are not kept, or the tightest one."""
-        return self.verdict.reason
-
-    @computed("J")
-    def work_left(self) -> float:
-        """Largest less smallest work that is left over."""
-        return self.taken.rest_swing
-
-    @computed("-")
-    def ripple_constant_load(self) -> float | None:
-        """Speed ripple that the rest leaves under a constant load; None for a stop."""
-        return self.taken.ripple_constant_load
-
-    @computed("-")
-    def ripple_propeller_load(self) -> float | None:
-        """Speed ripple that the rest leaves under a propeller's load; None for a stop."""
-        return self.taken.ripple_propeller_load
+    balance: str = seen("taken.kind")  #: Part of the torque that is balanced
+    shaft_ratio: float = seen("track.parameters.shaft_ratio", "-")  #: Turns of the guide's shaft by those of the crank
+    feasible: bool = seen("verdict.feasible", "-")  #: Whether the guide can be built
+    reason: str = seen("verdict.reason")  #: The limits that are not kept, or the tightest one
+    work_left: float = seen("taken.rest_swing", "J")  #: Largest less smallest work that is left over
+    #: Speed ripple that the rest leaves under a constant load; None for a stop
+    ripple_constant_load: float | None = seen("taken.ripple_constant_load", "-")
+    #: Speed ripple that the rest leaves under a propeller's load; None for a stop
+    ripple_propeller_load: float | None = seen("taken.ripple_propeller_load", "-")
 
 
 def offers(
@@ -125,10 +100,8 @@ class Target:
         """Whether the machine as built keeps the ripple within its limits."""
         return self.held and self.kept
 
-    @computed("-")
-    def ripple_with_losses(self) -> tuple[float | None, ...]:
-        """Ripple at each point with friction and heat; None where there is no steady motion."""
-        return self.with_losses
+    #: Ripple at each point with friction and heat; None where there is no steady motion
+    ripple_with_losses: tuple[float | None, ...] = seen("with_losses", "-")
 
     @property
     def words(self) -> str:
@@ -175,35 +148,13 @@ class AtLoad:
         """Mean indicated pressure."""
         return self.mean_indicated_pressure / 1e5
 
-    @computed("-")
-    def speed_ripple(self) -> float | None:
-        """Steady ripple with the spring as designed; None where there is none."""
-        return self.as_cut.speed_ripple
-
-    @computed()
-    def reason(self) -> str:
-        """Why."""
-        return self.as_cut.reason
-
-    @computed("@unit")
-    def p0(self) -> float:
-        """Setting of the spring that fits the work of this load best."""
-        return self.setting
-
-    @computed("-")
-    def p0_ratio(self) -> float:
-        """That setting by that of the design."""
-        return self.ratio
-
-    @computed("-")
-    def speed_ripple_reset(self) -> float | None:
-        """Steady ripple with it."""
-        return self.reset.speed_ripple
-
-    @computed()
-    def reason_reset(self) -> str:
-        """Why there is none."""
-        return self.reset.reason
+    #: Steady ripple with the spring as designed; None where there is none
+    speed_ripple: float | None = seen("as_cut.speed_ripple", "-")
+    reason: str = seen("as_cut.reason")  #: Why
+    p0: float = seen("setting", "@unit")  #: Setting of the spring that fits the work of this load best
+    p0_ratio: float = seen("ratio", "-")  #: That setting by that of the design
+    speed_ripple_reset: float | None = seen("reset.speed_ripple", "-")  #: Steady ripple with it
+    reason_reset: str = seen("reset.reason")  #: Why there is none
 
 
 @record

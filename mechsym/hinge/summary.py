@@ -11,7 +11,7 @@ from mechsym.hinge.rollers import HingeLosses, LossTorques, parallel
 from mechsym.hinge.steady import RIPPLE
 from mechsym.hinge.trials import Trial
 from mechsym.quantities import RPM
-from mechsym.quantities.results import Columns, computed, part, quantity, result
+from mechsym.quantities.results import Columns, computed, part, quantity, result, seen
 
 #: Numbers that need no run besides what all guides of one engine share: a hundredth of the time of all
 QUICK = (
@@ -107,40 +107,14 @@ class HingeNumbers:
         gas = self.judged.machine.gas
         return gas.pressure.mean_indicated / 1e5 if gas else None
 
-    @computed("N*m")
-    def load_torque(self) -> float:
-        """Torque that the engine can drive in the mean."""
-        return self.judged.hinge.load_torque
-
-    @computed("N*m")
-    def hinge_torque_max(self) -> float:
-        """Highest torque of the hinge, with its sign."""
-        return self.judged.hinge.torque_max
-
-    @computed("N*m")
-    def hinge_torque_min(self) -> float:
-        """Lowest torque of the hinge, with its sign."""
-        return self.judged.hinge.torque_min
-
-    @computed("N*m")
-    def hinge_torque_mean(self) -> float:
-        """Mean torque of the hinge, 0 of one that a spring can give."""
-        return self.judged.hinge.mean_torque
-
-    @computed("J")
-    def hinge_work_max(self) -> float:
-        """Highest work of the hinge since dead centre."""
-        return self.judged.hinge.work_max
-
-    @computed("J")
-    def hinge_work_min(self) -> float:
-        """Lowest work of the hinge since dead centre."""
-        return self.judged.hinge.work_min
-
-    @computed()
-    def guide(self) -> Verdict:
-        """The guide and its limits."""
-        return self.judged.verdict
+    load_torque: float = seen("judged.hinge.load_torque", "N*m")  #: Torque that the engine can drive in the mean
+    hinge_torque_max: float = seen("judged.hinge.torque_max", "N*m")  #: Highest torque of the hinge, with its sign
+    hinge_torque_min: float = seen("judged.hinge.torque_min", "N*m")  #: Lowest torque of the hinge, with its sign
+    #: Mean torque of the hinge, 0 of one that a spring can give
+    hinge_torque_mean: float = seen("judged.hinge.mean_torque", "N*m")
+    hinge_work_max: float = seen("judged.hinge.work_max", "J")  #: Highest work of the hinge since dead centre
+    hinge_work_min: float = seen("judged.hinge.work_min", "J")  #: Lowest work of the hinge since dead centre
+    guide: Verdict = seen("judged.verdict")  #: The guide and its limits
 
     @computed()
     def check(self) -> HingeCheck:
@@ -192,15 +166,9 @@ class HingeNumbers:
         """Speed ripple with a number of the spring 1 per cent low and high."""
         return {s.name: (s.low.speed_ripple, s.high.speed_ripple) for s in self.design.sensitivities}
 
-    @computed()
-    def loads(self) -> tuple[AtLoad, ...]:
-        """The same guide at the loads that were asked for."""
-        return self.design.loads
-
-    @computed("kg*m^2", card="flywheel saved")
-    def flywheel_inertia_saved(self) -> float | None:
-        """Inertia to add for a ripple of 1/50 without hinge, on top of the flywheel that the case keeps."""
-        return self.judged.flywheels.steady.inertia
+    loads: tuple[AtLoad, ...] = seen("design.loads")  #: The same guide at the loads that were asked for
+    #: Inertia to add for a ripple of 1/50 without hinge, on top of the flywheel that the case keeps
+    flywheel_inertia_saved: float | None = seen("judged.flywheels.steady.inertia", "kg*m^2", card="flywheel saved")
 
     @computed()
     def losses(self) -> HingeLossNumbers | None:
@@ -229,10 +197,8 @@ class HingeNumbers:
         """Lowest speed after one turn without combustion by the mean before; 0 for a stop, None where not known."""
         return None if self.design.price is None else self.design.price.misfire_speed_share
 
-    @computed("kg*m^2")
-    def flywheel_inertia_to_turn(self) -> float | None:
-        """Smallest inertia to add with which the engine completes turns without hinge."""
-        return self.judged.flywheels.turns.inertia
+    #: Smallest inertia to add with which the engine completes turns without hinge
+    flywheel_inertia_to_turn: float | None = seen("judged.flywheels.turns.inertia", "kg*m^2")
 
     @computed("kg*m^2")
     def flywheel_inertia_beside_faulty(self) -> float | None:
@@ -244,15 +210,8 @@ class HingeNumbers:
         """Ripple that is asked for."""
         return RIPPLE
 
-    @computed()
-    def target(self) -> Target:
-        """Whether that ripple is kept with losses."""
-        return self.design.target
-
-    @computed()
-    def verdict(self) -> str:
-        """The answer in a sentence."""
-        return self.design.answer
+    target: Target = seen("design.target")  #: Whether that ripple is kept with losses
+    verdict: str = seen("design.answer")  #: The answer in a sentence
 
 
 def guide_turn(design: Design, points: int = 721) -> Contact:

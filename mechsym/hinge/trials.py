@@ -39,7 +39,7 @@ from mechsym.mechanisms.shaft import with_inertia
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
 from mechsym.quantities.display import figure
-from mechsym.quantities.results import computed, part, quantity, result
+from mechsym.quantities.results import computed, part, quantity, result, seen
 from mechsym.quantities.units import Inertia, Pure, RadPerSecond, Scalar
 from mechsym.simulate import Result, Settings, simulate
 from mechsym.simulate.angle import tabulate
@@ -237,10 +237,7 @@ class Trial:
     #: Mean torque that each kind of loss took over the last period [N*m]; None for an ideal hinge
     losses: Mapping[str, float] | None = None
 
-    @computed("-")
-    def energy_residual(self) -> float | None:
-        """What the balance of energy leaves open."""
-        return self.result.energy.residual
+    energy_residual: float | None = seen("result.energy.residual", "-")  #: What the balance of energy leaves open
 
     @computed()
     def event(self) -> TrialEvent | None:

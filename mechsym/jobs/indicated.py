@@ -15,7 +15,7 @@ from mechsym.machine.torque_curve import read_torque
 from mechsym.mechanisms.record import Mechanism
 from mechsym.plausible import Doubt
 from mechsym.quantities import RPM, record
-from mechsym.quantities.results import Columns, computed, part, result
+from mechsym.quantities.results import Columns, computed, part, result, seen
 from mechsym.quantities.units import NewtonMetre
 
 _SAME = 1e-9  # of angles that are one [rad]
@@ -51,10 +51,7 @@ class TorquePressure:
         """Speed of the shaft."""
         return self.measured.omega / RPM
 
-    @computed("N*m")
-    def noise(self) -> float:
-        """Standard deviation of each torque."""
-        return self.measured.noise
+    noise: float = seen("measured.noise", "N*m")  #: Standard deviation of each torque
 
     @computed("-")
     def samples(self) -> int:

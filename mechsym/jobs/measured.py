@@ -28,7 +28,7 @@ from mechsym.files import write_text
 from mechsym.jobs.gas import of, one_cylinder
 from mechsym.plausible import Doubt
 from mechsym.quantities import RPM
-from mechsym.quantities.results import Columns, computed, part, quantity, result
+from mechsym.quantities.results import Columns, computed, part, quantity, result, seen
 
 _DEG = 180 / math.pi
 
@@ -171,15 +171,8 @@ class MeasuredDiagram:
         """Exponent of the line behind burning, mean over the cycles."""
         return float(np.mean([c.n_expansion for c in self.combustion.cycles]))
 
-    @computed()
-    def read_and_used(self) -> str:
-        """What was read of the file and what was used of it."""
-        return self.line
-
-    @computed("-")
-    def scale(self) -> float:
-        """What the file's pressures are multiplied with."""
-        return self.combustion.measured.scale
+    read_and_used: str = seen("line")  #: What was read of the file and what was used of it
+    scale: float = seen("combustion.measured.scale", "-")  #: What the file's pressures are multiplied with
 
     @computed()
     def cycles(self) -> list[MeasuredCycle]:
@@ -201,10 +194,7 @@ class MeasuredDiagram:
         """Cycles with less than 0.7 of the median work, from 1."""
         return [k + 1 for k in self.combustion.weak]
 
-    @computed()
-    def mean(self) -> Combustion:
-        """Of the mean cycle."""
-        return self.combustion.mean
+    mean: Combustion = seen("combustion.mean")  #: Of the mean cycle
 
     @computed()
     def wiebe(self) -> Columns | None:
@@ -218,15 +208,9 @@ class MeasuredDiagram:
         fit = self.combustion.double_wiebe
         return None if fit is None else fit.columns
 
-    @computed()
-    def compression_line(self) -> Columns:
-        """Charge line of the joint fit: exponent, dead centre, pressure when the inlet closes."""
-        return self.combustion.line.columns
-
-    @computed("kg")
-    def trapped_mass(self) -> float:
-        """Gas in the cylinder, from that line."""
-        return self.combustion.mass
+    #: Charge line of the joint fit: exponent, dead centre, pressure when the inlet closes
+    compression_line: Columns = seen("combustion.line.columns")
+    trapped_mass: float = seen("combustion.mass", "kg")  #: Gas in the cylinder, from that line
 
     @computed("deg")
     def tdc_uncertainty_deg(self) -> float | None:
@@ -234,15 +218,8 @@ class MeasuredDiagram:
         spread = self.combustion.tdc_uncertainty
         return None if spread is None else spread * _DEG
 
-    @computed()
-    def per_degree(self) -> DeadCentreShift:
-        """What a dead centre one degree later changes."""
-        return self.combustion.per_degree
-
-    @computed()
-    def uncertainty(self) -> DeadCentreShift:
-        """What the uncertainty of the dead centre changes."""
-        return self.combustion.uncertainty
+    per_degree: DeadCentreShift = seen("combustion.per_degree")  #: What a dead centre one degree later changes
+    uncertainty: DeadCentreShift = seen("combustion.uncertainty")  #: What the uncertainty of the dead centre changes
 
     @computed()
     def doubts(self) -> tuple[Doubt, ...]:

@@ -195,6 +195,7 @@ def _start(
     roles = mechanisms.roles_of(case.mechanism)
     cams = {cam.name for cam in roles.cams}
     still = {*held, *(stop.gap for stop in roles.stops if stop.name in cams)}  # a follower begins on its cam
+    still |= {q for q, unit in mechanisms.listing(case.mechanism, mechanism)["coordinates"].items() if unit != "rad"}
     values = {q: held.get(q, 0.0 if q in still else wanted.phi_start) for q in places} | guesses(case)
     rates = {f"{q}d": 0.0 if q in still else speed for q in places} | guesses(case)
     _require_closed(case, mechanism, values)

@@ -23,8 +23,8 @@ from mechsym.mechanisms.own import is_file
 from mechsym.mechanisms.record import bind, evaluate, generated, listing, velocities
 from mechsym.proof.balls import outward
 from mechsym.proof.enclosure import EnclosureMethod
-from mechsym.proof.motion import MOST, Passed, balls_of, digits, enclose, half_widths, method_for, task_of
-from mechsym.proof.outputs import ProvenRounding, of_guides, of_mechanism, rounding, units_of, widened
+from mechsym.proof.motion import MOST, Passed, digits, enclose, method_for, task_of
+from mechsym.proof.outputs import Subject, of_guides, of_mechanism, widened
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.problem import Problem, Steps
@@ -33,10 +33,7 @@ _SHARE = 0.01  # of a parameter's value, to both sides
 GUIDES = "hinge"  #: What stands for the limits of guides among the names of mechanisms
 _FASTER = 1.1  # highest speed by that of operation
 _TURN = np.arange(1440) * 4 * np.pi / 1440
-
 Ranges = dict[str, tuple[float, float]]
-
-
 #: Speeds of a shaft [rad/s], its acceleration at most [rad/s^2], forces on a piston [N], torque at most [N*m]
 Extremes: TypeAlias = tuple[tuple[float, float], float, tuple[float, float], float]
 
@@ -54,36 +51,24 @@ def usual_case(mechanism: str) -> str:
     raise BadInput(f"{mechanism} has no case of its own; name one with --case")
 
 
-def of_mechanism_at(
-    mechanism: str,
-    case: Case,
-    given: Mapping[str, tuple[float, float]],
-    samples: int,
-    progress: Callable[[int], object] = lambda _: None,
-) -> ProvenRounding:
-    """The rounding of a mechanism's functions over the ranges of a case.
+def subjects_of(name: str, case: Case, given: Mapping[str, tuple[float, float]]) -> tuple[tuple[Subject, ...], str]:
+    """The functions of a mechanism, or of the limits of guides, over the ranges of a case; and these ranges in words.
 
-    given: ranges of letters in place of the case's [SI].
+    given: ranges of letters of a mechanism in place of the case's [SI].
     """
-    ranges = ranges_of(mechanism, case)
+    around = f"of {case.name} +-{100 * _SHARE:g} %"
+    if name == GUIDES:
+        choices = case.need("guide")
+        wanted = balance(torque(machine(case)), choices.balance)
+        sections = case.need("spring"), choices, case.need("rollers"), case.need("limits")
+        kernel = design_kernel(wanted, *sections, ("guide.rho0",))
+        return of_guides(kernel, _SHARE), f"numbers {around}, its torque around the turn"
+    ranges = ranges_of(name, case)
     if unknown := sorted(set(given) - set(ranges)):
-        raise BadInput(f"--range {unknown[0]}: {mechanism} has no such letter; letters are {', '.join(ranges)}")
-    words = (
-        f"parameters of {case.name} +-{100 * _SHARE:g} %, a full turn of each angle, speeds and inputs within its "
-        f"extremes{''.join(f', {k} = {low:g}..{high:g}' for k, (low, high) in given.items())}"
-    )
-    subjects = of_mechanism(mechanism, ranges | dict(given))
-    return rounding(mechanism, subjects, units_of(mechanism), samples, words, progress)
-
-
-def of_guides_at(case: Case, samples: int, progress: Callable[[int], object] = lambda _: None) -> ProvenRounding:
-    """The rounding of the limits of guides of a case, as maps of guides compute them."""
-    choices = case.need("guide")
-    wanted = balance(torque(machine(case)), choices.balance)
-    sections = case.need("spring"), choices, case.need("rollers"), case.need("limits")
-    kernel = design_kernel(wanted, *sections, ("guide.rho0",))
-    words = f"numbers of {case.name} +-{100 * _SHARE:g} %, its torque around the turn"
-    return rounding(GUIDES, of_guides(kernel, _SHARE), {}, samples, words, progress)
+        raise BadInput(f"--range {unknown[0]}: {name} has no such letter; letters are {', '.join(ranges)}")
+    own = "".join(f", {letter} = {low:g}..{high:g}" for letter, (low, high) in given.items())
+    words = f"parameters {around}, a full turn of each angle, speeds and inputs within its extremes{own}"
+    return of_mechanism(name, ranges | dict(given)), words
 
 
 def ranges_of(mechanism: str, case: Case) -> Ranges:
@@ -101,8 +86,8 @@ def ranges_of(mechanism: str, case: Case) -> Ranges:
     length = 2 * max((abs(v) for letter, v in values.items() if known["parameters"][letter] == "m"), default=1.0)
     ranges: Ranges = {letter: widened(v, _SHARE) for letter, v in values.items()}
     for q, unit in known["coordinates"].items():
-        by = 1.0 if unit == "rad" else length
-        ranges[q] = (-np.pi, np.pi) if unit == "rad" else (-length, length)
+        by, far = (1.0, np.pi) if unit == "rad" else (length, length)
+        ranges[q] = (-far, far)
         ranges[f"{q}d"] = (by * speed[0], by * speed[1])
         ranges[f"{q}dd"] = (-by * acceleration, by * acceleration)
     for name, unit in known["inputs"].items():
@@ -204,7 +189,7 @@ def _told(
 ) -> ProvenMotion:  # fmt: skip
     units = dict(zip(states, problem.mechanism.state_units, strict=True))
     n = len(states) // 2
-    ends = np.array([[(float(b.lower()), float(b.upper())) for b in balls_of(p.at)] for p in passed])
+    ends = np.array([[(float(b.lower()), float(b.upper())) for b in p.at.balls] for p in passed])
     times, starts = np.array([float(p.at.t) for p in passed]), np.array([[q, q] for q in problem.q0])
     # over a second the mean of a velocity is the change of its coordinate by its length, doubles a hair outwards
     begins = np.array([problem.t_start, *times[:-1]])
@@ -234,11 +219,11 @@ def _told(
         f"with the decimals of {case.name} every solution has {speeds[0]} within {between(*of_all)} "
         f"{units[speeds[0]]} from {begins[inside][0]:g} to {times[inside][-1]:g} s, its mean over each second in "
         f"{between(*mean)}{f': never in steady motion at {claim:g}' if never else ''}; at "
-        f"{times[-1]:g} s the state is known to +-{outward(max(half_widths(passed[-1].at)[:n]), 2)} in its coordinates"
+        f"{times[-1]:g} s the state is known to +-{outward(max(passed[-1].at.half_widths[:n]), 2)} in its coordinates"
     )
     return ProvenMotion(
         subject=case.name, t=tuple(times.tolist()), lower=columns(ends[:, :, 0]), upper=columns(ends[:, :, 1]),
-        half_width=columns(np.array([half_widths(p.at) for p in passed])), least=columns(low), largest=columns(high),
+        half_width=columns(np.array([p.at.half_widths for p in passed])), least=columns(low), largest=columns(high),
         mean_least=columns(means[:, :, 0], speeds), mean_largest=columns(means[:, :, 1], speeds),
         steps=passed[-1].steps, bits=by[0].bits, digits=by[1], statement=statement, trusted=_TRUSTED,
     )  # fmt: skip

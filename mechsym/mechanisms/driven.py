@@ -16,7 +16,7 @@ import scipy
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
-from mechsym.mechanisms.multipliers import with_multipliers
+from mechsym.mechanisms.arrays import with_multipliers
 from mechsym.mechanisms.record import Mechanism, accelerations, velocities
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Second

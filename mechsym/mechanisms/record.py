@@ -20,8 +20,7 @@ import numpy as np
 
 from mechsym.errors import BadInput, suggest
 from mechsym.mechanisms import own
-from mechsym.mechanisms.arrays import along
-from mechsym.mechanisms.multipliers import with_multipliers
+from mechsym.mechanisms.arrays import along, with_multipliers
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Radian, Scalar
 

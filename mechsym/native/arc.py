@@ -128,11 +128,8 @@ def arcs(of: Form, held: bytes, shape: tuple[int, int, int]) -> Arcs | None:
 
     held: held values as doubles, of `shape` (runs, segments, p) [SI].
 
-    Returns
-    -------
-    arcs : Arcs or None
-        None where a series is too long, where inertia changes from segment to segment, or where the square of a speed
-        is not that of an inertia
+    Returns arcs: None where a series is too long, where inertia changes from segment to segment, or where the square of
+    a speed is not that of an inertia.
     """
     nodes = [node for f in of.inertia if f is not None for node in read(f).nodes]
     letters = sorted({args[0] - 1 for op, args in nodes if op == "input"} - {-1})  # held values that inertias depend on

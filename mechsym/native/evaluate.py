@@ -121,13 +121,8 @@ def arrays(function: casadi.Function) -> Callable[..., np.ndarray] | None:
 
     No compiler and no cache decides about it, so equal data give equal digits on the first run and on every other.
 
-    Returns
-    -------
-    batch : callable or None
-        As `Compiled.batch`; None where CasADi has to do it: it calls other functions, or is too long
+    Returns batch: as `Compiled.batch`; None where CasADi has to do it: it calls other functions, or is too long.
 
-    Examples
-    --------
     >>> x = casadi.SX.sym("x")
     >>> arrays(casadi.Function("square", [x], [x * x]))(np.array([1.0, 2.0, 3.0])).tolist()
     [[1.0, 4.0, 9.0]]

@@ -202,20 +202,12 @@ def integrate(runs: Runs, method: str = "auto", mode: str = "fast") -> Outcome:
 
     Returns outcome: one row for each run; a failure is a status.
 
-    Parameters
-    ----------
-    method : str
-        `dop853`: adaptive steps of order 8, a run in each lane. `collocation`: adaptive steps of order 16, each run in
-        all lanes, for equations without kinks and tables. `auto`: `collocation` for few runs of analytic equations, as
-        long as it converges fast, else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most
-        `first_step`, for conservative runs without kinks and surfaces. `adams`: steps of order 11 that look back, a run
-        in each lane, along the arc lengths of its angles; `auto` takes it for long smooth ensembles with few wanted
-        times
-
-    Raises
-    ------
-    mechsym.native.compiler.NoCompiler
-        No compiler; `mechsym.simulate` then goes on with scipy
+    method: `dop853`: adaptive steps of order 8, a run in each lane. `collocation`: adaptive steps of order 16, each run
+    in all lanes, for equations without kinks and tables. `auto`: `collocation` for few runs of analytic equations, as
+    long as it converges fast, else `dop853`. `gauss`: Gauss-Legendre, 4 stages, order 8, equal steps of at most
+    `first_step`, for conservative runs without kinks and surfaces. `adams`: steps of order 11 that look back, a run in
+    each lane, along the arc lengths of its angles; `auto` takes it for long smooth ensembles with few wanted times.
+    Raises mechsym.native.compiler.NoCompiler: no compiler; `mechsym.simulate` then goes on with scipy.
     """
     batch = _spread(runs, mode)
     if method == "auto":

@@ -171,11 +171,8 @@ def constant_table(kernels: tuple[Kernel, ...]) -> np.ndarray:
 def split(tape: Tape) -> tuple[Tape, Tape] | None:
     """The two stages of a program.
 
-    Returns
-    -------
-    stages : tuple of Tape, or None
-        The first gives intermediate values; the second takes the program's inputs followed by these. None where
-        nothing mixes
+    Returns stages: the first gives intermediate values; the second takes the program's inputs followed by these. None
+    where nothing mixes.
     """
     labels = _labels(tape)
     mixed = [len(groups) > 1 for groups in labels]

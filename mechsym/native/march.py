@@ -34,17 +34,9 @@ def marcher(step: casadi.Function, mode: str = "fast") -> March:
 
     step: (state, stage, lane) -> state, or state and record.
 
-    Returns
-    -------
-    march : callable
-        start (states, n), stages (k, values), lanes (values, n) -> state after the last stage (states, n) and what
-        every stage recorded (k, records, n). Stage values are the same in all lanes, lane values in all stages; the
-        callable raises BadInput for arrays that do not fit
-
-    Raises
-    ------
-    BadInput
-        The function is no step
+    Returns march: start (states, n), stages (k, values), lanes (values, n) -> state after the last stage (states, n)
+    and what every stage recorded (k, records, n). Stage values are the same in all lanes, lane values in all stages;
+    the callable raises BadInput for arrays that do not fit. Raises BadInput: the function is no step.
     """
     if step.n_in() != 3 or step.n_out() not in (1, 2) or step.numel_out(0) != step.numel_in(0):
         raise BadInput(

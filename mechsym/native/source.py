@@ -30,12 +30,7 @@ from mechsym.quantities import record
 class Program:
     """A function ready to be written as C.
 
-    Parameters
-    ----------
-    tape : Tape
-        Its straight-line program
-    kernels : tuple of Kernel
-        The same with equal parts rolled
+    tape: its straight-line program. kernels: the same with equal parts rolled.
     """
 
     tape: Tape

@@ -12,15 +12,9 @@ of one sparse system, by direct collocation with the emitted equations:
 
 On each interval the state is a polynomial of degree d through its start and d Legendre points, which solves the
 equations at those points; order 2 d at the ends of the intervals.
-
-A trace beside the machine that is told to have made it, before anything is fitted.
-
-.. math:: \Delta T = \left[\tfrac12 u^T M u\right], \qquad \Delta W = \int u^T Q\,dt, \qquad \Delta T = \Delta W
-
-A wrong unit of the speeds by s multiplies the first by s^2 and the second by s; times in ms under [s] multiply the
-second alone. Elastic parts take their energy and give it back, so that the whole trace shows the sum.
 """
 
+import functools
 import math
 from collections.abc import Callable
 from typing import NamedTuple
@@ -29,8 +23,7 @@ import casadi as ca
 import numpy as np
 import scipy.sparse as sp
 
-from mechsym.errors import BadInput
-from mechsym.optimise.solvers import linear
+from mechsym.native.evaluate import arrays
 from mechsym.optimise.trace import Trace
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Radian, Second
@@ -45,16 +38,25 @@ _DAMPING, _STIFFEST = 1e-4, 1e8
 _SHORTER = 0.5 ** np.arange(10)  # parts of a first step that are tried
 
 
+@functools.cache
+def legendre() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Start and Legendre points of an interval of length 1, their slopes by columns, and what its end is made of."""
+    tau = np.append(0.0, ca.collocation_points(DEGREE, "legendre"))
+    slopes, end, _ = (np.asarray(m) for m in ca.collocation_coeff(tau[1:].tolist()))
+    return tau, slopes, end.ravel()
+
+
 class Intervals(NamedTuple):
-    """Intervals, and the linear maps from the states to what is asked of them."""
+    """Intervals, the points at which the equations hold, and the map from the states to the samples."""
 
     edges: np.ndarray  # shape (N + 1,) [s]
     nodes: np.ndarray  # times of the collocation points, shape (N d,) [s]
-    slopes: sp.csc_matrix  # states (N (d + 1),) to h times their rates at the nodes
-    inner: sp.csc_matrix  # states to those at the nodes
-    gaps: sp.csc_matrix  # states to what an interval's end misses its follower's start by, (N - 1,)
-    samples: sp.csc_matrix  # states to those at the samples
-    lengths: np.ndarray  # of the interval of each node, shape (N d,) [s]
+    samples: sp.csc_matrix  # states (N (d + 1),) to those at the samples
+
+    @property
+    def lengths(self) -> np.ndarray:
+        """Of each interval, shape (N,) [s]."""
+        return np.diff(self.edges)
 
 
 def grid(t: Second[Array], breaks: tuple[Second, ...], longest: Second) -> Intervals:
@@ -65,12 +67,7 @@ def grid(t: Second[Array], breaks: tuple[Second, ...], longest: Second) -> Inter
     ]
     edges = np.unique(np.concatenate(parts))
     count, h = len(edges) - 1, np.diff(edges)
-    tau = np.append(0.0, ca.collocation_points(DEGREE, "legendre"))
-    c, d, _ = (np.asarray(m) for m in ca.collocation_coeff(tau[1:].tolist()))
-    each, inner = sp.identity(count), np.vstack([np.zeros(DEGREE), np.eye(DEGREE)])
-    start = np.eye(DEGREE + 1)[:, :1]
-    ends = sp.kron(each, d.reshape(-1, 1), "csc")
-    starts = sp.kron(each, start, "csc")
+    tau, _, _ = legendre()
     interval = np.clip(np.searchsorted(edges, t, side="right") - 1, 0, count - 1)
     place = (t - edges[interval]) / h[interval]
     # Lagrange's polynomials; scipy's interpolator orders its nodes at random, and with them the rounding
@@ -82,11 +79,7 @@ def grid(t: Second[Array], breaks: tuple[Second, ...], longest: Second) -> Inter
     return Intervals(
         edges=edges,
         nodes=(edges[:-1, None] + h[:, None] * tau[1:]).ravel(),
-        slopes=sp.kron(each, c, "csc"),
-        inner=sp.kron(each, inner, "csc"),
-        gaps=sp.csc_matrix(ends[:, :-1] - starts[:, 1:]),
         samples=sp.csc_matrix((basis.ravel(), (rows, columns)), shape=(count * len(tau), len(t))),
-        lengths=np.repeat(h, DEGREE),
     )
 
 
@@ -147,14 +140,13 @@ class TraceTask:
     def __init__(self, model: TracedMotion, trace: Trace, points: Intervals, most: int = 10**9) -> None:
         self.model, self.trace, self.points = model, trace, points
         self.evaluations, self.most = 0, most  # of the linear system, and how many a fit may take
-        n, each = 2 * len(model.velocities), sp.identity(2 * len(model.velocities))
+        n = 2 * len(model.velocities)
         x, w, z = ca.SX.sym("x", n), ca.SX.sym("w", len(model.inputs)), ca.SX.sym("z", len(model.names))
-        rate = model.rate(x, w, z)
-        self._rates = ca.Function("rates", [x, w, z], [rate, ca.jacobian(rate, x), ca.jacobian(rate, z)])
+        rate = model.rate(x, w, z)[n // 2 :]
+        every = ca.vertcat(rate, *(ca.vec(ca.densify(ca.jacobian(rate, of))) for of in (x, z)))
+        function = ca.Function("rates", [ca.vertcat(x, w, z)], [every])
+        self._rates = arrays(function) or (lambda *rows: function(np.vstack(np.broadcast_arrays(*rows))).full())
         self._known = model.known(points.nodes)
-        self._slopes, self._inner, self._gaps = (
-            sp.csr_matrix(sp.kron(m.T, each)) for m in (points.slopes, points.inner, points.gaps)
-        )
         self._rows = [n // 2 + model.velocities.index(name) for name in trace.speeds]
         self.measured = np.array(list(trace.speeds.values()))
         self.scale = max(float(np.abs(self.measured).max()), 1e-9)
@@ -170,31 +162,64 @@ class TraceTask:
 
     def linear(self, states: np.ndarray, theta: np.ndarray) -> _Linear | None:
         """The equations about states (2 n, points) and parameters (k,) [SI]; None where a loop is open."""
-        n, k, count = states.shape[0], len(theta), len(self.points.nodes)
+        n, k, (_, _, end) = states.shape[0], len(theta), legendre()
+        placed = states.reshape(n, -1, DEGREE + 1)
         self.evaluations += 1
-        values = self._rates(states @ self.points.inner, self._known, np.tile(theta[:, None], (1, count)))
-        rates, by_state, by_theta = (np.asarray(v) for v in values)
-        if not all(np.isfinite(v).all() for v in (states, rates, by_state, by_theta)):
+        with np.errstate(over="ignore", invalid="ignore"):  # of a motion that runs away
+            solved = self._inside(placed, theta)
+            if solved is None:
+                return None
+            count = len(solved)
+            # the first state is free; from its start an interval follows, and from its end the start of the next one
+            carry = np.tensordot(end[1:], solved, axes=(0, 1))
+            carry[..., k + 1 :] += end[0] * np.eye(n)
+            carry[:-1, :, 0] += (placed[:, :-1] @ end - placed[:, 1:, 0]).T
+            inside = solved.reshape(count, DEGREE * n, -1)
+            every = np.zeros((count, (DEGREE + 1) * n, k + 1 + n))
+            every[:, :n] = _chained(carry[..., k + 1 :], carry[..., : k + 1])
+            every[:, n:] = inside[..., k + 1 :] @ every[:, :n]
+            every[:, n:, : k + 1] += inside[..., : k + 1]
+        if not np.isfinite(every).all():
             return None
-        h = self.points.lengths
-        misses = np.concatenate(
-            [(states @ self.points.slopes - rates * h).ravel("F"), (states @ self.points.gaps).ravel("F")]
+        rows = every.reshape(-1, n, k + 1 + n)
+        seen = np.vstack([np.asarray(self.points.samples.T @ rows[:, row]) for row in self._rows])
+        follow = rows.reshape(-1, k + 1 + n)
+        return _Linear(follow[:, 0], follow[:, 1:], seen[:, 0], seen[:, 1:])
+
+    def _inside(self, placed: np.ndarray, theta: np.ndarray) -> np.ndarray | None:
+        """How the points of each interval follow 1, the parameters and its start, shape (N, d, 2 n, 1 + k + 2 n)."""
+        n, k, (_, slopes, _) = placed.shape[0], len(theta), legendre()
+        m, h, inverse = n // 2, self.points.lengths, np.linalg.inv(slopes[1:].T)
+        count = len(h)
+        values = self._rates(*placed[:, :, 1:].reshape(n, -1), *self._known, *theta)
+        if not (np.isfinite(placed).all() and np.isfinite(values).all()):
+            return None
+        # of each point: accelerations and what they follow, times the length of the interval
+        values = (values.reshape(-1, count, DEGREE) * h[:, None]).transpose(1, 2, 0)
+        rates, by_state, by_theta = np.split(values, [m, m + m * n], axis=-1)
+        by_state = by_state.reshape(count, DEGREE, n, m).swapaxes(2, 3)
+        by_theta = by_theta.reshape(count, DEGREE, k, m).swapaxes(2, 3) * self.model.size
+        by_place, by_speed = by_state[..., :m], by_state[..., m:]
+        # places follow from speeds, q = q(0) + h inverse u, so that a place that nothing feels is in no equation
+        drift = inverse @ (placed[:m] @ slopes - placed[m:, :, 1:] * h[:, None]).transpose(1, 2, 0)
+        misses = (placed[m:] @ slopes).transpose(1, 2, 0) - rates
+        constant = -misses[..., None] - by_place @ drift[..., None]
+        by_start = np.broadcast_to(-slopes[0][:, None, None] * np.eye(m), by_place.shape)
+        right = np.concatenate([constant, by_theta, by_place, by_start], axis=-1)
+        blocks = slopes[1:].T[:, None, :, None] * np.eye(m)[:, None, :] - np.einsum(
+            "Nkil,kj,N->Nkijl", by_place, inverse, h
         )
-        by_state = by_state.reshape(n, count, n).transpose(1, 0, 2) * h[:, None, None]
-        blocks = sp.bsr_matrix((by_state, np.arange(count), np.arange(count + 1)))
-        whole = sp.csc_matrix(sp.vstack([self._slopes - blocks @ self._inner, self._gaps]))
-        free = np.zeros((whole.shape[0], k + n))
-        by_theta = by_theta.reshape(n, count, k).transpose(1, 0, 2)
-        free[: count * n, :k] = (-by_theta * h[:, None, None] * self.model.size).reshape(-1, k)
-        free[:, k:] = whole[:, :n].toarray()
-        # the first state is free; all the others follow from it and from the parameters
-        solved = linear(whole[:, n:], np.column_stack([misses, free]))
-        if solved is None:
+        own = np.arange(DEGREE)
+        blocks[:, own, :, own] -= by_speed.swapaxes(0, 1)
+        flat = (count, DEGREE * m, -1)
+        try:
+            speeds = np.linalg.solve(blocks.reshape(flat), right.reshape(flat)).reshape(right.shape)
+        except np.linalg.LinAlgError:  # one state follows from no other
             return None
-        every = np.vstack([np.zeros((n, k + n + 1)), -solved])
-        every[:n, k + 1 :] = np.eye(n)
-        seen = np.vstack([np.asarray(self.points.samples.T @ every[row::n]) for row in self._rows])
-        return _Linear(every[:, 0], every[:, 1:], seen[:, 0], seen[:, 1:])
+        places = np.einsum("kj,N,Njic->Nkic", inverse, h, speeds)
+        places[..., 0] -= drift
+        places[..., k + 1 : k + 1 + m] += np.eye(m)
+        return np.concatenate([places, speeds], axis=2)
 
     def guess(self, angle: float) -> np.ndarray:
         """States at all points: measured speeds, others of a kind like the first, their way from a pose [rad]."""
@@ -202,6 +227,29 @@ class TraceTask:
         times = np.sort(np.append(points.nodes, points.edges[:-1]))
         assert len(times) == len(h) * (len(points.nodes) // len(h) + 1)
         return followed(self.model, self.trace, times, angle)
+
+
+def _chained(turns: np.ndarray, pushes: np.ndarray) -> np.ndarray:
+    """What starts of intervals are of 1, parameters and the first start, which goes on by x' = turn x + push.
+
+    turns: shape (N, n, n); pushes: shape (N, n, m). Returns starts: shape (N, n, m + n). Stretches of as many
+    intervals as there are stretches go side by side, so that numpy has few and large products to take.
+    """
+    (count, n, m), long = pushes.shape, math.isqrt(len(pushes) - 1) + 1
+    short = -(-count // long)
+    turns, pushes = (np.resize(v, (short * long, *v.shape[1:])).reshape(short, long, n, -1) for v in (turns, pushes))
+    within = np.zeros((short, long + 1, n, m + n))
+    within[:, 0, :, m:] = np.eye(n)
+    for i in range(long):
+        within[:, i + 1] = turns[:, i] @ within[:, i]
+        within[:, i + 1, :, :m] += pushes[:, i]
+    first = within[:, 0].copy()
+    for i in range(short - 1):
+        first[i + 1] = within[i, long, :, m:] @ first[i]
+        first[i + 1, :, :m] += within[i, long, :, :m]
+    starts = within[:, :long, :, m:] @ first[:, None]
+    starts[..., :m] += within[:, :long, :, :m]
+    return np.asarray(starts.reshape(-1, n, m + n)[:count])
 
 
 def followed(model: TracedMotion, trace: Trace, times: np.ndarray, angle: float) -> np.ndarray:
@@ -265,8 +313,8 @@ def unit_columns(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | None = None) -> ClosestMotion | None:
     """The motion that comes closest to the trace, from one nearby; None where there is no motion nearby.
 
-    states: coordinates and velocities [rad, rad/s], shape (2 n, points); theta: parameters, the one of number `held`
-    stays [SI], shape (k,).
+    states: coordinates and velocities [rad, rad/s], shape (2 n, points); theta: parameters [SI], shape (k,). What
+    has the number `held` among parameters and start stays.
     """
     here, damping = _motion(task, states, theta), _DAMPING
     if here is None:
@@ -275,8 +323,8 @@ def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | 
         # numbers of the values that may move: not the held one, none that its least value holds
         k = len(task.model.start)
         downhill = here.slopes.T @ here.rest.ravel()
-        stays = [i for i in range(k) if i == held or (here.theta[i] <= task.model.low[i] and downhill[i] <= 0)]
-        free = np.setdiff1d(np.arange(here.slopes.shape[1]), stays)
+        stays = [i for i in range(k) if here.theta[i] <= task.model.low[i] and downhill[i] <= 0]
+        free = np.setdiff1d(np.arange(here.slopes.shape[1]), stays if held is None else [*stays, held])
         columns, width = unit_columns(here.slopes[:, free])
         # what Gauss and Newton's step would take off the sum of squares, and that step
         left, singular, right = np.linalg.svd(columns, full_matrices=False)
@@ -298,6 +346,22 @@ def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | 
         else:
             damping *= 10
     return here._replace(status=f"no steady values after {_STEPS} steps")
+
+
+def pulled(task: TraceTask, here: ClosestMotion, number: int, move: float) -> ClosestMotion | None:
+    """The closest motion with a parameter or a start moved on, by its size [-] or by itself [SI]."""
+    model, k = task.model, len(here.theta)
+    others = np.delete(np.arange(here.slopes.shape[1]), number)
+    columns, width = unit_columns(here.slopes[:, others])
+    step = np.zeros(here.slopes.shape[1])
+    step[number] = move
+    target = here.rest.ravel() - here.slopes[:, number] * move
+    step[others] = np.linalg.lstsq(columns, target, rcond=1e-7)[0] / width
+    theta = np.maximum(here.theta + step[:k] * model.size, model.low)
+    step[:k] = (theta - here.theta) / model.size
+    states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
+    motion = closest(task, states, theta, number)
+    return motion if motion is not None and motion.status == "converged" else None
 
 
 def _step(task: TraceTask, here: ClosestMotion, free: np.ndarray, damping: float) -> ClosestMotion | None:
@@ -323,70 +387,3 @@ def _motion(task: TraceTask, states: np.ndarray, theta: np.ndarray) -> ClosestMo
             return ClosestMotion(states, theta, task.rest(states), here.slopes, here.follow)
         states = states + here.move.reshape(states.shape, order="F")
     return None
-
-
-_OFF = 6.0  # between energy and work, beyond which a unit is wrong; a parameter at the start is seldom so far off
-_CHANGED = 0.3  # of its largest kinetic energy that a machine gains or loses on a trace that tells of its forces
-_END = 0.05  # of the samples at each end that are averaged
-_SLIPS = {
-    57.29578: "deg/s under [rad/s]",
-    1 / 57.29578: "rad/s under [deg/s]",
-    9.549297: "rpm under [rad/s]",
-    1 / 9.549297: "rad/s under [rpm]",
-    1e-3: "ms under [s]",
-    1e3: "s under [ms]",
-}
-
-
-def require_plausible(model: TracedMotion, trace: Trace, angles: list[float], longest: Second) -> None:
-    """Refuse a trace that the machine cannot have made: too few samples for its motion, energy from nowhere.
-
-    angles: how far beyond its pose the machine may have started [rad]; longest: interval of the collocation. Raises
-    BadInput: with the slip of the unit that would explain it.
-    """
-    period = 4 * math.pi * longest
-    step = float(np.median(np.diff(trace.t)))
-    if step > period:
-        raise BadInput(
-            f"{trace.file}: a sample every {step:.3g} s, and by this model and these speeds it turns or swings once in "
-            f"{period:.3g} s: ms under [s], or a speed in another unit? sample faster where both are right"
-        )
-    if {model.turning[model.velocities.index(name)] for name in trace.speeds} != set(model.turning):
-        return  # what slides was not measured
-    if not np.isfinite(model.low).all():
-        return  # work whose sign is not known tells nothing
-    ratios = (_ratio(model, trace, angle) for angle in angles)
-    ratio = min(ratios, key=lambda r: (r < 0, abs(math.log(abs(r)))))
-    if ratio < 0:
-        raise BadInput(
-            f"{trace.file}: its kinetic energy grows where all known forces take work, or falls where they give it: a "
-            "speed or a torque with the other sign?"
-        )
-    if not 1 / _OFF <= ratio <= _OFF:
-        slip = min(_SLIPS, key=lambda s: abs(math.log(ratio / s)))
-        hint = f": {_SLIPS[slip]}?" if 0.5 < ratio / slip < 2 else ": another machine, or a wrong unit?"
-        raise BadInput(
-            f"{trace.file}: its kinetic energy changes by {ratio:.3g} times the work of all known forces{hint} Mend "
-            "the head of the column, or set values nearer to the machine with --set"
-        )
-
-
-def _ratio(model: TracedMotion, trace: Trace, angle: float) -> float:
-    """Change of kinetic energy by the work of what is known, both signs told; 1 where the trace does not tell it."""
-    states = followed(model, trace, trace.t, angle)
-    known = model.known(trace.t)
-    kinetic, power = (
-        np.asarray(v)[0] for v in model.energy(states, known, np.tile(model.start[:, None], trace.t.size))
-    )
-    if not (np.isfinite(kinetic).all() and np.isfinite(power).all()):
-        return 1.0
-    end = max(1, round(_END * trace.t.size))
-    gained = float(kinetic[-end:].mean() - kinetic[:end].mean())
-    work = float(np.sum(np.diff(trace.t) * (power[1:] + power[:-1]) / 2))
-    enough = _CHANGED * float(np.abs(kinetic).max())
-    if model.lossy:  # what is looked for takes as much of the work as it likes, and gives none
-        return gained / max(work, enough / 10) if gained > max(enough, _OFF * work) else 1.0
-    if max(abs(gained), abs(work)) < enough or not enough:
-        return 1.0
-    ratio = max(abs(gained), 1e-12 * enough) / max(abs(work), 1e-12 * enough)
-    return math.copysign(ratio, gained * work) if min(abs(gained), abs(work)) >= enough else ratio

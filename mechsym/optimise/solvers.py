@@ -1,12 +1,9 @@
-"""IPOPT and SuperLU, called in one place: how they end, and what their errors mean for the machine."""
+"""IPOPT, called in one place: how it ends, and what its errors mean for the machine."""
 
 from collections.abc import Mapping
 from typing import Any
 
 import casadi as ca
-import numpy as np
-from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 
 from mechsym import interrupts
 from mechsym.errors import BadInput
@@ -55,12 +52,3 @@ def ipopt(solver: ca.Function, given: Mapping[str, Any], nearly: bool = False) -
     reached = "optimal" if nearly and status == _NEARLY else _STATUS.get(status, "not converged")
     reason = status.replace("_", " ").lower() + means
     return Solved(values=values, status=reached, reason=reason, iterations=int(stats["iter_count"]))
-
-
-def linear(matrix: Any, right: np.ndarray) -> np.ndarray | None:
-    """Solution of sparse equations [their units]; None where they are singular, and one state follows from no other."""
-    try:
-        solution = np.asarray(splu(csc_matrix(matrix)).solve(right))
-    except RuntimeError:  # exactly singular
-        return None
-    return solution if np.isfinite(solution).all() else None

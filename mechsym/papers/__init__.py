@@ -9,7 +9,8 @@ A paper's folder:
 
 __init__.py  SOURCE: stem, name, title, tolerance of its record
 printed.toml its formulas and claims in the order of the text, for the auditor
-rows.py      rows(): published numbers beside the computed ones; what decides a claim (or in claims.py beside it)
+numbers.toml its published numbers: what they are, as printed, and a note
+rows.py      rows(): what is computed for them; what decides a claim (or in claims.py beside it)
 figures.py   figures(): its figures by name, drawn from the computation
 """
 

@@ -1,8 +1,10 @@
 """A row of a reproduction: what a source prints beside what the computation gives."""
 
+import functools
 import json
 import math
 import re
+import tomllib
 from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
@@ -91,6 +93,23 @@ def row(item: str, published: str | None, computed: float | None, verdict: str, 
 def claim(item: str, published: str, computed: float | None, holds: bool, note: str = "") -> Row:
     """A row of a sentence that holds or not; `computed` is what decides it [-]."""
     return row(item, published, computed, REPRODUCED if holds else NOT_REPRODUCED, note)
+
+
+@functools.cache
+def _texts(paper: str) -> dict[str, dict[str, str]]:
+    return tomllib.loads((resources.files(f"mechsym.papers.{paper}") / "numbers.toml").read_text(encoding="utf-8"))
+
+
+def listed(paper: str, name: str, computed: float | None, verdict: str | bool, /, **numbers: object) -> Row:
+    """A row of a paper's `numbers.toml`: what it is, as printed, and a note, with the numbers that they name.
+
+    computed: in the unit of the print [-]. verdict: one of `VERDICTS`; of a sentence, whether it holds.
+    """
+    item, published, note = (_texts(paper)[name].get(key) for key in ("item", "published", "note"))
+    item, note = ((text or "").format_map(numbers) for text in (item, note))
+    if isinstance(verdict, str):
+        return row(item, published, computed, verdict, note)
+    return claim(item, published or "", computed, verdict, note)
 
 
 def number(text: str | None) -> float | None:

@@ -76,11 +76,8 @@ def halved(
     function: angles of shape (n,) [rad] and the index of the function (n,) to values of shape (n,), or (parts, n);
     edges: see `first_edges`; tol: largest error of each function, as a share of its largest value.
 
-    Returns
-    -------
-    who, left, width, rows : ndarray
-        Function (n,), left edge (n,) [rad], width (n,) [rad], and coefficients (10, n, ..) over the share of the piece,
-        highest power first [unit of the values]; in no order
+    Returns who, left, width, rows: function (n,), left edge (n,) [rad], width (n,) [rad], and coefficients (10, n, ..)
+    over the share of the piece, highest power first [unit of the values]; in no order.
     """
     who, scale = np.repeat(np.arange(count), edges.size - 1), np.zeros(count)
     left, width = np.tile(edges[:-1], count), np.tile(np.diff(edges), count)

@@ -4,8 +4,7 @@ balls       midpoints with radii, and a tape over them
 rounding    what doubles can lose in a generated function: running error analysis on its tape
 sampled     what the compiled code returns, against 60 digits
 outputs     both side by side, output by output
-taylor      Taylor coefficients of a motion by recurrences from the tape
-enclosure   steps from a set of states to the next
+enclosure   Taylor coefficients of a motion from the tape, steps from a set of states to the next
 work        integrals of a law over the angle: the bound of a co-design in balls
 motion      a motion from its start to a time: equations, digits that it needs, what is kept on the way
 """

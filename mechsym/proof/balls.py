@@ -3,6 +3,7 @@
 import decimal as decimals
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from operator import add, methodcaller, mul, neg, sub, truediv
 from typing import Any
 
 from mechsym.errors import BadInput, MissingExtra
@@ -42,35 +43,48 @@ def outward(value: float, digits: int, up: bool = True) -> str:
     return f"{float(decimals.Context(prec=digits, rounding=rounding).create_decimal_from_float(value)):g}"
 
 
-_EITHER: dict[str, Callable[..., Ball]] = {
-    "add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b, "div": lambda a, b: a / b,
-    "neg": lambda a: -a, "inv": lambda a: 1 / a, "sq": lambda a: a * a, "twice": lambda a: a + a,
-    "sin": lambda a: a.sin(), "cos": lambda a: a.cos(), "tan": lambda a: a.tan(), "exp": lambda a: a.exp(),
-    "sinh": lambda a: a.sinh(), "cosh": lambda a: a.cosh(), "tanh": lambda a: a.tanh(), "atan": lambda a: a.atan(),
-    "asin": lambda a: a.asin(), "acos": lambda a: a.acos(),
+def _named(*names: str) -> dict[str, Callable[..., Any]]:
+    return {name: methodcaller(name) for name in names}
+
+
+Operators = dict[str, Callable[..., Any]]
+_EITHER: Operators = {
+    "add": add, "sub": sub, "mul": mul, "div": truediv, "neg": neg,
+    "inv": lambda a: 1 / a, "sq": lambda a: a * a, "twice": lambda a: a + a, **_named("sin", "cos", "tan", "exp"),
 }  # fmt: skip
-#: Operators of the tape by what they do to real balls, and to complex ones where the value is analytic
-REAL = _EITHER | {"sqrt": lambda a: a.sqrt(), "log": lambda a: a.log(), "pow": lambda a, b: a**b}
-COMPLEX = _EITHER | {
-    "sqrt": lambda a: a.sqrt(analytic=True),
-    "log": lambda a: a.log(analytic=True),
+#: Operators of the tape by what they do to Taylor series, to real balls, and to complex ones where they are analytic
+SERIES: Operators = {**_EITHER, **_named("sqrt", "log"), "pow": pow}
+REAL: Operators = {**SERIES, **_named("sinh", "cosh", "tanh", "atan", "asin", "acos")}
+COMPLEX: Operators = {
+    **_EITHER,
+    **_named("sinh", "cosh", "tanh"),
+    "sqrt": methodcaller("sqrt", analytic=True),
+    "log": methodcaller("log", analytic=True),
     "pow": lambda a, b: a.pow(b, analytic=True),
 }
-for _cut in ("atan", "asin", "acos"):  # their cuts are not looked at
-    del COMPLEX[_cut]
 
 
 def evaluate(tape: Tape, operators: Mapping[str, Callable[..., Ball]], inputs: Sequence[Ball]) -> list[Ball]:
     """The results of a program for balls; a place where it is not defined gives a ball that is not finite."""
     values: list[Ball] = []
+    rules: Operators = {**operators, "input": inputs.__getitem__, "constant": arb}
     for op, args in tape.nodes:
-        if op == "input":
-            values.append(inputs[args[0]])
-        elif op == "constant":
-            values.append(arb(args[0]))
-        else:
-            values.append(operators[op](*[values[a] for a in args]))
+        leaf = op in ("input", "constant")
+        values.append(rules[op](*(args if leaf else [values[a] for a in args])))
     return [values[r] for r in tape.results]
+
+
+def coefficients(
+    tape: Tape, operators: Mapping[str, Callable[..., Any]], inputs: Sequence[list[Ball] | Ball], order: int
+) -> list[list[Ball]]:
+    """The first coefficients of the results, for Taylor series of the inputs that have a list of coefficients."""
+    before, ctx.cap = ctx.cap, order
+    try:
+        values = evaluate(tape, operators, [arb_series(c[:order]) if isinstance(c, list) else c for c in inputs])
+    finally:
+        ctx.cap = before
+    series = (v if isinstance(v, arb_series) else [v, *[0] * order] for v in values)  # or a ball that stays
+    return [[arb(one[k]) for k in range(order)] for one in series]
 
 
 def refuse_unknown(tape: Tape, known: Mapping[str, object], what: str) -> None:

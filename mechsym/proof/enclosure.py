@@ -14,7 +14,8 @@ bound of A over all x within R of p, and a set of size s = |B c|, as long as the
 
 r the inclusion's left side: A changes by that share of L within r of p (Cauchy again). The next set has B' = W(h) B, as
 it is computed, and c grows by |B'^-1| times the last term: nothing wraps, what is lost is a condition number.
-Norms are the largest |x_i| / w_i. Bounds are sums of doubles of one sign, each product of them rounded up by `UP`.
+p comes by Newton's method: where it has k coefficients, the next k are those of e, e' = A e + f(p) - p'. Norms are the
+largest |x_i| / w_i. Bounds are sums of doubles of one sign, each product of them rounded up by `UP`.
 """
 
 import math
@@ -25,8 +26,9 @@ from typing import Any
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.proof.balls import COMPLEX, UP, Ball, acb, arb, arb_mat, ctx, evaluate, ratio, upper
-from mechsym.proof.taylor import TaylorMotion, coefficient
+from mechsym.native.tape import Tape
+from mechsym.proof import balls
+from mechsym.proof.balls import UP, Ball, acb, arb, arb_mat, ctx, ratio, upper
 from mechsym.quantities import record
 
 _REACH = 0.03  # R at most: how far in the norm around p the equations are bounded [-]
@@ -61,6 +63,11 @@ class Set:
         """Of each state [SI]."""
         return magnitudes(self.B) @ self.c * UP
 
+    @property
+    def balls(self) -> list[Ball]:
+        """The states."""
+        return [x + arb(0, width) for x, width in zip(self.x, self.half_widths.tolist(), strict=True)]
+
 
 @record
 class Step:
@@ -78,11 +85,54 @@ def magnitudes(matrix: Any) -> np.ndarray:
     return np.array([[upper(entry) for entry in row] for row in matrix.tolist()])
 
 
+def _identity(n: int) -> Any:
+    return arb_mat([[arb(i == j) for j in range(n)] for i in range(n)])
+
+
 def point(t: Fraction, x: Sequence[Ball]) -> Set:
     """A set from a state in balls, such as the decimals of a case."""
-    n = len(x)
-    identity = arb_mat([[arb(i == j) for j in range(n)] for i in range(n)])
-    return Set(t=t, x=tuple(b.mid() for b in x), B=identity, c=np.array([upper(b - b.mid()) for b in x]))
+    return Set(t=t, x=tuple(b.mid() for b in x), B=_identity(len(x)), c=np.array([upper(b - b.mid()) for b in x]))
+
+
+def grown(A: Sequence[Any], first: Any, rests: Sequence[Any], at: int) -> tuple[list[Any], list[Any]]:
+    """Coefficients of Y' = A Y + rest from that of order `at` on, exact matrices; A Y + rest in balls from there on."""
+    Y, slopes = [first], []
+    for k, slope in enumerate(rests, at + 1):
+        for a, y in zip(A, reversed(Y), strict=False):
+            slope = slope + a * y
+        slopes.append(slope)
+        Y.append((slope * (1 / arb(k))).mid())
+    return Y, slopes
+
+
+class TaylorMotion:
+    """The Taylor coefficients of x' = f(x) with A = df/dx along them; one tape gives f and then A by columns."""
+
+    def __init__(self, tape: Tape, states: int, held: Sequence[Ball]) -> None:
+        """states: number of x, the first inputs; held: balls of the inputs behind them."""
+        balls.refuse_unknown(tape, balls.SERIES, tape.name)
+        self.tape, self.states, self.held = tape, states, list(held)
+        self.x: list[list[Ball]] = []
+        self.f: list[Any] = []  # columns in balls, and matrices
+        self.A: list[Any] = []
+
+    def expand(self, start: Sequence[Ball], order: int, order_of_A: int) -> None:
+        """x from an exact start to an order, exact coefficients; f along it to one less, A to its own."""
+        self.x, sizes = [[value] for value in start], [order + 1]
+        while sizes[0] > 2:
+            sizes.insert(0, (sizes[0] + 1) // 2)
+        for size in sizes:
+            k = len(self.x[0])
+            self._along(size - 1, size - k)
+            columns, _ = grown(self.A, (self.f[k - 1] * (1 / arb(k))).mid(), self.f[k:], k)
+            for i, coefficients in enumerate(self.x):
+                coefficients += [column[i, 0] for column in columns]
+        self._along(order, order_of_A)
+
+    def _along(self, order: int, order_of_A: int) -> None:
+        series, n = balls.coefficients(self.tape, balls.SERIES, [*self.x, *self.held], order), self.states
+        self.f = [arb_mat([[v[k]] for v in series[:n]]) for k in range(order)]
+        self.A = [arb_mat([[v[k] for v in series[n + i :: n]] for i in range(n)]) for k in range(order_of_A)]
 
 
 class Enclosure:
@@ -141,18 +191,9 @@ class Enclosure:
     def _derivative(self) -> tuple[list[Any], list[float]]:
         """Coefficients of W, exact matrices, and the norms of those of A W - W' that balls leave below its order."""
         n, order = self.n, self.method.order_of_W
-        A = [arb_mat([[coefficient(self.motion.A[i + n * j], k) for j in range(n)] for i in range(n)])
-             for k in range(order)]  # fmt: skip
-        W = [arb_mat([[arb(i == j) for j in range(n)] for i in range(n)])]
-        left = []
-        for k in range(order):
-            slope = A[0] * W[k]
-            for j in range(1, k + 1):
-                slope += A[j] * W[k - j]
-            following = (slope * (1 / arb(k + 1))).mid()
-            left.append(self.matrix_norm(magnitudes(slope - following * arb(k + 1))))
-            W.append(following)
-        return W, left
+        W, slopes = grown(self.motion.A, _identity(n), [arb_mat(n, n)] * order, 0)
+        left = [slope - matrix * arb(k) for k, (slope, matrix) in enumerate(zip(slopes, W[1:], strict=True), 1)]
+        return W, [self.matrix_norm(magnitudes(matrix)) for matrix in left]
 
     def _bounded(self, real: float, imaginary: float) -> tuple[float, float]:
         """Norms of f and A within R of p: at times up to `real` alone, or on a disc of times where both are alike."""
@@ -163,7 +204,7 @@ class Enclosure:
                     sum(upper(c) * t**k for k, c in enumerate(p) if k) * UP + self.reach * w for t in (real, imaginary)
                 )
                 inputs.append(acb(arb(p[0], next(radii)), arb(0, next(radii))))
-            values = [upper(v) for v in evaluate(self.motion.tape, COMPLEX, [*inputs, *self.motion.held])]
+            values = [upper(v) for v in balls.evaluate(self.motion.tape, balls.COMPLEX, [*inputs, *self.motion.held])]
         A = np.array(values[self.n :]).reshape(self.n, self.n).T
         return self.norm(np.array(values[: self.n])), self.matrix_norm(A)
 
@@ -185,10 +226,9 @@ class Enclosure:
         (F, K, W_size, rho), h, order = bounds, float(length) * UP, self.method.order
         L = self._bounded(h, 0.0)[1]
         growth, ratio = math.exp(L * h) * UP, h / rho
-        x, f = self.motion.x, self.motion.f
         left = [
-            self.norm(np.array([upper(coefficient(f[i], k) - x[i][k + 1] * (k + 1)) for i in range(self.n)]))
-            for k in range(order)
+            self.norm(np.array([upper(f[i, 0] - p[k] * k) for i, p in enumerate(self.motion.x)]))
+            for k, f in enumerate(self.motion.f, 1)
         ]
         d = (_at(left, h) + F * ratio**order / (1 - ratio)) * UP
         D = (_at(A_W, h) + K * W_size * ratio**self.method.order_of_W / (1 - ratio)) * UP
@@ -244,8 +284,7 @@ def _at(magnitudes_: Sequence[float], h: float) -> float:
 def weights(motion: TaylorMotion, start: Set, coordinates: int) -> np.ndarray:
     """Sizes of the states in the norm [SI]: 1 for coordinates, for velocities the fastest rate of their equations."""
     motion.expand(start.x, 1, 1)
-    A = np.array([upper(coefficient(a, 0)) for a in motion.A]).reshape(motion.states, motion.states).T
-    rate = math.sqrt(max(1.0, float(A[coordinates : 2 * coordinates, :coordinates].max())))
+    rate = math.sqrt(max(1.0, float(magnitudes(motion.A[0])[coordinates : 2 * coordinates, :coordinates].max())))
     w = np.ones(motion.states)
     w[coordinates : 2 * coordinates] = rate
     return w

@@ -20,9 +20,8 @@ from mechsym.files import publish, write_text
 from mechsym.mechanisms.record import Mechanism, acceleration_function
 from mechsym.native.tape import read
 from mechsym.proof import enclosure
-from mechsym.proof.balls import Ball, arb, ctx, decimal
-from mechsym.proof.enclosure import Enclosure, EnclosureMethod, Set, kept, point, restored, weights
-from mechsym.proof.taylor import TaylorMotion
+from mechsym.proof.balls import ctx, decimal
+from mechsym.proof.enclosure import Enclosure, EnclosureMethod, Set, TaylorMotion, kept, point, restored, weights
 from mechsym.quantities import record
 from mechsym.quantities.units import Pure, Second
 from mechsym.simulate.equations import part_values, through_buffer
@@ -80,11 +79,10 @@ def task_of(problem: Problem, mechanism: Mechanism, letters: Mapping[str, float]
     """
     name = problem.mechanism.name
     others = [part.name for part in problem.parts if not isinstance(part.value, Steps | FormulaForce)]
-    if others or problem.curves or problem.inertia or problem.unilateral or mechanism.dependents:
-        what = others or (
-            ["a loop closed by constraints"] if mechanism.dependents else ["stops, curves or added inertia"]
-        )
-        raise BadInput(f"{name}: {', '.join(what)}: no smooth closed form that can be enclosed; leave it out")
+    others += ["a loop closed by constraints"] * bool(mechanism.dependents)
+    others += ["stops, curves or added inertia"] * bool(problem.curves or problem.inertia or problem.unilateral)
+    if others:
+        raise BadInput(f"{name}: {', '.join(others)}: no smooth closed form that can be enclosed; leave it out")
     n = len(mechanism.coordinates)
     steps = tuple(part.value for part in problem.parts if isinstance(part.value, Steps))
     t, x, w = ca.SX.sym("t"), ca.SX.sym("x", 2 * n), ca.SX.sym("w", len(steps))
@@ -109,7 +107,7 @@ def digits(task: ClosedForm, until: Second, width: Pure) -> float:
 
     width: wanted at the end, in the norm. Returns digits: given up where they are beyond what is tried [-].
     """
-    n = len(task.start)
+    n, c = len(task.start), task.coordinates
     y, w, p = ca.SX.sym("y", n + n * n), ca.SX.sym("w", len(task.steps)), ca.SX.sym("p", len(task.letters))
     f, A = task.function(y[:n], w, p)
     both = ca.vertcat(f, ca.vec(A @ ca.reshape(y[n:], n, n)))
@@ -120,24 +118,21 @@ def digits(task: ClosedForm, until: Second, width: Pure) -> float:
         y_now[:] = values
         return rates()
 
-    x, t, grown = np.array(task.start), task.t_start, 0.0
-    ahead, back, scale = np.eye(n), np.eye(n), None
-    while t < until and grown + math.log10(_PER_SECOND * until / width) < 2 * MOST:
+    x, t, needed = np.array(task.start), task.t_start, math.log10(_PER_SECOND * until / width)
+    ahead, back = np.eye(n), np.eye(n)
+    rate = max(1.0, np.abs(np.asarray(task.function(x, w_now, p_now)[1])[c:, :c]).max())
+    scale = np.repeat([1.0, math.sqrt(rate)], c)
+    first = needed
+    while t < until and needed < 2 * MOST:
         w_now[:] = task.held(_fraction(t))
         end = min([float(e) for e in task.phases(_fraction(until)) if e > t] + [math.floor(t + 1e-9) + 1.0, until])
         rough = {"method": "DOP853", "rtol": _ROUGH, "atol": _ROUGH}
         values = scipy.integrate.solve_ivp(slope, (t, end), np.concatenate([x, np.eye(n).ravel()]), **rough).y[:, -1]
         x, M, t = values[:n], values[n:].reshape(n, n, order="F"), end
-        if scale is None or t <= 2:
-            jacobian = np.asarray(task.function(x, w_now, p_now)[1])
-            c = task.coordinates
-            scale = np.concatenate([np.ones(c), np.full(n - c, math.sqrt(max(1.0, np.abs(jacobian[c:, :c]).max())))])
         ahead, back = M @ ahead, back @ np.linalg.inv(M)
         sizes = [float(np.abs(m * scale / scale[:, None]).sum(axis=1).max()) for m in (ahead, back)]
-        if max(sizes) > 1e100:
-            return 2 * MOST
-        grown = max(grown, math.log10(sizes[0] * sizes[1]))
-    return grown + math.log10(_PER_SECOND * until / width)
+        needed = max(needed, first + math.log10(min(sizes[0], 1e150) * min(sizes[1], 1e150)))
+    return needed
 
 
 def method_for(needed: float) -> EnclosureMethod:
@@ -206,13 +201,3 @@ def _kept_of(folder: Path | None, name: str) -> list[Passed]:
         return []
     rows = content["seconds"]
     return [Passed(at=restored(r), steps=r["steps"], low=tuple(r["low"]), high=tuple(r["high"])) for r in rows]
-
-
-def half_widths(at: Set) -> list[float]:
-    """Half-widths of the states at a time [SI]."""
-    return [float(v) for v in at.half_widths]
-
-
-def balls_of(at: Set) -> list[Ball]:
-    """The states at a time in balls."""
-    return [x + arb(0, width) for x, width in zip(at.x, half_widths(at), strict=True)]

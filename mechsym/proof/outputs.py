@@ -1,10 +1,11 @@
 """The outputs of generated functions, each with a proven bound of its rounding and the largest error that was seen."""
 
+import dataclasses
 import heapq
 import itertools
 import math
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias
 
 import casadi as ca
@@ -19,7 +20,7 @@ from mechsym.native.source import prepared
 from mechsym.native.tape import Tape
 from mechsym.proof.balls import Ball, arb, evaluate, outward
 from mechsym.proof.rounding import VALUES, Rounded, bounds
-from mechsym.proof.sampled import Exact, errors, exact_function, points_in
+from mechsym.proof.sampled import ALL, Exact, errors, exact_function, farthest, points_in
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
 
@@ -30,7 +31,7 @@ _SEED = 20260
 _NEAR = 9.5  # bound by the largest error seen, above which a box is halved
 _ENOUGH = 1000  # samples, from which the largest error seen is near the largest that there is
 _MOST = 256  # parts of a box that are tried for a nearer bound
-_PER_SAMPLE = 1e-4  # of each function [s]
+_PER_SAMPLE, _PER_FAR_SAMPLE = 1e-4, 2e-5  # of each function, in 60 digits and in extended precision [s]
 
 
 @record
@@ -44,6 +45,7 @@ class Subject:
     along: tuple[int, ...] = ()  #: Inputs along which a box is halved and which say where it is; none takes the widest
     places: tuple[str, ...] = ()  #: Of the boxes, where no input says it
     outputs: tuple[str, ...] = ()  #: Their names, where the function has others
+    units: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: Of outputs by name
 
 
 @result
@@ -90,17 +92,30 @@ def of_mechanism(name: str, ranges: Mapping[str, tuple[float, float]]) -> tuple[
         values = [ca.SX(v) for v in getattr(module, function)(*symbols)]
         options = {"allow_duplicate_io_names": True}
         built = ca.Function(f"{name}_{function}", symbols, values, list(letters), list(outputs), options)
-        turning = [i for i, letter in enumerate(letters) if letter in angles]
+        turning = tuple(i for i, letter in enumerate(letters) if letter in angles)
+        pieces = _PIECES[0] if len(turning) == 1 else _PIECES[1]
+        axes = [[ranges[letter]] for letter in letters]
+        for i in turning:
+            axes[i] = [*itertools.pairwise(np.linspace(*ranges[letters[i]], pieces + 1).tolist())]
         subjects.append(
             Subject(
-                name=function,
-                function=built,
-                exact=exact_function(module, function),
-                boxes=tuple(_pieces([ranges[letter] for letter in letters], turning)),
-                along=tuple(turning),
+                name=function, function=built, exact=exact_function(module, function), units=units_of(name),
+                boxes=tuple(itertools.product(*axes)), along=turning,
             )
-        )
+        )  # fmt: skip
     return tuple(subjects)
+
+
+def units_of(name: str) -> dict[str, str]:
+    """Units of the outputs of a mechanism's functions; of a constraint's none is told."""
+    known, along = listing(name), {"rad": "N*m", "m": "N"}
+    units = dict.fromkeys(("kinetic_energy", "potential_energy"), "J") | {"angular_momentum_rate": "N*m"}
+    units |= dict.fromkeys(("momentum_rate_x", "momentum_rate_y"), "N")
+    for a, unit in known["coordinates"].items():
+        units |= {f"bias_{a}": along[unit], f"force_{a}": along[unit]}
+        for b, other in known["coordinates"].items():
+            units[f"mass_{a}_{b}"] = ("kg", "kg*m", "kg*m^2")[(unit, other).count("rad")]
+    return units | known["outputs"]
 
 
 def of_guides(kernel: DesignKernel, share: float) -> tuple[Subject, ...]:
@@ -128,71 +143,48 @@ def widened(value: float, share: float) -> tuple[float, float]:
     return value - share * abs(value), value + share * abs(value)
 
 
-def units_of(name: str) -> dict[str, str]:
-    """Units of the outputs of a mechanism's functions; of a constraint's none is told."""
-    known, along = listing(name), {"rad": "N*m", "m": "N"}
-    units = {"kinetic_energy": "J", "potential_energy": "J", "angular_momentum_rate": "N*m", "momentum_rate_x": "N",
-             "momentum_rate_y": "N"}  # fmt: skip
-    for a, unit in known["coordinates"].items():
-        units |= {f"bias_{a}": along[unit], f"force_{a}": along[unit]}
-        for b, other in known["coordinates"].items():
-            units[f"mass_{a}_{b}"] = ("kg", "kg*m", "kg*m^2")[(unit, other).count("rad")]
-    return units | known["outputs"]
-
-
-def _pieces(box: Sequence[tuple[float, float]], turning: Sequence[int]) -> Iterator[Box]:
-    count = _PIECES[0] if len(turning) == 1 else _PIECES[1]
-    edges = [np.linspace(*box[i], count + 1).tolist() for i in turning]
-    for ends in itertools.product(*(itertools.pairwise(e) for e in edges)):
-        piece = list(box)
-        for i, end in zip(turning, ends, strict=True):
-            piece[i] = end
-        yield tuple(piece)
-
-
 def prove(
-    subject: Subject,
-    units: Mapping[str, str],
-    samples: int,
-    code: Callable[..., np.ndarray] | None = None,
+    subject: Subject, samples: int, code: Callable[..., np.ndarray] | None = None,
     progress: Callable[[int], object] = lambda _: None,
-) -> tuple[ProvenOutput, ...]:
+) -> tuple[ProvenOutput, ...]:  # fmt: skip
     """Bounds of all outputs of a function, beside the largest error of its machine code at random points.
 
-    units: of outputs by name; code: what is held against the bound, in place of the strict build of the function.
+    code: what is held against the bound, in place of the strict build of the function.
     """
     tape = prepared(subject.function, "strict")
     exact = subject.exact or (lambda *values: evaluate(tape, VALUES | _MORE, values))
-    points, which = points_in(subject.boxes, samples, _SEED)
-    off, sizes = errors(code or compiled(subject.function, "strict").batch, exact, points, progress)
-    finest = [_NEAR * row.max() if samples >= _ENOUGH else 0.0 for row in off]
-    goals = [min(goal, sys.float_info.max) or sys.float_info.max for goal in finest]
+    code = code or compiled(subject.function, "strict").batch
+    points = farthest(code, tape, points_in(subject.boxes, samples, _SEED))
+    progress(samples - points.shape[1])
+    off, sizes = errors(code, exact, points, progress)
+    most = sys.float_info.max
+    goals = [min(_NEAR * row.max(), most) or most if samples >= _ENOUGH else most for row in off]
     rows = [_bounded(tape, box, subject.along, goals) for box in subject.boxes]
 
-    def place(which: int, box: Box) -> str:
-        ends = (f"{tape.inputs[k]} = {box[k][0]:.4g}..{box[k][1]:.4g}" for k in subject.along)
-        return subject.places[which] if subject.places else ", ".join(ends)
+    def place(k: int, box: Box) -> str:
+        ends = (f"{tape.inputs[j]} = {box[j][0]:.4g}..{box[j][1]:.4g}" for j in subject.along)
+        return subject.places[k] if subject.places else ", ".join(ends)
 
     proven = []
     for i, name in enumerate(subject.outputs or tape.outputs):
-        pieces = [(place(k, box), box, value) for k, row in enumerate(rows) for box, value in row[i]]
-        finite = [(value.error, where) for where, _, value in pieces if math.isfinite(value.error)]
-        singular = {box: where for where, box, value in pieces if not math.isfinite(value.error)}
-        inside = np.array([not any(_within(point, box) for box in singular) for point in points.T])
-        seen = float(off[i][inside].max(initial=0.0))
+        parts = [(place(k, box), box, value) for k, row in enumerate(rows) for box, value in row[i]]
+        finite = [(value.error, where) for where, _, value in parts if math.isfinite(value.error)]
         absolute, where = max(finite, key=lambda row: row[0], default=(None, ""))
-        least = (float(value.ball.abs_lower()) for *_, value in pieces if value.ball.is_finite())
+        singular = [(where, box) for where, box, value in parts if not math.isfinite(value.error)]
+        inside = np.all([~_within(points, box) for _, box in singular] or [np.full(points.shape[1], True)], axis=0)
+        seen = float(off[i][inside].max(initial=0.0))
+        least = (float(value.ball.abs_lower()) for *_, value in parts if value.ball.is_finite())
         size = max((float(sizes[i][inside].max(initial=0.0)), *least))
         proven.append(
             ProvenOutput(
                 name=f"{subject.name}.{name}",
-                unit=units.get(name, ""),
+                unit=subject.units.get(name, ""),
                 absolute=absolute,
                 relative=None if absolute is None else absolute / size if size else 0.0,
                 where=where if absolute else "",
                 seen=seen,
                 factor=absolute / seen if absolute is not None and seen else None,
-                singular=tuple(dict.fromkeys(singular.values())),
+                singular=tuple(dict.fromkeys(where for where, _ in singular)),
             )
         )
     return tuple(proven)
@@ -228,39 +220,35 @@ def _bounded(tape: Tape, box: Box, along: Sequence[int], goals: Sequence[float])
             for i in above:
                 parts[i].append((part, values[i]))
             continue
-        middle = (part[k][0] + part[k][1]) / 2
-        for half in ((part[k][0], middle), (middle, part[k][1])):
+        low, high = part[k]
+        for half in itertools.pairwise((low, (low + high) / 2, high)):
             enter((*part[:k], half, *part[k + 1 :]), above, depth + 1)
     return parts
 
 
-def _within(point: np.ndarray, box: Box) -> bool:
-    return all(low <= v <= high for v, (low, high) in zip(point, box, strict=True))
+def _within(points: np.ndarray, box: Box) -> np.ndarray:
+    low, high = np.array(box).T[:, :, None]
+    return np.all((low <= points) & (points <= high), axis=0)
 
 
 def rounding(
-    name: str,
-    subjects: Sequence[Subject],
-    units: Mapping[str, str],
-    samples: int,
-    words: str,
+    name: str, subjects: Sequence[Subject], samples: int, words: str,
     progress: Callable[[int], object] = lambda _: None,
-) -> ProvenRounding:
+) -> ProvenRounding:  # fmt: skip
     """All outputs of some functions. words: over which ranges. Raises BadInput: no samples."""
     if samples < 1:
         raise BadInput(f"--samples {samples}: a bound is held against at least 1 point")
-    budget.require(f"{samples} samples", samples * len(subjects) * _PER_SAMPLE, 2e2 * samples, "give fewer --samples")
-    outputs = tuple(row for s in subjects for row in prove(s, units, samples, progress=progress))
+    seconds = len(subjects) * (min(samples, ALL) * _PER_SAMPLE + samples * _PER_FAR_SAMPLE)
+    budget.require(f"{samples} samples", seconds, 1e3 * samples, "give fewer --samples")
+    outputs = tuple(row for s in subjects for row in prove(s, samples, progress=progress))
     holds = all(row.absolute is None or row.seen <= row.absolute for row in outputs)
     largest = max((row.relative for row in outputs if row.relative is not None), default=0.0)
-    return ProvenRounding(
-        subject=name,
-        outputs=outputs,
-        samples=samples,
-        holds=holds,
-        statement=f"what the strict build of {name} returns in doubles is within its bound of the exact value, at most "
+    statement = (
+        f"what the strict build of {name} returns in doubles is within its bound of the exact value, at most "
         f"{outward(largest, 2)} of the largest value of an output, for {words}"
         if holds
-        else f"the code of {name} is not what was proven: a sample is beyond its bound",
-        trusted=TRUSTED,
+        else f"the code of {name} is not what was proven: a sample is beyond its bound"
+    )
+    return ProvenRounding(
+        subject=name, outputs=outputs, samples=samples, holds=holds, statement=statement, trusted=TRUSTED
     )

@@ -14,11 +14,12 @@ from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.native.tape import Tape
-from mechsym.proof.balls import Ball, arb, arb_series, ctx, evaluate
+from mechsym.proof.balls import SERIES, Ball, arb, arb_series, coefficients, ctx, evaluate
 from mechsym.proof.rounding import VALUES
 
 _ORDER, _BITS = 12, 80
 _FIRST, _GROWTH, _WIDEST = 1e-6, 1.5, 0.03  # stretches [rad]
+_BRANCHED = {"pow", "sqrt", "log", "fmax", "fmin"}
 Piece = tuple[float, float, Tape]  #: From and to an angle [rad], and the law there
 
 
@@ -32,10 +33,7 @@ def _larger(a: Any, b: Any) -> Any:
 
 
 _LIMITS: dict[str, Callable[..., Any]] = {"fmax": _larger, "fmin": lambda a, b: -_larger(-a, -b)}
-_SERIES: dict[str, Callable[..., Any]] = {
-    op: VALUES[op]
-    for op in ("add", "sub", "mul", "div", "neg", "inv", "sq", "twice", "sin", "cos", "tan", "exp", "log", "sqrt")
-} | _LIMITS | {"expm1": lambda a: a.exp() - 1, "pow": lambda a, b: (a.log() * b).exp()}  # fmt: skip
+_SERIES = SERIES | _LIMITS | {"expm1": lambda a: a.exp() - 1, "pow": lambda a, b: (a.log() * b).exp()}
 
 
 def _power_from_zero(a: Ball, b: Ball) -> Ball:
@@ -54,33 +52,25 @@ def integrals(pieces: Sequence[Piece], angles: Sequence[float]) -> list[Ball]:
     for _, _, tape in pieces:
         if others := sorted({op for op, _ in tape.nodes} - {*_SERIES, "input", "constant"}):
             raise BadInput(f"a law with {', '.join(others)} cannot be enclosed")
-    found, total, wanted = [], arb(0), list(angles)
-    cap = ctx.cap
-    try:
-        with ctx.workprec(_BITS):
-            for start, end, tape in pieces:
-                a, width = start, _WIDEST if _is_polynomial(tape) else _FIRST
-                while a < end:
-                    b = min(a + width, end, *(w for w in wanted if w > a))
-                    while wanted and wanted[0] <= a:
-                        found.append(total)
-                        wanted.pop(0)
-                    try:
-                        total += _over(tape, a, b, plain=width == _FIRST)
-                    except (ValueError, ZeroDivisionError) as error:  # of a series that has no inverse
-                        raise BadInput(f"a law cannot be enclosed at {a:.4g} rad ({error})") from error
-                    a, width = b, min(width * _GROWTH, _WIDEST)
-            found += [total] * len(wanted)
-    finally:
-        ctx.cap = cap
-    if not all(ball.is_finite() for ball in found):
+    sums, total, wanted = [], arb(0), list(angles)
+    with ctx.workprec(_BITS):
+        for start, end, tape in pieces:
+            has_branch = not _BRANCHED.isdisjoint(op for op, _ in tape.nodes)
+            a, width = start, _FIRST if has_branch else _WIDEST
+            while a < end:
+                b = min(a + width, end, *(w for w in wanted if w > a))
+                while wanted and wanted[0] <= a:
+                    sums.append(total)
+                    wanted.pop(0)
+                try:
+                    total += _over(tape, a, b, plain=width == _FIRST)
+                except (ValueError, ZeroDivisionError) as error:  # of a series that has no inverse
+                    raise BadInput(f"a law cannot be enclosed at {a:.4g} rad ({error})") from error
+                a, width = b, min(width * _GROWTH, _WIDEST)
+    sums += [total] * len(wanted)
+    if not all(ball.is_finite() for ball in sums):
         raise BadInput("a law that is not finite everywhere cannot be enclosed")
-    return found
-
-
-def _is_polynomial(tape: Tape) -> bool:
-    """Whether no power or root of a law has a branch."""
-    return not {"pow", "sqrt", "log", "fmax", "fmin"} & {op for op, _ in tape.nodes}
+    return sums
 
 
 def _over(tape: Tape, a: float, b: float, plain: bool) -> Ball:
@@ -89,11 +79,6 @@ def _over(tape: Tape, a: float, b: float, plain: bool) -> Ball:
     if plain:
         return evaluate(tape, _PLAIN, [whole])[0] * length
     h = length / 2
-    ctx.cap = _ORDER
-    near = evaluate(tape, _SERIES, [arb_series([(arb(a) + arb(b)) / 2, 1])])[0]
-    ctx.cap = _ORDER + 1
-    over = evaluate(tape, _SERIES, [arb_series([whole, 1])])[0]
-    if not isinstance(near, arb_series):  # a law that stays
-        return near * length
+    near, over = (coefficients(tape, _SERIES, [[at, arb(1)]], _ORDER + 1)[0] for at in ((arb(a) + arb(b)) / 2, whole))
     rest = arb(0, float((over[_ORDER] * h ** (_ORDER + 1)).abs_upper()) * 2.1 / (_ORDER + 1))
     return sum((2 * near[k] * h ** (k + 1) / (k + 1) for k in range(0, _ORDER, 2)), rest)

@@ -1,10 +1,12 @@
 """Records that declare unit and range at each field and check themselves."""
 
 import dataclasses
+import functools
 import inspect
 import math
+import operator
 from collections.abc import Mapping
-from typing import Any, ClassVar, NoReturn, Protocol, TypeVar, dataclass_transform
+from typing import Any, ClassVar, Literal, NoReturn, Protocol, TypeVar, dataclass_transform
 
 from mechsym.errors import BadInput, shown
 from mechsym.quantities.units import Scalar
@@ -62,6 +64,22 @@ def part(default: object = dataclasses.MISSING, inline: bool = False, optional: 
     optional: whether it is left out where it is empty.
     """
     return dataclasses.field(default=default, metadata={PART: "inline" if inline else "part", OPTIONAL: optional})
+
+
+class SeenElsewhere(functools.cached_property[object]):
+    """A property of a result that stands in another record, by its path from here; told like one that is computed."""
+
+    def __init__(self, path: str, unit: str | None, card: str) -> None:
+        super().__init__(operator.attrgetter(path))
+        self.unit, self.metadata = unit, {"unit": unit, "card": card, "digits": 4}
+
+
+def seen(path: str, unit: str | None = None, *, card: str = "", init: Literal[False] = False) -> Any:
+    """A number of a result, or with no unit a word or part, that stands in another record: `"guide.spring.H"`.
+
+    unit, card: as of `quantity`. init: False, for it is not given.
+    """
+    return SeenElsewhere(path, unit, card)
 
 
 def unread(record: "Record") -> dict[str, str]:
@@ -130,7 +148,7 @@ def record(cls: type[T]) -> type[T]:
 
 
 @dataclass_transform(
-    frozen_default=True, kw_only_default=True, field_specifiers=(quantity, choice, part, dataclasses.field)
+    frozen_default=True, kw_only_default=True, field_specifiers=(quantity, part, seen, dataclasses.field)
 )
 def result(cls: type[T]) -> type[T]:
     """A record of what was computed: its quantities have units, no range that they must keep, and are told."""
@@ -142,6 +160,8 @@ def _shaped(cls: type[T]) -> type[T]:
     for name, shared in _SHARED.items():
         if vars(cls).get(name) is None:
             setattr(cls, name, shared)
+    for name in (name for name, value in vars(cls).items() if isinstance(value, SeenElsewhere)):
+        cls.__annotations__[name] = ClassVar[cls.__annotations__[name]]
     return dataclasses.dataclass(init=False, repr=False, eq=False, match_args=False, kw_only=True)(cls)
 
 

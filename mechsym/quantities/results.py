@@ -4,6 +4,7 @@ result      a record whose values are not checked against a range, as those of a
 quantity    a field that is a number, or a list or mapping of numbers, in one unit (see `records`)
 part        a field that is a word, or another result, a list or a mapping of results
 computed    the same for a property, computed when it is first asked for
+seen        the same of what stands in another record of the result
 Columns     numbers or curves by name, each with a unit of its own
 
 Other fields stay behind the result and are not told. One teller serves all readers:
@@ -38,10 +39,11 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from mechsym.quantities.records import OPTIONAL, PART
+from mechsym.quantities.records import OPTIONAL, PART, SeenElsewhere
 from mechsym.quantities.records import part as part
 from mechsym.quantities.records import quantity as quantity
 from mechsym.quantities.records import result as result
+from mechsym.quantities.records import seen as seen
 
 _INLINE = "inline"  # in place of a unit: the names of the part stand among those of the whole
 _ELSEWHERE = "@"  # a unit that stands in another field
@@ -138,7 +140,9 @@ def _listed(kind: type) -> Mapping[str, str | None]:
         if every or "unit" in field.metadata or PART in field.metadata:
             names[field.name] = _INLINE if field.metadata.get(PART) == "inline" else field.metadata.get("unit")
     for parent in reversed(kind.__mro__):
-        names |= {name: value.unit for name, value in vars(parent).items() if isinstance(value, _Computed)}
+        names |= {
+            name: value.unit for name, value in vars(parent).items() if isinstance(value, (_Computed, SeenElsewhere))
+        }
     return names
 
 
@@ -284,10 +288,11 @@ def entries_of(kind: type) -> Iterator[Entry]:
     hints = typing.get_type_hints(kind)
     fields = {f.name: f for f in dataclasses.fields(kind)} if dataclasses.is_dataclass(kind) else {}
     for name, unit in _units(kind).items():
-        if name in fields:
+        if name in hints:
             # the comment beside a field, in the class that declares it
             said = next((told[name] for parent in kind.__mro__ if name in (told := comments(parent))), "")
-            hint, about = hints[name], fields[name].metadata.get("about") or said
+            about = (fields[name].metadata.get("about") if name in fields else "") or said
+            hint = hints[name] if name in fields else typing.get_args(hints[name])[0]
         else:
             function = inspect.getattr_static(kind, name).func
             hint = typing.get_type_hints(function).get("return")

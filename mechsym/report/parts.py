@@ -38,8 +38,7 @@ from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
 from mechsym.quantities.display import figure, key_words, quantity_text, shown_in
 from mechsym.quantities.results import tell, units_of
-from mechsym.report.motion import over_time
-from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart
+from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart, over_time
 from mechsym.sizing.rows import tightest
 from mechsym.torsion import twist
 from mechsym.torsion.shown import criticals, span

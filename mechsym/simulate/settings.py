@@ -18,14 +18,14 @@ DEFAULT, FALLBACK = "auto", "scipy-dop853"
 NATIVE = ("auto", "native")
 # name: ("module:function", arguments after the phase); imported on first use
 _PHASES: dict[str, tuple[str, tuple[str, ...]]] = {
-    "scipy-dop853": ("mechsym.simulate.scipy_backend:advance", ("DOP853",)),
-    "scipy-rk45": ("mechsym.simulate.scipy_backend:advance", ("RK45",)),
-    "scipy-rk23": ("mechsym.simulate.scipy_backend:advance", ("RK23",)),
-    "scipy-lsoda": ("mechsym.simulate.scipy_backend:advance", ("LSODA",)),
-    "scipy-radau": ("mechsym.simulate.scipy_backend:advance", ("Radau",)),
-    "scipy-bdf": ("mechsym.simulate.scipy_backend:advance", ("BDF",)),
-    "sundials": ("mechsym.simulate.symbolic_backends:advance_sundials", ()),
-    "heyoka": ("mechsym.simulate.symbolic_backends:advance_heyoka", ()),
+    "scipy-dop853": ("mechsym.simulate.backends:advance", ("DOP853",)),
+    "scipy-rk45": ("mechsym.simulate.backends:advance", ("RK45",)),
+    "scipy-rk23": ("mechsym.simulate.backends:advance", ("RK23",)),
+    "scipy-lsoda": ("mechsym.simulate.backends:advance", ("LSODA",)),
+    "scipy-radau": ("mechsym.simulate.backends:advance", ("Radau",)),
+    "scipy-bdf": ("mechsym.simulate.backends:advance", ("BDF",)),
+    "sundials": ("mechsym.simulate.backends:advance_sundials", ()),
+    "heyoka": ("mechsym.simulate.backends:advance_heyoka", ()),
 }
 
 BACKENDS = (*NATIVE, *_PHASES)

@@ -108,10 +108,7 @@ def candidates(d: Metre, pressure_angle: Radian, base: GearPart) -> Iterator[Gea
 
     d: pitch diameter of the planet.
 
-    Yields
-    ------
-    part : GearPart
-        With whole teeth, no undercut, no pointed tip, no interference, contact ratio of at least 1.2
+    Yields part: with whole teeth, no undercut, no pointed tip, no interference, contact ratio of at least 1.2.
     """
     for module in MODULES:
         teeth = round(d / module)

@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from mechsym.app.door import Door
+from mechsym.app.server import Door
 
 HOSTS = ("127.0.0.1:8080", "localhost:8080")
 HERE = {"host": HOSTS[0]}

@@ -110,6 +110,14 @@ def test_bad_declarations_name_the_place(text, reason):
         theory_of(text, "mine", "mine.toml")
 
 
+@pytest.mark.parametrize(("typed", "unit"), [
+    ("0.1 MPa", "Pa"), ("2 kN", "N"), ("3 kN*m", "N*m"), ("2 N/mm", "N/m"), ("1 g/cm^3", "kg/m^3"), ("5 L/s", "m^3/s"),
+])  # fmt: skip
+def test_a_letter_has_the_si_unit_that_one_would_write(typed, unit):
+    declared = theory_of(f'[letters]\na = "{typed}"\n[define]\ny = "2*a"', "mine", "mine.toml")
+    assert declared.letters["a"].unit == unit
+
+
 def test_a_name_that_is_called_like_a_derivative_is_none():
     # the displacement V_d of a cylinder is no rate of its volume V
     rate = check_formula("A_piston*r*w*sin(phi + b)/cos(b)", "cylinder_volume.V_rate", "w=phid, b=asin(r*sin(phi)/l)")

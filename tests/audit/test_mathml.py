@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from mechsym.audit.read.mathml import corrected, formula
+from mechsym.audit.read.mathml import corrected, formula, letter
 
 ERRATA = (Path(__file__).parents[2] / "docs" / "errata.md").read_text(encoding="utf-8")
 PRINTED = sorted(set(re.findall(r"^    (\S.*)$", ERRATA, re.M)))
@@ -105,6 +105,14 @@ def marked(printed, correction):
 )
 def test_the_smallest_part_that_differs_is_marked(printed, correction, slip):
     assert marked(printed, correction) == slip
+
+
+@pytest.mark.parametrize(("name", "index", "dotted"), [
+    ("eta_mixed", "<mi>mixed</mi>", False), ("m_rod", "<mi>rod</mi>", False), ("x_Bd", "<mi>B</mi>", True),
+    ("phi_fdd", "<mi>f</mi>", True), ("psi2d", "<mn>2</mn>", True),
+])  # fmt: skip
+def test_an_index_that_ends_in_d_is_no_rate(name, index, dotted):
+    assert index in letter(name) and ("<mover>" in letter(name)) is dotted
 
 
 def test_what_cannot_be_read_stands_as_text_and_nothing_of_it_acts():

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mechsym import cases
-from mechsym.cases.laws import by_links
+from mechsym.cases.laws import by_links, by_sign
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 #: case, letter, value: code of the doubt
@@ -120,6 +120,29 @@ def test_a_force_that_no_bar_of_the_links_mass_holds_is_told(tmp_path, force, to
 @pytest.mark.parametrize(("mass", "told"), [(0.12, False), (80.0, True)])
 def test_pistons_without_links_are_held_against_the_letters_of_their_mechanism(mass, told):
     assert ("link_density" in doubts("swash-plate", {"parameters.m_p": mass})) == told
+
+
+# 4 kg on 100 N/m: 0.39 m of rest, critical at 40 N*s/m
+@pytest.mark.parametrize(
+    ("values", "changes", "codes"),
+    [
+        ({}, {}, []),
+        ({"k": 0.99 * 4 * 9.81 / 2}, {}, ["spring_rest"]),
+        ({"k": 1.01 * 4 * 9.81 / 2}, {}, []),
+        ({"k": 0.99 * 4 * 9.81 / 2}, {"links": [{}]}, []),
+        ({"c": 99 * 40.0}, {}, []),
+        ({"c": 101 * 40.0}, {}, ["damping_share"]),
+        ({"c": 101 * 40.0}, {"springs": []}, []),
+        ({"A": 2.0, "C": 3.999}, {}, []),  # a flat disc has C = 2 A
+        ({"A": 2.0, "C": 4.01}, {}, ["principal_moments"]),
+        ({"A": 2.0, "C": 0.0}, {}, []),  # a model of a body that never turns about its axis
+    ],
+)
+def test_a_mass_on_a_spring_and_a_tensor_are_held_against_each_other(values, changes, codes):
+    units = {"m": "kg", "k": "N/m", "c": "N*s/m", "A": "kg*m^2", "C": "kg*m^2"}
+    listing = {"parameters": units, "springs": ["k"], "dampers": ["c"], "tensors": {"disc": ["A", "A", "C", *"000"]}}
+    letters = {"m": 4.0, "k": 100.0, "c": 8.0, "A": 2.0, "C": 3.0} | values
+    assert [d.code for d in by_sign(listing | changes, letters)] == codes
 
 
 ARM = {"name": "arm", "mass": "m", "inertia": "I", "centre": ["l/2", "0"], "points": [["0", "0"], ["l", "0"]],

@@ -15,7 +15,7 @@ from scipy.stats import t as student
 
 from mechsym import budget
 from mechsym.errors import BadInput
-from mechsym.optimise.fit import TracedMotion, grid
+from mechsym.optimise.fit import TracedMotion, grid, legendre
 from mechsym.optimise.identify import Estimate, _alike, doubts, durbin_watson, identify, white_noise
 from mechsym.optimise.trace import Trace
 
@@ -194,9 +194,10 @@ def test_a_grid_is_exact_for_the_polynomials_of_its_degree():
     at = np.column_stack([starts, points.nodes.reshape(6, 5)]).ravel()  # a start and five nodes an interval
     value, slope = at**5 - 3 * at**2, 5 * points.nodes**4 - 6 * points.nodes
     assert value @ points.samples == pytest.approx(t**5 - 3 * t**2, rel=1e-10)
-    assert value @ points.slopes == pytest.approx(slope * points.lengths, rel=1e-9, abs=1e-9)
-    assert value @ points.inner == pytest.approx(points.nodes**5 - 3 * points.nodes**2, rel=1e-12)
-    assert value @ points.gaps == pytest.approx(np.zeros(5), abs=1e-9)
+    _, slopes, end = legendre()
+    value, slope = value.reshape(6, 6), slope.reshape(6, 5)
+    assert value @ slopes == pytest.approx(slope * points.lengths[:, None], rel=1e-9, abs=1e-9)
+    assert value[:-1] @ end == pytest.approx(value[1:, 0], abs=1e-9)
 
 
 def test_a_motion_half_a_turn_on_explains_as_much_with_the_other_sign():

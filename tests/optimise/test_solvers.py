@@ -1,12 +1,10 @@
-"""How IPOPT and SuperLU end, and what is said of it: problems of one or two unknowns, solved by hand."""
+"""How IPOPT ends, and what is said of it: problems of one or two unknowns, solved by hand."""
 
 import casadi as ca
-import numpy as np
 import pytest
-import scipy.sparse as sp
 
 from mechsym.errors import BadInput
-from mechsym.optimise.solvers import ipopt, linear
+from mechsym.optimise.solvers import ipopt
 
 QUIET = {"ipopt": {"print_level": 0, "sb": "yes"}, "print_time": False}
 
@@ -40,9 +38,3 @@ def test_what_casadi_throws_is_one_line_for_people():
     with pytest.raises(BadInput, match="the design problem cannot be solved") as told:
         ipopt(solver(x, x, x), {"x0": [1.0, 2.0, 3.0]})
     assert "\n" not in str(told.value)
-
-
-def test_equations_and_singular_ones():
-    matrix = sp.csc_matrix([[2.0, 1.0], [1.0, 3.0]])
-    assert linear(matrix, np.array([4.0, 7.0])) == pytest.approx([1.0, 2.0])
-    assert linear(sp.csc_matrix([[1.0, 2.0], [2.0, 4.0]]), np.array([1.0, 1.0])) is None

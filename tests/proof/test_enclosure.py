@@ -4,9 +4,9 @@ import dataclasses
 import itertools
 import json
 import math
+import re
 import sys
 from fractions import Fraction
-from operator import mul
 from pathlib import Path
 
 import numpy as np
@@ -25,11 +25,10 @@ from mechsym.jobs.problem import problem_of  # noqa: E402
 from mechsym.jobs.prove import motion_of  # noqa: E402
 from mechsym.mechanisms.record import bind  # noqa: E402
 from mechsym.native.tape import read  # noqa: E402
-from mechsym.proof import taylor  # noqa: E402
+from mechsym.proof import balls  # noqa: E402
 from mechsym.proof.balls import arb, ctx, decimal, ratio, upper  # noqa: E402
-from mechsym.proof.enclosure import Enclosure, EnclosureMethod, point, restored, weights  # noqa: E402
+from mechsym.proof.enclosure import Enclosure, EnclosureMethod, TaylorMotion, point, restored, weights  # noqa: E402
 from mechsym.proof.motion import MOST, digits, enclose, method_for, task_of  # noqa: E402
-from mechsym.proof.taylor import TaylorMotion  # noqa: E402
 from mechsym.simulate import Settings, simulate  # noqa: E402
 from mechsym.simulate.problem import FormulaForce, Part, Problem  # noqa: E402
 
@@ -98,11 +97,8 @@ def test_a_wide_set_is_refused_or_holds(task, state):
             assert "give more digits" in str(error)
 
 
-def test_a_recurrence_that_is_1e9_off_is_found(task, monkeypatch):
-    def off(out, a, b):
-        return lambda k: out.append(sum(map(mul, a, reversed(b)), arb(0)) * (1 + arb(1e-9)))
-
-    monkeypatch.setitem(taylor._RULES, "mul", off)
+def test_a_product_of_series_that_is_1e9_off_is_found(task, monkeypatch):
+    monkeypatch.setitem(balls.SERIES, "mul", lambda a, b: a * b * (1 + arb(1e-9)))
     assert not holds(stepped(task, wide(STATES[0], 1e-20)))
 
 
@@ -218,6 +214,19 @@ def test_the_statement_is_about_the_window():
     assert "from 1 to 2 s" in found.statement and "never in steady" not in found.statement  # the claim is of 90 s
     assert found.mean_least["phi0d"][1] <= 0.8921567534505 <= found.mean_largest["phi0d"][1]
     assert json.dumps(found.lower["phi0"]) and math.isfinite(found.digits)
+
+
+@pytest.mark.slow
+@pytest.mark.heavy
+def test_the_page_says_what_the_whole_proof_says():
+    root = Path(__file__).parents[2]
+    if not (root / "build/proof/proof.json").is_file():
+        pytest.skip("make proof writes build/proof/proof.json")
+    page, case = (root / "docs/proof.md").read_text(encoding="utf-8"), cases.load("chmielewski")
+    proven = motion_of(case, out=root / "build/proof", window=(55.0, 93.0))
+    bounds = [n for interval in re.findall(r"\[(.*?)\]", proven.statement) for n in interval.split(", ")]
+    assert len(bounds) == 4 and [n for n in bounds if n not in page] == []
+    assert f"{proven.steps:,} steps" in page and f"near {proven.upper['phi0'][-1]:.0f} rad" in page
 
 
 @pytest.mark.slow

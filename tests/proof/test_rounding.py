@@ -18,12 +18,14 @@ from mechsym.native import source
 
 pytest.importorskip("flint")
 
-from mechsym.jobs.prove import GUIDES, of_guides_at, of_mechanism_at, ranges_of, usual_case  # noqa: E402
+from mechsym.jobs.prove import GUIDES, ranges_of, subjects_of, usual_case  # noqa: E402
 from mechsym.native.evaluate import compiled  # noqa: E402
 from mechsym.native.source import prepared  # noqa: E402
+from mechsym.proof import sampled  # noqa: E402
 from mechsym.proof.balls import arb, outward  # noqa: E402
-from mechsym.proof.outputs import Subject, of_mechanism, prove  # noqa: E402
+from mechsym.proof.outputs import Subject, of_mechanism, prove, rounding  # noqa: E402
 from mechsym.proof.rounding import bounds  # noqa: E402
+from mechsym.proof.sampled import errors, farthest, points_in  # noqa: E402
 
 MECHANISMS = ("crank_throw", "crankshaft_flywheel", "crankshaft_flywheel_printed", "crosshead", "hypocycloid")
 LINKS = ("rodless", "rodless_constraints")
@@ -67,7 +69,7 @@ def subject(value, pieces=8):
 
 
 def test_singular_places_are_told_and_not_hidden():
-    (row,) = prove(subject(1 / ca.sin(x)), {}, 200)
+    (row,) = prove(subject(1 / ca.sin(x)), 200)
     assert row.absolute > 0 and len(row.singular) > 0
     for place in row.singular:
         low, high = map(float, place.partition(" = ")[2].split(".."))
@@ -79,7 +81,7 @@ def test_singular_places_are_told_and_not_hidden():
     "value", [ca.sin(x), ca.cos(x), ca.tan(x / 3), ca.exp(x), ca.log(x + 4), ca.asin(x / 4), (x + 4) ** 1.3]
 )
 def test_elementary_functions_keep_their_stated_bounds(value):
-    (row,) = prove(subject(value), {}, 500)
+    (row,) = prove(subject(value), 500)
     assert 0 < row.seen <= row.absolute and not row.singular
 
 
@@ -91,12 +93,24 @@ def small():
 
 
 def test_no_sample_is_beyond_its_bound(small):
-    rows = prove(small, {}, 300)
+    rows = prove(small, 300)
     assert all(0 < row.seen <= row.absolute and row.factor < 30 for row in rows)
 
 
+def test_of_many_points_those_that_are_farthest_off_are_held_against_60_digits(small, monkeypatch):
+    code, tape = compiled(small.function, "strict").batch, prepared(small.function, "strict")
+    points = points_in(small.boxes, 4_000, 1)
+    assert farthest(code, tape, points) is points  # few are held all
+    monkeypatch.setattr(sampled, "ALL", 100)
+    monkeypatch.setattr(sampled, "_CHUNK", 500)
+    far = farthest(code, tape, points)
+    assert far.shape[1] < 0.4 * 4_000
+    every, some = (errors(code, small.exact, these)[0].max(axis=1) for these in (points, far))
+    assert every.tolist() == some.tolist() and every.max() > 0
+
+
 def beyond(subject, code):
-    return any(row.seen > row.absolute for row in prove(subject, {}, 100, code=code))
+    return any(row.seen > row.absolute for row in prove(subject, 100, code=code))
 
 
 def test_a_changed_sign_is_found(small):
@@ -124,7 +138,8 @@ def test_broken_machine_code_is_found(small, right, wrong, monkeypatch):
 @pytest.mark.parametrize("name", (*MECHANISMS, *LINKS, GUIDES))
 def test_bounds_are_near_what_is_seen(name):
     case = cases.load(usual_case(name))
-    found = of_guides_at(case, 10_000) if name == GUIDES else of_mechanism_at(name, case, {}, 10_000)
+    subjects, words = subjects_of(name, case, {})
+    found = rounding(name, subjects, 10_000, words)
     assert found.holds
     for row in found.outputs:
         assert not row.singular and row.seen <= row.absolute

@@ -11,12 +11,12 @@ from simulated import double_pendulum, oscillator, shaft
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.native.integrate import Level
 from mechsym.simulate import Part, Problem, Settings, Steps, simulate, write_netcdf
+from mechsym.simulate.backends import advance
 from mechsym.simulate.equations import held, system
 from mechsym.simulate.fixed_step import fixed_step
 from mechsym.simulate.phase import Phase
 from mechsym.simulate.problem import FormulaForce, Kinks, Stop
 from mechsym.simulate.result import dataset, last_period, speed_ripple, speeds_over, summary, write_series
-from mechsym.simulate.scipy_backend import advance
 from mechsym.simulate.settings import BACKENDS
 
 JUMP = 0.731  # no multiple of any output step

@@ -10,7 +10,7 @@ import pytest
 
 from mechsym.page import page
 from mechsym.style import events, legend, panels, svg
-from mechsym.style.live import live_panels
+from mechsym.style.picture import live_panels
 
 X = np.linspace(0.0, 360.0, 73)
 CURVES = {"one": 3.0 * np.sin(np.radians(X)), "two": 0.02 * X}

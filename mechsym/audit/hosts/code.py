@@ -57,7 +57,7 @@ def _assigned(claim: Claim, later: list[Claim], own: Collection[str]) -> Assigne
     return Assigned(
         name=claim.name.replace(OF, "_"),
         text=to_python(_plain(tree)),
-        about=claim.about,
+        about=claim.about or (claim.scope if claim.name == "return" else ""),
         inner=inner,
         unfollowed=tuple(dict.fromkeys(base(k) for k in letters(tree) if is_changed(k))),
     )

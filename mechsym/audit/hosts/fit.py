@@ -19,17 +19,19 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 # what the angle that turns, and its rates, are called in programs
-_ANGLE = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "crankangle", "angle", "varphi")
+ANGLES = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "crankangle", "angle", "varphi")
 _RATES = {"d": ("omega", "w", "angular velocity", "angular speed"), "dd": ("alpha", "angular acceleration")}
 _LEAST_LETTERS = 3  # of a formula that is told by its numbers and not by its name
 _POINTS, _TURNS, _STEPS = 24, 4, 7  # states at which numbers are compared, and of turns
 _SAME = 1e-9
-# factors by which units differ: degrees, thousands, minutes
+# factors by which units differ: degrees, minutes, inches and feet, thousands
+_SCALES = (1.0, np.pi / 180, 60.0, 2 * np.pi, np.pi / 30, 12.0, 25.4, 0.3048, 25.4**2, 25.4**3)
 _UNITS = tuple(
-    a * 10.0**n * b
+    sign * 10.0**n * scale**power
     for n in (-9, -6, -3, -2, -1, 0, 1, 2, 3, 5, 6, 9)
-    for a in (1.0, np.pi / 180, 180 / np.pi, 60.0, 1 / 60, 2 * np.pi, 1 / (2 * np.pi), np.pi / 30, 30 / np.pi)
-    for b in (1.0, -1.0)
+    for scale in _SCALES
+    for power in (1, -1)
+    for sign in (1.0, -1.0)
 )
 
 
@@ -56,6 +58,12 @@ def _word_list(text: str) -> tuple[str, ...]:
     return words(text)
 
 
+def _joined(said: Sequence[str]) -> str:
+    # V_d and Vd alike, and a single letter as it is
+    whole = "".join(said)
+    return whole.lower() if len(whole) > 1 else whole
+
+
 class Lexicon:
     """What the letters and quantities of a theory are called."""
 
@@ -67,12 +75,12 @@ class Lexicon:
         for meaning, said in theory.words.items():
             self.phrases += [(words(one), meaning) for one in said]
         if theory.angle:
-            self.phrases += [(words(one), theory.angle) for one in _ANGLE]
+            self.phrases += [(words(one), theory.angle) for one in ANGLES]
             for dots, said in _RATES.items():
                 self.phrases += [(words(one), theory.angle + dots) for one in said]
-        self.heads = {"".join(phrase) for phrase, _ in self.phrases}
+        self.heads = {_joined(phrase) for phrase, _ in self.phrases}
         self.parts = {word for phrase, _ in self.phrases for word in phrase if len(word) > 2}
-        self.known: dict[tuple[str, str], tuple[int, str]] = {}
+        self.known: dict[tuple[str, str], list[tuple[int, str]]] = {}
         self._states: States | None = None
 
     @property
@@ -86,22 +94,27 @@ class Lexicon:
         alike = 0
         for name in names:
             own = _word_list(name)
-            tail = "".join(_word_list(name.rpartition(OF)[2]))
-            alike += tail in self.heads or "".join(own) in self.heads or not self.parts.isdisjoint(own)
+            tail = _joined(_word_list(name.rpartition(OF)[2]))
+            alike += tail in self.heads or _joined(own) in self.heads or not self.parts.isdisjoint(own)
         return alike > 1
 
     def meanings(self, name: str, about: str) -> list[tuple[int, str]]:
-        """What a name may mean, with how well it is told: 3 by words, 2 by a part of them, 1 by a single sign."""
+        """What a name may mean, with how well it is told: 4 by a comment, 3 by words, 2 by a part, 1 by one sign."""
+        if (name, about) not in self.known:
+            self.known[name, about] = self._meanings(name, about)
+        return self.known[name, about]
+
+    def _meanings(self, name: str, about: str) -> list[tuple[int, str]]:
         own, said = _word_list(name), _word_list(about)
         tail = _word_list(name.rpartition(OF)[2])
         found: dict[str, int] = {}
         for phrase, meaning in self.phrases:
-            rank, whole = 0, "".join(phrase)
-            if whole in ("".join(own), "".join(tail)):
-                rank = 3 if len(whole) > 2 else 1
+            rank, whole = 0, _joined(phrase)
+            if whole in (_joined(own), _joined(tail)):
+                rank = min(len(whole), 3)
             elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):
                 rest = own[: -len(phrase)] if own[-len(phrase) :] == phrase else own[len(phrase) :]
-                rank = 2 if all(len(w) == 1 or w in _QUALIFIERS for w in rest) else 0
+                rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
             if len(phrase) > 1 and len(whole) > 4 and _stands_in(phrase, said):
                 rank = max(rank, 4)
             if rank > found.get(meaning, 0):
@@ -110,14 +123,15 @@ class Lexicon:
 
     def meaning(self, name: str, about: str) -> tuple[int, str]:
         """The one thing that a name means; empty where it means none or several alike."""
-        if (name, about) not in self.known:
-            ranked = self.meanings(name, about)
-            several = len(ranked) > 1 and ranked[0][0] == ranked[1][0]
-            self.known[name, about] = ranked[0] if ranked and not several else (0, "")
-        return self.known[name, about]
+        ranked = self.meanings(name, about)
+        several = len(ranked) > 1 and ranked[0][0] == ranked[1][0]
+        return ranked[0] if ranked and not several else (0, "")
 
 
-_QUALIFIERS = {"m", "c", "0", "1", "2", "rad", "deg", "cyl", "engine", "geom", "mm", "cm", "inst", "piston", "i"}
+# what stands beside a name without changing what it is
+_QUALIFIERS = set(
+    "m c i M C 0 1 2 rad deg cyl engine geom mm cm in inst piston get calc compute calculate formula".split()
+)
 
 
 def _stands_in(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
@@ -161,7 +175,7 @@ def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
 
 def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
     # quantities that the name or the comment of a claim says
-    about = claim.about if claim.name != "return" else f"{claim.scope} {claim.about}"
+    about = claim.about
     name = claim.scope if claim.name == "return" else claim.name
     ranked = [(r, m) for r, m in vocabulary.meanings(name, about) if m in vocabulary.theory.tape]
     best = ranked[0][0] if ranked else 0
@@ -170,7 +184,7 @@ def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
 
 def _in_degrees(letter: str, meaning: str, tree: Node, theory: Theory) -> str:
     # theta*pi/180 says that theta counts degrees
-    if meaning != theory.angle:
+    if meaning not in theory.letters or theory.letters[meaning].unit != "rad":
         return meaning
     for _, node in trees.walk(tree):
         if isinstance(node, ast.BinOp) and letters(node) and set(letters(node)) <= {letter, "pi"}:
@@ -258,6 +272,14 @@ def _shifted(printed: np.ndarray, expected: np.ndarray) -> bool:
     moves = np.ptp(expected.reshape(_TURNS, _STEPS), axis=1)
     rests = [np.ptp((printed - sign * expected).reshape(_TURNS, _STEPS), axis=1) for sign in (1, -1)]
     return bool(np.all(moves > 0)) and any(bool(np.all(rest <= _SAME * moves)) for rest in rests)
+
+
+_SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi) for power in (1, -1))
+
+
+def is_slip(ratio: float | None) -> bool:
+    """Whether a factor is one that is lost or taken twice; another one is somebody's own number."""
+    return ratio is None or any(abs(abs(ratio) / k - 1) < 1e-5 for k in _SLIPS)
 
 
 def of_units(ratio: float | None) -> bool:

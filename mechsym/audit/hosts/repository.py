@@ -9,18 +9,32 @@ from dataclasses import field
 from functools import cache
 from pathlib import Path
 
-from mechsym.audit.hosts.fit import Fitted, Lexicon, States, compared, fit, formula, nearest, of_units, safe
-from mechsym.audit.judge.asked import Asked
+from mechsym.audit.hosts.fit import (
+    ANGLES,
+    Fitted,
+    Lexicon,
+    States,
+    compared,
+    fit,
+    formula,
+    is_slip,
+    nearest,
+    of_units,
+    safe,
+)
+from mechsym.audit.judge.asked import Asked, question_of
+from mechsym.audit.judge.conventions import also_exact
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, inlined, read_program, text_of
 from mechsym.audit.read.programs.statements import OF
-from mechsym.audit.read.reader import Formula
+from mechsym.audit.read.reader import Formula, statement
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, letters
-from mechsym.audit.row import Row, answer_or_why
+from mechsym.audit.row import Row, formula_row, unread_row
 from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Letter, Theory
 from mechsym.audit.theory.tape import TheoryTape, derivative
+from mechsym.audit.verdict import PASSED, decide
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -38,6 +52,7 @@ _LEFT_OUT = {
 }
 _NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
 _MOST_FILES = 20_000
+_LARGEST = 120  # parts of a formula for which a slip is searched: the search is the one thing here that takes long
 
 
 @record
@@ -115,7 +130,7 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
         formulas=len(claims),
         matched=matched,
         judged=judged,
-        rows=rows,
+        rows=list({row["fingerprint"]: row for row in rows}.values()),
     )
 
 
@@ -157,8 +172,8 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
         return None
     doubts = [d for d in doubts if _told_enough(d[0], d[1], d[3])]
     doubts.sort(key=lambda d: (not d[1].quantities, d[0]))
-    for away, fitted, form, quantity in doubts[:2]:
-        row = _slip(away, fitted, form, quantity)
+    for _, fitted, form, quantity in doubts[:2]:
+        row = _slip(fitted, form, quantity)
         if row is not None:
             return row
     return {"verdict": "", "claim": ""}
@@ -171,7 +186,8 @@ def _met(fitted: Fitted, form: Formula, states: States) -> Iterator[tuple[float,
         if met is not None:
             seen.add(quantity)
             right = of_units(met.ratio) or met.shift
-            yield (0.0 if right else max(met.away, 1e-9)), quantity
+            if right or is_slip(met.ratio):
+                yield (0.0 if right else max(met.away, 1e-9)), quantity
     if fitted.strong and len(fitted.meanings) > 1 and (len(fitted.meanings) > 2 or seen):
         for away, quantity in nearest(fitted, form, states):
             if quantity not in seen and (away == 0.0 or not fitted.quantities):
@@ -185,23 +201,30 @@ def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
     return away <= _NEAR and many > 2 and strong > 1
 
 
-def _slip(away: float, fitted: Fitted, form: Formula, quantity: str) -> Row | None:
+def _asked_once(text: str, theory: Theory, quantity: str, own: Mapping[str, str]) -> Row:
+    # the row of a formula, of one slip at most
+    against = f"{theory.name}.{quantity}"
+    try:
+        asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory)
+        question = question_of(asked, statement(text))
+        verdict = decide(question, one=True)
+        right = also_exact(question) if verdict.verdict not in PASSED else ""
+    except BadInput as error:
+        return unread_row("", against, text, str(error))
+    row = {"claim": against} | formula_row(question, verdict, text, "", "")
+    return row | {"verdict": "convention", "note": f"exact with {right}"} if right else row
+
+
+def _slip(fitted: Fitted, form: Formula, quantity: str) -> Row | None:
     # a formula that one slip takes away from a quantity
     theory = fitted.theory
+    if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
+        return None
     own = {safe(k): v for k, v in fitted.meanings.items()}
-    asked = Asked(
-        text=to_python(form.tree),
-        against=f"{theory.name}.{quantity}",
-        letters=own,
-        name=fitted.claim.name,
-        hidden="noted",
-        given=theory,
-    )
-    row = answer_or_why(asked)
-    if row["verdict"] in ("exact", "truncation", "convention"):
+    row = _asked_once(to_python(form.tree), theory, quantity, own)
+    if row["verdict"] in PASSED:
         return row | {"verdict": "agrees"}
-    named_so = quantity in fitted.quantities
-    if row["verdict"] == "misprint" and (named_so or _is_local(row)):
+    if row["verdict"] == "misprint" and _is_local(row):
         return _renamed(row, fitted) | {"letters": {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}}
     return None
 
@@ -218,7 +241,7 @@ def _renamed(row: Row, fitted: Fitted) -> Row:
 
 def _is_local(row: Row) -> bool:
     # a step on the way to a quantity lacks a term or a factor: that is no slip
-    return not re.search(r"repaired by (?:left out|lost|missing|term)", row["note"])
+    return not re.search(r"repaired by (?:left out|put back|lost|missing|term|degrees)", row["note"])
 
 
 _SLOPE = re.compile(
@@ -227,20 +250,21 @@ _SLOPE = re.compile(
 
 
 def _pair(claim: Claim, claims: Sequence[Claim]) -> Row | None:
-    """What a name like dV_dtheta says: the derivative of V, which stands in the same scope."""
-    match = _SLOPE.match(claim.name)
-    if match is None or not match["of"]:
+    """What names like dV_dtheta and dV say: the derivative of V, which stands in the same scope, by an angle."""
+    match, names = _SLOPE.match(claim.name), {c.name for c in claims if c.scope == claim.scope}
+    of = claim.name[1:].lstrip("_") if claim.name[:1] == "d" else ""
+    of = of if of in names else (match["of"] or "") if match else ""
+    alike = [c for c in claims if c.scope == claim.scope and c.name == of]
+    if len(alike) != 1 or alike[0].case != claim.case:
         return None
-    of = [c for c in claims if c.scope == claim.scope and c.name == match["of"]]
-    if len(of) != 1 or of[0].case != claim.case:
-        return None
-    whole, slope = inlined(of[0].tree, of[0].values), inlined(claim.tree, claim.values)
+    whole, slope = inlined(alike[0].tree, alike[0].values), inlined(claim.tree, claim.values)
     if whole is None or slope is None:
         return None
-    by = [k for k in letters(whole) if base(k) == match["by"]]
+    wanted = (match["by"],) if match and match["of"] == of else ANGLES
+    by = [k for k in letters(whole) if base(k) in wanted]
     if len(by) != 1 or not set(letters(slope)) <= set(letters(whole)):
         return None
-    return _derived(whole, slope, by[0], claim.name, match["of"])
+    return _derived(whole, slope, by[0], claim.name, of)
 
 
 def _slopes(reading: Reading) -> Iterator[tuple[Claim, Row]]:
@@ -290,9 +314,8 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
         return None
     if met is None or of_units(met.ratio):
         return None if met is None else {"verdict": "agrees", "claim": f"derivative of {of}"}
-    asked = Asked(text=to_python(slope), against="itself.slope", name=called, hidden="noted", given=theory)
-    row = answer_or_why(asked)
-    if row["verdict"] in ("exact", "truncation", "convention", "untestable"):
+    row = _asked_once(to_python(slope), theory, "slope", {})
+    if row["verdict"] in (*PASSED, "untestable"):
         return row | {"verdict": "agrees"}
     told = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"
     return row | {

@@ -26,7 +26,9 @@ _LATEX = {
 }  # fmt: skip
 _WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _STEMS = "|".join([*sorted(_LATEX, key=len, reverse=True), "[A-Za-z]"])
-NAME = re.compile(rf"(?P<stem>{_STEMS})(?:(?P<digits>[A-Z]*[0-9]+)|_(?P<word>[A-Za-z0-9]+?))?(?P<dots>dd?)?")
+# an index of one letter or of capitals and digits may have dots behind it; a word that ends in d (mixed, rod) has none
+_INDEX = r"(?P<digits>[A-Z]*[0-9]+)|_(?P<word>(?:[A-Za-z]|[A-Z0-9]+)(?=dd?\Z)|[A-Za-z0-9]+)"
+NAME = re.compile(rf"(?P<stem>{_STEMS})(?:{_INDEX})?(?P<dots>dd?)?")
 
 
 #: Letter by its name

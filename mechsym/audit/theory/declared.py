@@ -327,5 +327,9 @@ def _si(unit: str) -> str:
         return "rad"
     if unit == "rpm":
         return "rad/s"
-    powers = zip(("kg", "m", "s", "K"), (mass, length, time, kelvin), strict=True)
-    return "*".join(f"{u}^{p}" for u, p in powers if p) or "-"
+    names = ("Pa", "N", "N/m", "J" if "J" in unit else "N*m", "W", "J/kg/K")
+    if same := next((name for name in names if dimension(name) == dimension(unit)), ""):
+        return same
+    powers = [(u, p) for u, p in zip(("kg", "m", "s", "K"), (mass, length, time, kelvin), strict=True) if p]
+    above = "*".join(u if p == 1 else f"{u}^{p}" for u, p in powers if p > 0) or "1"
+    return above + "".join(f"/{u}" if p == -1 else f"/{u}^{-p}" for u, p in powers if p < 0)

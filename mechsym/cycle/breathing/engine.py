@@ -143,11 +143,9 @@ def _curve(breath: Breath) -> Callable[[Scalar], Scalar]:
 def figures(found: BreathingRun) -> Json:
     """Figures over the speeds under the names of `mechsym cycle`, of one cylinder.
 
-    Returns
-    -------
-    columns : dict of str to ndarray, shape (n,)
-        As `engine.columns`; and the mean pressure of the two strokes of gas exchange, the filling, the residual gas,
-        the temperature of the exhaust, and what the turbocharger leaves before and behind the engine
+    Returns columns: as `engine.columns`; and the mean pressure of the two strokes of gas exchange, the filling, the
+    residual gas, the temperature of the exhaust, and what the turbocharger leaves before and behind the engine, shape
+    (n,).
     """
     rows = [_at(found, breath) for breath in found.breaths]
     columns: Json = {key: np.array([row[key] for row in rows]) for key in rows[0]}

@@ -176,11 +176,8 @@ def boosted(
 
     outside: pressure [Pa] and temperature [K] of the atmosphere.
 
-    Parameters
-    ----------
-    engine : callable
-        State before and behind the engine to the temperature of its exhaust [K] and the air that a cylinder draws
-        [kg/s], each of shape (n,)
+    engine: state before and behind the engine to the temperature of its exhaust [K] and the air that a cylinder draws
+    [kg/s], each of shape (n,).
     """
     p_1, T_1 = outside
     p_2 = atmosphere(0.0)[0] if boost.pressure is None else boost.pressure

@@ -95,12 +95,9 @@ def closed_function(build: Build, names: Sequence[str], steps: int) -> ca.Functi
     build: callable, mapping of the design's names to CasADi symbols -> Closed. steps: steps of the integration in all;
     a multiple of 10.
 
-    Returns
-    -------
-    function : casadi.Function
-        (design (k,)) -> the nodes `phi` [rad], `t` [K], `p` [Pa], `dt_dphi` [K/rad], `dp_dphi` [Pa/rad], each
-        (1, steps + 3), the two angles where phases meet standing twice; and the scalars `work`, `wall_heat` [J] and
-        the entries of `SCALARS`
+    Returns function: (design (k,)) -> the nodes `phi` [rad], `t` [K], `p` [Pa], `dt_dphi` [K/rad], `dp_dphi` [Pa/rad],
+    each (1, steps + 3), the two angles where phases meet standing twice; and the scalars `work`, `wall_heat` [J] and
+    the entries of `SCALARS`.
     """
     start, parts, books = _functions(build, tuple(names))
     design = ca.MX.sym("design", len(names))

@@ -128,19 +128,11 @@ def rates(
     shape (13,), slopes of y [unit of the state/rad]; inflow: R T*_j m_j' of both spaces, whose sign is the flow's,
     shape (2,).
 
-    Parameters
-    ----------
-    y : CasADi column, shape (13,)
-        `STATES`: p [Pa], m_e, m_c [kg], theta_e, theta_c [K/Pa^kappa], then heats and works since the start [J] and
-        the integral of p over the angle by a turn [Pa]
-
-    Notes
-    -----
+    y: `STATES`: p [Pa], m_e, m_c [kg], theta_e, theta_c [K/Pa^kappa], then heats and works since the start [J] and the
+    integral of p over the angle by a turn [Pa], shape (13,).
     Source: Urieli and Berchowitz (1984), table 4.1, extended by the heat through the walls of the working spaces.
     Valid: ideal gas, one pressure, no leakage.
 
-    Examples
-    --------
     >>> case = FiveSpaces(volumes=lambda a: (2e-4 + 1e-4 * a, 2e-4), V_h=1e-4, V_r=1e-4, V_k=1e-4, T_h=900.0,
     ...                   T_k=300.0, gamma=1.4, R=287.0, mean_pressure=5e5)
     >>> phi, y = ca.SX.sym("phi"), ca.SX([5e5, 4e-4, 1e-3, 22.4, 7.06] + 8 * [0.0])

@@ -324,11 +324,8 @@ def spread_error(
     turns: speed of successive turns, shape (k,); phi: evenly spaced crank angles of one period, from firing TDC; p:
     absolute pressure of the mean cycle; zero: crank angle at which a turn of the encoder begins.
 
-    Returns
-    -------
-    error : float
-        Largest error over the period, from the gas torque M and the inertia J that explains by how much the speeds
-        of successive turns differ; 1.5 degrees where they cannot tell
+    Returns error: largest error over the period, from the gas torque M and the inertia J that explains by how much the
+    speeds of successive turns differ; 1.5 degrees where they cannot tell.
     """
     step, count = float(phi[1] - phi[0]), round(phi.size * float(phi[1] - phi[0]) / _TURN)
     torque = p * dvolume_dphi(cylinder, phi)

@@ -195,13 +195,9 @@ def half_integral(values: Pascal[Array], periods: int) -> Array:
 
     values: evenly spaced samples of one period; periods: turns m in it.
 
-    Notes
-    -----
     Source: temperature of the surface of a semi-infinite body under a periodic heat flux (Carslaw and Jaeger 1959,
     section 2.6), its flux taken as that of the pressure.
 
-    Examples
-    --------
     >>> phi = np.arange(8) * np.pi / 4
     >>> float(half_integral(np.cos(phi), 1)[1].round(9))
     1.0

@@ -98,14 +98,11 @@ def kinematics(throws: Instances, names: tuple[str, ...]) -> Outputs:
 def reactions(throws: Instances) -> Outputs:
     """Joint forces of every cylinder and the load on the main bearings of every throw.
 
-    Returns
-    -------
-    outputs : dict of str to casadi.SX
-        Per cylinder `pin_force_x_1, pin_force_y_1` (crank on rod, common frame), `piston_pin_force_along_1`,
-        `piston_pin_force_across_1` (rod on piston), `side_force_1` (cylinder on piston, across, positive in the sense
-        of rotation); of a rod that hangs on another `knuckle_force_x_1, knuckle_force_y_1` (that rod on it, common
-        frame) in place of the pin force, which the other's has in it; per throw `main_bearing_force_x_1,
-        main_bearing_force_y_1` (frame on crank, common frame)
+    Returns outputs: per cylinder `pin_force_x_1, pin_force_y_1` (crank on rod, common frame),
+    `piston_pin_force_along_1`, `piston_pin_force_across_1` (rod on piston), `side_force_1` (cylinder on piston, across,
+    positive in the sense of rotation); of a rod that hangs on another `knuckle_force_x_1, knuckle_force_y_1` (that rod
+    on it, common frame) in place of the pin force, which the other's has in it; per throw `main_bearing_force_x_1,
+    main_bearing_force_y_1` (frame on crank, common frame).
     """
     outputs: Outputs = {}
     bearings: Outputs = {}

@@ -5,7 +5,7 @@ that, however finely they are integrated, and the work of the drive does not all
 """
 
 import dataclasses
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from mechsym import cases, jobs, mechanisms
 from mechsym.cases import load
 from mechsym.jobs.problem import problem_of
 from mechsym.mechanisms.record import acceleration_function
-from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, Row, by_digits, claim, row
+from mechsym.papers.rows import NOT_COMPUTABLE, REPRODUCED, Row, by_digits, listed
 from mechsym.quantities import record
 from mechsym.simulate import Problem, Result, Settings, simulate
 from mechsym.simulate.audit import energies
@@ -22,6 +22,7 @@ from mechsym.torsion import modes as torsion
 
 CASE = "chmielewski"
 CLAIMED_SPEED, CLAIMED_TIME = 194.0, 90.0  # section 2.2 [rad/s, s]
+_row = partial(listed, "chmielewski2015")
 EXACT, PRINTED = "crankshaft_flywheel", "crankshaft_flywheel_printed"
 # integrator and tolerance, from rough to fine, the last by a second integrator
 SWEEP = (("scipy-dop853", 1e-8), ("scipy-dop853", 1e-10), ("sundials", 1e-11))
@@ -175,7 +176,7 @@ _CONSTANT = 0.01  # what the eye takes for constant in a figure [-]
 def rows() -> list[Row]:
     """Every number and claim of section 2.2, and what the conclusions announce."""
     result = run(EXACT, FINEST[1], FINEST[0])
-    announced = [_in_time("schmidt", _TWO), _in_time("stirling-adiabatic", _HEAT), _second_order()]
+    announced = [_in_time("schmidt"), _in_time("stirling-adiabatic"), _second_order()]
     return [_torque(result), *_speed(result), *_shape(result), *_amplitudes(result), *_steps(), *announced]
 
 
@@ -183,7 +184,7 @@ def _torque(result: Result) -> Row:
     work, angle = result.columns["work_drive"], float(result.columns["phi0"][-1])
     onset, torque = float(result.t[int(np.argmax(work > 0)) - 1]), float(work[-1]) / angle
     holds = onset == 1.0 and by_digits("1.5", torque) == REPRODUCED
-    return claim("Fig. 5: torque stepped on at 1 s, work over angle [N*m]", "1.5", torque, holds)
+    return _row("torque", torque, holds)
 
 
 def _speed(result: Result) -> list[Row]:
@@ -191,16 +192,10 @@ def _speed(result: Result) -> list[Row]:
     exact, printed = (convergence()[model][-1].mean for model in (EXACT, PRINTED))
     rigid = rigid_speed_with_piston(t_end)
     return [
-        row("Fig. 10: mean crank speed from 90 s on [rad/s]", "194", exact, by_digits("194", exact), _in_words(EXACT)),
-        row(
-            "Fig. 10: the same with (6) and (11) as printed [rad/s]", "194", printed, by_digits("194", printed),
-            f"the misprint of the equation does not explain it; {_in_words(PRINTED)}",
-        ),
-        claim(
-            "Fig. 10: mean speed that the drive's work allows at 100 s [rad/s]", "194", rigid, rigid >= 194,
-            f"hand check, M (t - 1)/(I0 + I2 + mean of m0 x0'^2); {rigid_speed_with_piston(CLAIMED_TIME):.1f} at 90 s",
-        ),
-    ]  # fmt: skip
+        _row("exact", exact, by_digits("194", exact), runs=_in_words(EXACT)),
+        _row("printed", printed, by_digits("194", printed), runs=_in_words(PRINTED)),
+        _row("allowed", rigid, rigid >= 194, claimed=rigid_speed_with_piston(CLAIMED_TIME)),
+    ]
 
 
 def _in_words(model: str) -> str:
@@ -220,20 +215,10 @@ def _shape(result: Result) -> list[Row]:
     chord = np.interp(t[since], t[since][[0, -1]], angle[since][[0, -1]])
     bent = float(np.abs(angle[since] - chord).max() / np.ptp(angle[since]))
     return [
-        claim(
-            "Fig. 10: speed above 90 s, its gain until 100 s [rad/s]", "constant", late, abs(late) < 1.0,
-            "constant torque without dissipation: no steady speed exists",
-        ),
-        claim(
-            "speed up to 85 s, its gain from 55 to 85 s [rad/s]", "rises", risen, risen > 1.0,
-            "the second order of the piston's inertia meets the natural frequency there and holds the shaft at half of "
-            "it until about 90 s; the drive feeds the vibration",
-        ),
-        claim(
-            "Fig. 9: angle above 90 s, largest departure from a line over the angle turned", "linear", bent,
-            bent < _CONSTANT, "the speed goes on growing",
-        ),
-    ]  # fmt: skip
+        _row("constant_speed", late, abs(late) < 1.0),
+        _row("rises", risen, risen > 1.0),
+        _row("linear", bent, bent < _CONSTANT),
+    ]
 
 
 def _amplitudes(result: Result) -> list[Row]:
@@ -242,62 +227,41 @@ def _amplitudes(result: Result) -> list[Row]:
     def largest(key: str, since: float) -> float:
         return float(np.abs(moved[key][(t >= since) & (t <= since + 5.0)]).max())
 
-    highest = float(moved["x0"].max())
-    lines = [row("Fig. 6: largest piston displacement [m]", None, highest, NOT_COMPUTABLE, "no value printed")]
+    lines = [_row("displacement", float(moved["x0"].max()), NOT_COMPUTABLE)]
     for figure, key, name in (
         ("7", "v", "piston velocity"),
         ("8", "a", "piston acceleration"),
         ("11", "epsilon", "angular acceleration"),
     ):
-        growth = largest(key, 95.0) / largest(key, 90.0) - 1
-        item = f"Fig. {figure}: amplitude of the {name} above 90 s, its growth until 100 s"
-        note = f"amplitude {largest(key, 95.0):.4g} at the end"
-        lines.append(claim(item, "constant", growth, abs(growth) < _CONSTANT, note))
+        end = largest(key, 95.0)
+        growth = end / largest(key, 90.0) - 1
+        lines.append(_row("amplitude", growth, abs(growth) < _CONSTANT, figure=figure, name=name, end=end))
     until, after = largest("epsilon", 45.0), largest("epsilon", 85.0) - largest("epsilon", 45.0)
-    item = "Fig. 11: amplitude grows fast to 50 s and slower from 50 to 90 s, second gain over first"
-    note = "the other way round: the shaft is caught by the resonance at 53 s"
-    return [*lines, claim(item, "< 1", after / until, after < until, note)]
+    return [*lines, _row("growth", after / until, after < until)]
 
 
 def _steps() -> list[Row]:
     converged = convergence()[PRINTED][-1].mean
     apart = max(abs(s.mean / converged - 1) for s in step_study())
     peaks = ", ".join(f"{s.name} {s.peak:.0f}" for s in step_study()[1:])
-    telling = step_study()[1]
+    telling, runs = step_study()[1], "; ".join(f"{s.name}: {s.mean:.2f} rad/s" for s in step_study())
+    lost = 100 * (telling.energy_residual or 0)
     return [
-        claim(
-            "the result depends on the step, largest change of the mean speed from 90 s on",
-            "depends",
-            apart,
-            apart > _CONSTANT,
-            "; ".join(f"{s.name}: {s.mean:.2f} rad/s" for s in step_study()),
-        ),
-        row(
-            "Fig. 10: 194 rad/s with the source's integrator and step [rad/s]",
-            "194",
-            telling.peak,
-            NOT_COMPUTABLE,
-            "the source prints neither; several fixed steps give it as a peak of the speed from 90 s on "
-            f"({peaks} rad/s): they lose work, {100 * (telling.energy_residual or 0):.0f} % with the first, so that "
-            f"the shaft is held at a mean of {telling.mean:.1f} rad/s for ever, with the source's constant amplitudes",
-        ),
+        _row("steps", apart, apart > _CONSTANT, runs=runs),
+        _row("own_step", telling.peak, NOT_COMPUTABLE, peaks=peaks, lost=lost, mean=telling.mean),
     ]
 
 
 _CASE = "alpha-stirling"
 _RESIDUAL = 1e-8  # of the energy of a run [-]
-_TWO = "a model with two pistons offset by a predetermined phase angle"
-_HEAT = "the dynamic model of the Stirling engine including the thermodynamic processes"
 
 
-def _in_time(kind: str, words: str) -> Row:
+def _in_time(kind: str) -> Row:
     turning = jobs.run(load(_CASE, {"cycle.kind": kind}), check="none")
     speed, residual = turning.result.columns["phi_fd"], abs(turning.result.energy.residual or 0.0)
     mean = float(np.mean(speed[-len(speed) // 10 :]))
     critical = next((line for line in turning.findings if "critical" in line), "no critical near the speed")
-    item = f"conclusions: flywheel of the alpha engine after 30 turns, kind {kind} [rad/s]"
-    note = f"announced, no value printed; energy residual {residual:.0e}; {critical}"
-    return row(item, words, mean, REPRODUCED if residual < _RESIDUAL else NOT_REPRODUCED, note)
+    return _row(kind, mean, residual < _RESIDUAL, residual=residual, critical=critical)
 
 
 def _second_order() -> Row:
@@ -306,10 +270,5 @@ def _second_order() -> Row:
     )
     before, after = (float(figures["efficiency"][0]) for figures in (ideal, real))
     lost = ", ".join(f"{name.replace('_', ' ')} {values[0]:.0f} W" for name, values in real["losses"].items())
-    item = "conclusions: efficiency of the second order at 600 rpm [-]"
-    note = (
-        f"announced, no value printed; {before:.3f} without losses; {float(real['power_kw'][0]) * 1e3:.0f} W left, "
-        f"lost: {lost}"
-    )
-    words = "the thermodynamic model of the II order, which considers the losses"
-    return row(item, words, after, REPRODUCED if 0 < after < before else NOT_REPRODUCED, note)
+    power = float(real["power_kw"][0]) * 1e3
+    return _row("second_order", after, 0 < after < before, before=before, power=power, lost=lost)

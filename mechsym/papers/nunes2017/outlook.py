@@ -24,12 +24,13 @@ from mechsym.jobs.cycle import engine
 from mechsym.jobs.flywheel import flywheel
 from mechsym.jobs.forces import forces
 from mechsym.papers.nunes2017.numbers import MODELS
-from mechsym.papers.rows import NOT_COMPUTABLE, REPRODUCED, Row, claim, row
+from mechsym.papers.rows import NOT_COMPUTABLE, REPRODUCED, Row, listed
 from mechsym.quantities import RPM
 from mechsym.sweep import columns as swept_columns
 from mechsym.sweep import sweep
 from mechsym.sweep.study import read
 
+_row = functools.partial(listed, "nunes2017")
 _CASE, _RPM, _FAST = "nunes-hypocycloid", 4000.0, 8000.0
 _HEIGHT, _EXHAUST = 3000.0, 1000.0  # a usual height of flight [m], an exhaust before the turbine [K]
 _RIPPLE = 0.02  # of the flywheel [-]
@@ -37,7 +38,8 @@ _RIPPLE = 0.02  # of the flywheel [-]
 
 def rows() -> list[Row]:
     """Sentences of sections 6.1 and 6.2, and of 4.7 on the belt."""
-    return [*_improvements(), _height(), _breathing(), _friction(), _flywheel(), _belt(), *_left()]
+    left = [_row(name, None, NOT_COMPUTABLE) for name in ("valves", "timing_belt", "fuel")]
+    return [*_improvements(), _height(), _breathing(), _friction(), _flywheel(), _belt(), *left]
 
 
 @functools.cache
@@ -57,17 +59,11 @@ def _improvements() -> list[Row]:
         float(new[key][0] / base[key][0] - 1)
         for new, key in ((slim, "tooth"), (slim, "efficiency"), (tight, "efficiency"))
     )
-    peak = float(tight["p_max_mpa"][0]), float(base["p_max_mpa"][0])
+    after, before = float(tight["p_max_mpa"][0]), float(base["p_max_mpa"][0])
     return [
-        claim(
-            "section 6.1: tooth load with the bore 5 % smaller at the same displacement, change [%]", "reduce",
-            100 * tooth, tooth < 0, f"the efficiency changes by {100 * share:+.2f} %",
-        ),
-        claim(
-            "section 6.1: efficiency with the compression ratio 12 in place of 10, change [%]", "increase", 100 * gain,
-            gain > 0, f"the peak pressure goes from {peak[1]:.2f} to {peak[0]:.2f} MPa, and towards knock",
-        ),
-    ]  # fmt: skip
+        _row("slim", 100 * tooth, tooth < 0, share=100 * share),
+        _row("tight", 100 * gain, gain > 0, before=before, after=after),
+    ]
 
 
 def _height() -> Row:
@@ -84,12 +80,8 @@ def _height() -> Row:
     # with the intake pressure at the sea's the exhaust pushes against the turbine
     pumping = (p_2 - p_3) * swept * _RPM / 60 / 2 / 1e3
     share = float((boosted + pumping) / sea)
-    item = "section 6.1: turbocharged power at 3000 m by that at sea level [-]"
-    note = (
-        f"{float(thin / sea):.2f} without it; no intercooler, so the air comes in at {T_2:.0f} K; usual efficiencies "
-        f"and an exhaust of {_EXHAUST:.0f} K assumed; the turbine dams up {p_3 / 1e5:.2f} bar"
-    )
-    return claim(item, "pressure ratio of 1", share, share > 1.1 * float(thin / sea), note)
+    alone = float(thin / sea)
+    return _row("height", share, share > 1.1 * alone, thin=alone, T_2=T_2, p_3=p_3 / 1e5)
 
 
 def _breathing() -> Row:
@@ -111,12 +103,7 @@ def _breathing() -> Row:
     )  # fmt: skip
     filling = breathing_figures(breathing_run(breathing, [_FAST * RPM]))
     filled, lost = float(filling["volumetric_efficiency"][0]), float(filling["pumping_mep_kpa"][0])
-    item = "section 6.2: filling of the cylinder at 8000 rpm with intake and exhaust modelled [-]"
-    note = (
-        f"the thesis assumes 1; gas exchange costs a mean pressure of {-lost:.0f} kPa, which it leaves out; valves "
-        "of 28 and 24 mm assumed, the text gives none"
-    )
-    return claim(item, "more accurately", filled, abs(filled - 1) > 0.05, note)
+    return _row("breathing", filled, abs(filled - 1) > 0.05, lost=-lost)
 
 
 def _friction() -> Row:
@@ -125,40 +112,19 @@ def _friction() -> Row:
         losses = forces(load(name)).losses
         assert losses is not None and losses.mechanical_efficiency is not None
         lost.append(1 - losses.mechanical_efficiency)
-    item = "section 6.2: loss by friction of the hypocycloid mechanism by that of the slider crank [-]"
-    note = "coefficients of friction and rings assumed, the same for both"
-    return claim(item, "one of the greatest advantages", lost[1] / lost[0], lost[1] < lost[0], note)
+    return _row("friction", lost[1] / lost[0], lost[1] < lost[0])
 
 
 def _flywheel() -> Row:
     wheel = flywheel(load(_CASE), _RIPPLE)
-    item = "section 6.2: flywheel for a ripple of 2 % at the speed of operation [kg*m^2]"
-    note = f"the text gives no ripple; work of {wheel.work_swing:.0f} J swings about the mean"
-    return row(item, "considered", wheel.inertia, NOT_COMPUTABLE if wheel.inertia is None else REPRODUCED, note)
+    verdict = NOT_COMPUTABLE if wheel.inertia is None else REPRODUCED
+    return _row("flywheel", wheel.inertia, verdict, work=wheel.work_swing)
 
 
 def _belt() -> Row:
     figures = _figures()
     largest, mean = (float(figures[name][0]) for name in ("torque_max", "torque_avg"))
-    item = "section 4.7: largest torque that the belt carries from one shaft to the other [N*m]"
-    note = (
-        f"that of one crank, in the mean {mean / 2:.1f} N*m; no pulley, tension or belt is printed, so its pull is not "
-        "computable"
-    )
-    return row(item, "no study was done regarding the appropriate belt", largest, NOT_COMPUTABLE, note)
-
-
-def _left() -> list[Row]:
-    missing = "the text names it and gives no dimension, load or speed ratio"
-    valves = "the text gives ideal angles of opening and closing, and neither size, lift, mass nor spring"
-    return [
-        row(f"section 6.2: {item}", words, None, NOT_COMPUTABLE, note)
-        for item, words, note in (
-            ("valve system and camshaft", "needs to be studied and designed", valves),
-            ("timing belt between pistons and valve system", "must be designed", missing),
-            ("fuel and ignition systems", "would have to be chosen and designed", missing),
-        )
-    ]
+    return _row("belt", largest, NOT_COMPUTABLE, mean=mean / 2)
 
 
 _STUDY, _ENDLESS = "nunes2017-chapter-6", "500 m"
@@ -189,18 +155,10 @@ def _performance() -> list[Row]:
     speed = swept("hypocycloid-speeds")["speed_rpm"]
     ratio = swept("hypocycloid-speeds")["torque_avg"] / swept("slider-crank-speeds")["torque_avg"]
     behind = speed[ratio < 1]
-    words, what = "not falling behind", "average torque of the hypocycloid engine by that of the slider crank"
     return [
-        claim(
-            f"section 6: {what}, smallest over 500 to 8000 rpm [-]", words, ratio.min(), ratio.min() >= 1,
-            f"it falls behind up to {behind.max():.0f} rpm, the more the lower the speed: its piston stays near the "
-            "top for longer and the gas loses more heat there",
-        ),
-        claim(
-            f"section 6: {what} at 8000 rpm [-]", words, ratio[-1], ratio[-1] >= 1,
-            "without mechanical losses, as the sentence says",
-        ),
-    ]  # fmt: skip
+        _row("behind", ratio.min(), ratio.min() >= 1, until=behind.max()),
+        _row("fast", ratio[-1], ratio[-1] >= 1),
+    ]
 
 
 def _losses() -> list[Row]:
@@ -209,17 +167,8 @@ def _losses() -> list[Row]:
         round(float(rpm)): _change(a, b)
         for rpm, a, b in zip(own["speed_rpm"], own[_FRICTION], rival[_FRICTION], strict=True)
     }
-    told = ", ".join(f"{value:+.1f} % at {rpm} rpm" for rpm, value in change.items())
-    item = (
-        "section 6: friction mean pressure of the hypocycloid engine at {} rpm against the slider crank's, change [%]"
-    )
-    note = (
-        f"{told}: no side force on the piston, but the teeth slide under the whole load of the gas; coefficients "
-        "and rings assumed, the same for both"
-    )
-    return [
-        claim(item.format(rpm), "significantly reduced", change[rpm], change[rpm] < 0, note) for rpm in (4000, 8000)
-    ]
+    changes = ", ".join(f"{value:+.1f} % at {rpm} rpm" for rpm, value in change.items())
+    return [_row("losses", change[rpm], change[rpm] < 0, rpm=rpm, changes=changes) for rpm in (4000, 8000)]
 
 
 def _balance() -> Row:
@@ -227,27 +176,14 @@ def _balance() -> Row:
         swept(f"{name}-losses")["shaking.counterweight.rms_after"] for name in ("hypocycloid", "slider-crank")
     )
     left = own[-1] / rival[-1]
-    item = (
-        "section 6: shaking force beside a counterweight on the crank, one mechanism of the hypocycloid engine by one "
-        "of the slider crank [-]"
-    )
-    note = (
-        "only in one mechanism taken alone; the two pistons run against each other, so that their forces cancel in "
-        "either engine, sinusoidal or not"
-    )
-    return claim(item, "the balance achieved due to sinusoidal motion", left, left < 1, note)
+    return _row("balance", left, left < 1)
 
 
 def _rod() -> Row:
     rod, endless = swept("rod"), swept("rod", f"parameters.l1={_ENDLESS}")
     ratio = endless["efficiency"][0] / _at_4000("efficiency")
     average, largest = (_change(rod[name][-1], rod[name][0]) for name in ("torque_avg", "torque_max"))
-    item = "section 6: efficiency of the slider crank engine with a rod of 500 m by that of the hypocycloid engine [-]"
-    note = (
-        "the hypocycloid's piston moves as on an endless rod, whatever the length of its own; from 30 to 100 mm of rod "
-        f"the slider crank's average torque changes by {average:.1f} %, its largest by {largest:.1f} %"
-    )
-    return claim(item, "longer rods which don't affect the kinematics", ratio, abs(ratio - 1) < 1e-5, note)
+    return _row("rod", ratio, abs(ratio - 1) < 1e-5, average=average, largest=largest)
 
 
 def _at_4000(name: str, engine: str = "hypocycloid") -> float:
@@ -259,53 +195,28 @@ def _at_4000(name: str, engine: str = "hypocycloid") -> float:
 def _impact() -> Row:
     mechanism = abs(_at_4000("power_kw") - _at_4000("power_kw", "slider-crank"))
     others = {name: float(np.ptp(swept(name)["power_kw"])) for name in ("bore-to-stroke", "compression", "boost")}
-    told = ", ".join(f"{name} {value:.2f}" for name, value in others.items())
-    item = (
-        "section 6.1: power that the hypocycloid costs against the slider crank, by what the compression ratio of 8 to "
-        "14 changes [-]"
-    )
-    note = (
-        f"{mechanism:.2f} kW at 4000 rpm; over the ranges of the study: {told} kW. What the mechanism decides is load, "
-        "size and life of its gears"
-    )
+    ranges = ", ".join(f"{name} {value:.2f}" for name, value in others.items())
     share, holds = mechanism / others["compression"], mechanism > min(others.values())
-    return claim(item, "the most impact on the engine performance", share, holds, note)
+    return _row("impact", share, holds, mechanism=mechanism, listed=ranges)
 
 
 def _load(engine: Sequence[Row]) -> Row:
     tooth = next(one for one in engine if one.item == "OPGHE largest tooth load [N]")
     before, after = float(tooth.computed or 0), float(tooth.corrected or 0)
     change = _change(after, before)
-    item = "section 6.1: largest tooth load of the corrected and converged cycle against the thesis's, change [%]"
-    note = (
-        f"{before:.0f} and {after:.0f} N: the atmosphere behind the piston takes 1 %, vapour "
-        "that brings its energy gives part of it back"
-    )
-    return claim(item, "will probably reduce the gear tooth load", change, change < 0, note)
+    return _row("load", change, change < 0, before=before, after=after)
 
 
 def _gears() -> list[Row]:
     single = swept("gear-sets")
     holds = float(single["gears:_ring,_bending.face_width.safety_factor"][1] / 2)
     old, new = (_of_gears("materials", k) for k in (0, 1))
+    face, mass = (tuple(part[key] for part in (old, new)) for key in ("face", "mass"))
     return [
-        claim(
-            "section 6.1: load that a single gear pair of the widest usual face, two pitch diameters, bears by that it "
-            "gets [-]", "not enough", holds, holds < 1, "Nitralloy N by AGMA 2101; bending of the ring governs",
-        ),
-        claim(
-            "section 6.1: maraging 350: face width over Nitralloy's, engine sized anew [-]", "0.5",
-            new["face"] / old["face"], new["face"] <= 0.5 * old["face"],
-            "sized with all limits, contact of the internal pair and losses of load sharing left out; "
-            f"{1e3 * old['face']:.1f} and {1e3 * new['face']:.1f} mm in steps of 0.5 mm",
-        ),
-        claim(
-            "section 6.1: maraging 350: mass of gears and crankshaft, change [%]", "lighter",
-            _change(new["mass"], old["mass"]), new["mass"] < old["mass"],
-            "pinion, ring and crankshaft of one side; Nitralloy N with the density of table 4.1, which is low for "
-            "steel. The loss in the mesh does not know the face width",
-        ),
-    ]  # fmt: skip
+        _row("single", holds, holds < 1),
+        _row("maraging", face[1] / face[0], face[1] <= 0.5 * face[0], old=1e3 * face[0], new=1e3 * face[1]),
+        _row("lighter", _change(mass[1], mass[0]), mass[1] < mass[0]),
+    ]
 
 
 def _of_gears(name: str, point: int) -> dict[str, float]:
@@ -317,47 +228,28 @@ def _of_gears(name: str, point: int) -> dict[str, float]:
 def _bore() -> list[Row]:
     table, gears = swept("bore-to-stroke"), swept("narrow-gears")
     slim, thesis = (int(np.argmin(np.abs(table["chamber.bore"] - mm))) for mm in (55, 60))
-    outside = gears["gears.outside_diameter_of_the_ring"]
-    volume = np.pi / 4 * outside**2 * gears["gears.face_width"]
+    outside, face = (gears[f"gears.{key}"] for key in ("outside_diameter_of_the_ring", "face_width"))
+    volume = np.pi / 4 * outside**2 * face
+    sizes = {"outside": 1e3 * outside, "face": 1e3 * face, "failing": gears["failing"][1]}
+    gain, tooth, peak = (
+        _change(table[key][slim], table[key][thesis]) for key in ("efficiency", "loads.tooth_force", "p_max_mpa")
+    )
     return [
-        claim(
-            "section 6.1: volume of a gear pair with 4 % more stroke and 2 % less bore, change [%]",
-            "reducing the overall dimensions of the gearset",
-            _change(volume[1], volume[0]),
-            volume[1] < volume[0],
-            f"ring of {1e3 * outside[0]:.1f} and {1e3 * outside[1]:.1f} mm outside: the stroke is twice its pitch "
-            f"radius, so it grows while the face goes from {1e3 * gears['gears.face_width'][0]:.1f} to "
-            f"{1e3 * gears['gears.face_width'][1]:.1f} mm; {gears['failing'][1]:.0f} other checks of that engine fail",
-        ),
-        claim(
-            "section 6.1: efficiency with a bore of 55 mm in place of 60 mm at the same displacement, change [%]",
-            "would have to be considered",
-            _change(table["efficiency"][slim], table["efficiency"][thesis]),
-            True,
-            f"tooth load {_change(table['loads.tooth_force'][slim], table['loads.tooth_force'][thesis]):+.1f} %, peak "
-            f"pressure {_change(table['p_max_mpa'][slim], table['p_max_mpa'][thesis]):+.2f} %: cheap in performance",
-        ),
+        _row("gear_volume", _change(volume[1], volume[0]), volume[1] < volume[0], **sizes),
+        _row("slim_engine", gain, True, tooth=tooth, peak=peak),
     ]
 
 
 def _compression() -> Row:
     table = swept("compression")
     steps = np.diff(table["efficiency"])
-    item = "section 6.1: efficiency over the compression ratio of 8 to 14, least gain of a step of 0.5 [%]"
-    note = (
-        f"points of efficiency; the first step gains {100 * steps[0]:.2f}, the tooth load grows by "
-        f"{_change(table['loads.tooth_force'][-1], table['loads.tooth_force'][0]):.0f} %, and there is knock"
-    )
-    return claim(item, "further increase efficiency", 100 * steps.min(), bool(steps.min() > 0), note)
+    tooth = _change(table["loads.tooth_force"][-1], table["loads.tooth_force"][0])
+    return _row("compression", 100 * steps.min(), steps.min() > 0, first=100 * steps[0], tooth=tooth)
 
 
 def _boost() -> Row:
     table = swept("boost")
     usual = float(np.interp(1.01325, table["cycle.intake_pressure"], table["torque_avg"]))
     ratio = float(table["torque_avg"][-1]) / usual
-    item = "section 6.1: average torque at an intake pressure of 2 bar by that at one atmosphere [-]"
-    note = (
-        f"charge as cold as at sea level, so with an intercooler; the peak is {table['p_max_mpa'][-1]:.1f} MPa "
-        f"and the load of the teeth {table['loads.tooth_force'][-1] / 1e3:.1f} kN, for which they are not sized"
-    )
-    return claim(item, "increase the torque and power", ratio, ratio > 1, note)
+    peak, tooth = table["p_max_mpa"][-1], table["loads.tooth_force"][-1] / 1e3
+    return _row("boost", ratio, ratio > 1, peak=peak, tooth=tooth)

@@ -18,7 +18,7 @@ from mechsym.errors import BadInput
 from mechsym.jobs.cycle import engine
 from mechsym.papers.nunes2017 import numbers, outlook, sizing
 from mechsym.papers.nunes2017.numbers import ENGINES, FACTS, MODELS, curves_of, item_row, items, value
-from mechsym.papers.rows import NOT_COMPUTABLE, Row, claim, row
+from mechsym.papers.rows import NOT_COMPUTABLE, Row, claim, listed, row
 from mechsym.quantities import record
 
 
@@ -58,19 +58,10 @@ def _statements() -> list[Row]:
     higher = [float(spectrum[2:].max() / spectrum[1]) for spectrum in orders]
     return [
         *rows,
-        claim(
-            "section 5.2: variation of the unburnt share, about [%]", "2.5", varied, abs(varied / 2.5 - 1) < 0.1,
-            "largest over smallest; the thesis takes it for no difference of the engines",
-        ),
-        claim(
-            "Figs. 3.1, 3.6: OPGHE stays near top dead centre for longer, share of the turn in its tenth of the stroke "
-            "over the OPSCE's", "> 1", near[1] / near[0], near[1] > near[0], f"{near[1]:.3f} against {near[0]:.3f}",
-        ),
-        claim(
-            "Figs. 3.2 to 3.5: OPGHE moves sinusoidally, largest higher order of the acceleration", "sinusoidal",
-            higher[1], higher[1] < 1e-12, f"OPSCE {higher[0]:.3f}",
-        ),
-    ]  # fmt: skip
+        listed("nunes2017", "unburnt", varied, abs(varied / 2.5 - 1) < 0.1),
+        listed("nunes2017", "top", near[1] / near[0], near[1] > near[0], own=near[1], rival=near[0]),
+        listed("nunes2017", "sinusoidal", higher[1], higher[1] < 1e-12, rival=higher[0]),
+    ]
 
 
 def _moved(case: str) -> tuple[np.ndarray, np.ndarray]:

@@ -3,6 +3,8 @@
 The source prints no data. What follows from geometry needs none: four rod journals of equal mass, two to an axis.
 """
 
+from functools import partial
+
 import numpy as np
 
 from mechsym import mechanisms
@@ -12,7 +14,7 @@ from mechsym.mechanisms import constraints
 from mechsym.mechanisms.closing import Clearances, Stiffnesses, redundant_force
 from mechsym.mechanisms.record import curves
 from mechsym.mechanisms.rodless import RodlessParameters
-from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, REPRODUCED, SLIP, Row, row
+from mechsym.papers.rows import NOT_COMPUTABLE, NOT_REPRODUCED, SLIP, Row, listed
 from mechsym.papers.sources import Weighed, weighed
 
 RADIUS, SPEED, MASS = 0.04, 300.0, 1.0  # any: the results are pure numbers [m], [rad/s], [kg] per rod journal
@@ -29,6 +31,7 @@ def inertia_resultant(alpha: np.ndarray) -> np.ndarray:
     return -2 * MASS * SPEED**2 * np.array([slopes["d2x_a_dalpha2"], slopes["d2x_b_dalpha2"]])
 
 
+_row = partial(listed, "prymak")
 _ROUNDING = 1e-12
 _CASE, _ERROR = "balandin", 10e-6  # sizes assumed there, and a small error of a crank's radius [m]
 
@@ -36,8 +39,7 @@ _CASE, _ERROR = "balandin", 10e-6  # sizes assumed there, and a small error of a
 def rows() -> list[Row]:
     """Every number and claim of the source."""
     alpha = np.linspace(0, 2 * np.pi, 721)
-    item, why = "conclusion 1: smaller losses by friction and inertia than with rods", "neither masses nor friction"
-    without_data = row(item, None, None, NOT_COMPUTABLE, f"{why} coefficients are printed")
+    without_data = _row("losses", None, NOT_COMPUTABLE)
     return [*_resultant_rows(alpha), *_reaction_rows(), *_accuracy_rows(), without_data]
 
 
@@ -51,43 +53,20 @@ def _resultant_rows(alpha: np.ndarray) -> list[Row]:
     turned = float(np.abs(np.exp(1j * alpha) - (along_x + 1j * along_y) / size).max())
     to_rod = np.degrees(np.arctan2(np.abs(along_y), np.abs(along_x)))
     return [
-        row(
-            "(4): resultant inertia force over m r omega^2, constant", "4", float(size.mean()),
-            SLIP if constant else NOT_REPRODUCED,
-            f"under the root the sums must be squared; the terms squared, as printed, give {printed.max():.3f}",
-        ),
-        row(
-            "(5): sums by axis over m r omega^2, largest difference", "-4 cos alpha, -4 sin alpha", off,
-            REPRODUCED if off < _ROUNDING else NOT_REPRODUCED, "harmonic, no second order; the print counts inwards",
-        ),
-        row(
-            "(5): direction of the resultant, largest difference [rad]", "tan phi = tan alpha", turned,
-            REPRODUCED if turned < _ROUNDING else NOT_REPRODUCED, "the resultant turns with the crank",
-        ),
-        row(
-            "conclusion 3: direction of the inertia force, largest angle to the rod of axis a [deg]", "along the rod",
-            float(to_rod.max()), REPRODUCED if to_rod.max() < 1e-6 else NOT_REPRODUCED,
-            "contradicts (5): the rods stay on their axes while the resultant turns",
-        ),
-    ]  # fmt: skip
+        _row("constant", float(size.mean()), SLIP if constant else NOT_REPRODUCED, printed=printed.max()),
+        _row("sums", off, off < _ROUNDING),
+        _row("direction", turned, turned < _ROUNDING),
+        _row("along_the_rod", float(to_rod.max()), to_rod.max() < 1e-6),
+    ]
 
 
 def _reaction_rows() -> list[Row]:
     mechanism = mechanisms.build("rodless_constraints", PARAMETERS)
     solution = constraints.solve(mechanism, constraints.close(mechanism, {mechanism.coordinates[0]: 0.7}))
-    rank, count = solution.rank, solution.count
-    closed = f"rank {rank} of {count}, determined are X_a cos alpha - X_b sin alpha and the tangential pin force"
     return [
-        row(
-            "(1), Fig. 2: guide reactions X_i as functions of alpha", None, None, NOT_COMPUTABLE,
-            f"no closed form is printed, and the rigid mechanism does not determine them: {closed}; mechsym gives them "
-            "with a named closing rule",
-        ),
-        row(
-            "conclusion 2: side force on the pistons", "none", None, NOT_COMPUTABLE,
-            "the guides of the sliders take the side force instead, so its size on the piston depends on clearances",
-        ),
-    ]  # fmt: skip
+        _row("reactions", None, NOT_COMPUTABLE, rank=solution.rank, count=solution.count),
+        _row("side_force", None, NOT_COMPUTABLE),
+    ]
 
 
 def _accuracy_rows() -> list[Row]:
@@ -95,21 +74,9 @@ def _accuracy_rows() -> list[Row]:
     closing = load(_CASE).need("closing")
     play, tight = (_radial_force(closing, gap) for gap in (_ERROR, 0.0))
     return [
-        row(
-            "introduction: pin force of a crank 10 um too long, case balandin without play [N]",
-            "high accuracy cannot be reached", tight, NOT_COMPUTABLE,
-            f"no tolerance, size or stiffness is printed; with stiffnesses assumed, all positions alike; {play:.0f} N "
-            "with as much radial play of the pin",
-        ),
-        row(
-            "introduction: kinematic scheme that A. Vul proposed in place of Balandin's", "changed", None,
-            NOT_COMPUTABLE, "the text says that it was changed and why, and neither draws nor describes it",
-        ),
-        row(
-            "introduction: experimental engines built under A. Vul", "surpass those that exist", None, NOT_COMPUTABLE,
-            "no engine and no figure of one is printed",
-        ),
-    ]  # fmt: skip
+        _row("accuracy", tight, NOT_COMPUTABLE, play=play),
+        *(_row(name, None, NOT_COMPUTABLE) for name in ("scheme", "built")),
+    ]
 
 
 def _radial_force(closing: Stiffnesses, play: float) -> float:

@@ -5,7 +5,7 @@ The paper does not print its gas force. What holds for every gas force gets a ve
 """
 
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -25,12 +25,13 @@ from mechsym.hinge.torque import Hinge, torque
 from mechsym.jobs.machine import machine
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine, gas_of
-from mechsym.papers.rows import ARITHMETIC, NOT_COMPUTABLE, Row, by_digits, claim, row
+from mechsym.papers.rows import ARITHMETIC, NOT_COMPUTABLE, Row, by_digits, listed
 from mechsym.papers.zotov2024.equations_printed import hinge_torque_printed, load_torque_printed
 from mechsym.periodic import even_angles
 from mechsym.quantities import record
 from mechsym.quantities.display import ratio_text
 
+_row = partial(listed, "zotov2024")
 # letter: (speed index, H [m], rho0 [m])
 _CURVES = {"a": (0, 1.0, 0.8), "b": (1, 1.0, 0.8), "c": (0, 0.4, 0.3), "d": (1, 0.4, 0.3)}
 _LEVELS = {"1": 3e6, "2": 5e6, "3": 8e6}  # [Pa]
@@ -172,7 +173,6 @@ def distances(cut: Guide) -> np.ndarray:
     return guide.path(cut)(np.linspace(0, 2 * np.pi, 1441))
 
 
-_NO_FORCE = "the gas force is not printed; computed with the cycle of zotov-89 and zotov-142"
 _ZERO = 1e-9  # of the peak
 _PRESSURES, _HEIGHTS = (3e6, 5e6, 8e6), (0.4, 1.0)  # caption of Fig. 5 [Pa], [m]
 _STEADY = 1e-6  # a ripple below this is what the simulation's tolerance leaves
@@ -181,9 +181,7 @@ _STEADY = 1e-6  # a ripple below this is what the simulation's tolerance leaves
 def rows() -> list[Row]:
     """Every number, claim and figure of the source."""
     both = engines()
-    why = "a general statement of the source's reference [21], no datum of this engine"
-    flywheel = row("flywheel inertia, up to this share of all moving parts [%]", "80", None, NOT_COMPUTABLE, why)
-    return [*_torque_rows(both), *_guide_rows(both), *_retuning_rows(both), flywheel]
+    return [*_torque_rows(both), *_guide_rows(both), *_retuning_rows(both), _row("share", None, NOT_COMPUTABLE)]
 
 
 def _torque_rows(both: Engines) -> list[Row]:
@@ -193,27 +191,13 @@ def _torque_rows(both: Engines) -> list[Row]:
     shares = [float(np.abs(h.inertia_part(phi)).max()) / peak(h) for h in both.hinges]
     ripple = _ripple_with_hinge(both)
     return [
-        row("Fig. 3: force on the piston", None, None, NOT_COMPUTABLE, f"{_NO_FORCE}, drawn as figure_3"),
-        row(
-            "Fig. 4: largest |M_h| at 142 rpm over that at 89 rpm", "2", peak(high) / peak(low), NOT_COMPUTABLE,
-            f"{_NO_FORCE}; largest |M_h| {peak(low) / 1e3:.1f} and {peak(high) / 1e3:.1f} kN m",
-        ),
-        row(
-            "factor of (8) from 89 to 142 rpm, by the square of the speed", "2", square, by_digits("2", square),
-            "the text gives the square as the reason for 'approximately 2 times'; it is (142/89)^2 for any gas force",
-        ),
-        claim(
-            "M_h proportional to the square of the speed: share of the inertia part in its peak", "proportional",
-            shares[1], abs(shares[1] - 1) < 0.05,
-            f"{shares[0]:.2f} at 89 rpm, {shares[1]:.2f} at 142 rpm with the stated cycle; the rest is the gas force, "
-            "which (8) does not square",
-        ),
+        _row("force", None, NOT_COMPUTABLE),
+        _row("peaks", peak(high) / peak(low), NOT_COMPUTABLE, low=peak(low) / 1e3, high=peak(high) / 1e3),
+        _row("square", square, by_digits("2", square)),
+        _row("inertia_share", shares[1], abs(shares[1] - 1) < 0.05, shares=shares),
         *_integral_rows(both),
-        claim(
-            "speed ripple at 89 rpm with the hinge", "constant", ripple, ripple < _STEADY,
-            "simulated with the guide a2 and constant load; holds for any gas force",
-        ),
-    ]  # fmt: skip
+        _row("ripple", ripple, ripple < _STEADY),
+    ]
 
 
 def _integral_rows(both: Engines) -> list[Row]:
@@ -221,9 +205,8 @@ def _integral_rows(both: Engines) -> list[Row]:
     for index, (letter, wanted) in enumerate(zip("ab", both.hinges, strict=True)):
         torque = printed_torque(index, phi)
         exact, printed = abs(wanted.mean_torque) / peak(wanted), float(abs(torque.mean()) / np.abs(torque).max())
-        item = f"integral of M_h over a turn, option {letter}, over 2 pi times its peak"
-        note = f"{ratio_text(printed)} with (8) as printed; 0 by (4) and (5) for any gas force"
-        lines.append(claim(item, "0", exact, max(exact, printed) < _ZERO, note))
+        zero = max(exact, printed) < _ZERO
+        lines.append(_row("integral", exact, zero, letter=letter, printed=ratio_text(printed)))
     return lines
 
 
@@ -240,38 +223,12 @@ def _guide_rows(both: Engines) -> list[Row]:
     pressed = [off[a + x] > off[a + y] for a in "abcd" for x, y in ("12", "23")]
     taller = _rounder_when_taller(both)
     stretch = [longest_stretch(g) for g in cut.values()]
-    listed = ", ".join(f"{letter} {100 * value:.0f} %" for letter, value in worst.items())
+    departures = ", ".join(f"{letter} {100 * value:.0f} %" for letter, value in worst.items())
     return [
-        claim(
-            "Fig. 5: option closest to a circle, largest departure of its guides",
-            "a",
-            worst["a"],
-            min(worst, key=lambda k: worst[k]) == "a",
-            f"(rho_max - rho_min) / mean rho: {listed}, with the stated cycle",
-        ),
-        claim(
-            "Fig. 5: a larger p0 makes the guide rounder, share of the pairs",
-            "maximum",
-            float(np.mean(pressed)),
-            all(pressed),
-            "with the stated cycle; by (11) the closing falls with A p0 for any torque",
-        ),
-        claim(
-            "Fig. 5: a larger H makes the guide rounder, share of the pairs",
-            "maximum",
-            float(np.mean(taller)),
-            all(taller),
-            "H = 0.4 and 1 m at the same rho0 = 0.8 m, with the stated cycle: the shorter spring is stiffer and closes "
-            "less; a and b are rounder than c and d by their larger rho0",
-        ),
-        row(
-            "Fig. 5: twelve guides, largest stretch of the spring beyond its height H [mm]",
-            None,
-            1e3 * max(stretch),
-            NOT_COMPUTABLE,
-            f"{_NO_FORCE}, drawn as figure_5; {sum(z > 0 for z in stretch)} of 12 guides let the spring be longer than "
-            "that somewhere, which the paper does not discuss",
-        ),
+        _row("roundest", worst["a"], min(worst, key=lambda k: worst[k]) == "a", listed=departures),
+        _row("pressed", float(np.mean(pressed)), all(pressed)),
+        _row("taller", float(np.mean(taller)), all(taller)),
+        _row("stretch", 1e3 * max(stretch), NOT_COMPUTABLE, longer=sum(z > 0 for z in stretch)),
     ]
 
 
@@ -291,48 +248,21 @@ def _retuning_rows(both: Engines) -> list[Row]:
     p0, paper, best = PRESSURES[0], retuned(PRESSURES[1]), best_pressure()
     steadiest = {name: _least_ripple(engines(name)) for name in VARIANTS}
     ripples = ", ".join(f"{name} {100 * ripple:.1f} %" for name, ripple in steadiest.items())
-    proportional = _departure_from_proportional(both.cut)
+    printed, absolute = (_departure_from_proportional(cut) for cut in (both.cut, both.placed))
+    stopped = paper.ripple_propeller_load
+    fate = "the engine stops" if stopped is None else f"{100 * stopped:.1f} %"
     return [
-        row("factor of p0 from 5 to 9.5 MPa", "1.9", PRESSURES[1] / p0, ARITHMETIC, "the caption's own two pressures"),
-        claim(
-            "(14): M_h* proportional to p0, largest relative departure",
-            "proportional",
-            proportional,
-            proportional < _ZERO,
-            f"with the law of (9); with absolute pressure {_departure_from_proportional(both.placed):.1e}",
-        ),
-        row(
-            "Fig. 6: p0 for 142 rpm with guide a2 [MPa]",
-            "9.5",
-            best.setting / 1e6,
-            NOT_COMPUTABLE,
-            f"{_NO_FORCE}; least squares of the torque, {best.setting / p0:.2f} times 5 MPa",
-        ),
-        row(
-            "Fig. 6: curves 2 and 3, rms of their difference",
-            "visually almost coincide",
-            paper.torque_error,
-            NOT_COMPUTABLE,
-            f"{_NO_FORCE}; with the factor 1.9, over the rms of curve 3; {best.torque_error:.3f} with the best p0",
-        ),
-        row(
-            "speed ripple at 142 rpm with guide a2 retuned",
-            "almost constant",
-            next(iter(steadiest.values())),
-            NOT_COMPUTABLE,
-            f"{_NO_FORCE}; least ripple over p0, propeller load, absolute law: {ripples}; a flywheel of the usual size "
-            f"leaves 2 %; with the factor 1.9 {_fate(paper.ripple_propeller_load)}",
-        ),
+        _row("factor", PRESSURES[1] / p0, ARITHMETIC),
+        _row("proportional", printed, printed < _ZERO, absolute=absolute),
+        _row("pressure", best.setting / 1e6, NOT_COMPUTABLE, ratio=best.setting / p0),
+        _row("curves", paper.torque_error, NOT_COMPUTABLE, best=best.torque_error),
+        _row("retuned", next(iter(steadiest.values())), NOT_COMPUTABLE, ripples=ripples, fate=fate),
     ]
 
 
 def _least_ripple(both: Engines) -> float:
     ripple = retune(both.placed, both.hinges[1], "least_ripple_propeller_load").ripple_propeller_load
     return float("nan") if ripple is None else ripple
-
-
-def _fate(ripple: float | None) -> str:
-    return "the engine stops" if ripple is None else f"{100 * ripple:.1f} %"
 
 
 def _departure_from_proportional(cut: Guide) -> float:

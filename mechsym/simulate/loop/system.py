@@ -61,13 +61,10 @@ def engine_at(loop: Loop, k: int) -> ClosedEngine:
 def right_side(loop: Loop) -> ca.Function:
     """The differential equation of a loop.
 
-    Returns
-    -------
-    function : casadi.Function
-        (y, held) -> dy/dt and the pressures of the cylinders [Pa]. y: coordinates, velocities, then for each cylinder
-        temperature [K], work and heat to the walls since the inlet closed [J], then work of the pistons, of the load
-        and what dampers take [J]. held, for each cylinder: phase, start [rad], duration [rad], and the angle of its
-        last firing dead centre [rad]
+    Returns function: (y, held) -> dy/dt and the pressures of the cylinders [Pa]. y: coordinates, velocities, then for
+    each cylinder temperature [K], work and heat to the walls since the inlet closed [J], then work of the pistons, of
+    the load and what dampers take [J]. held, for each cylinder: phase, start [rad], duration [rad], and the angle of
+    its last firing dead centre [rad].
     """
     q_names, n = loop.mechanism.coordinates, len(loop.mechanism.coordinates)
     count = len(loop.cylinders)

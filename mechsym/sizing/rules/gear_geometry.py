@@ -172,23 +172,11 @@ def interference_margins(pair: Pair) -> dict[str, float]:
         \text{tip} = \tfrac{z_1}{z_2}\theta_1 + \mathrm{inv}\,\varphi - \mathrm{inv}\,\varphi_{a2} - \theta_2 \\
         \text{base} &= R_{a2} - R_{b2}
 
-    Returns
-    -------
-    margins : dict of str to float
-        `involute` (contact begins outside the pinion's base circle) and `base` (the ring's inner circle outside its
-        base circle) in modules [-], `tip` (the tips pass each other, fouling) [rad]
-
-    Raises
-    ------
-    BadInput
-        External pair
-
-    Notes
-    -----
+    Returns margins: `involute` (contact begins outside the pinion's base circle) and `base` (the ring's inner circle
+    outside its base circle) in modules [-], `tip` (the tips pass each other, fouling) [rad]. Raises BadInput: external
+    pair.
     Source: Elements of Metric Gear Technology (SDP/SI), eqs. 5-3 to 5-7; the base circle: Nunes (2017), ch. 4.4.3.
 
-    Examples
-    --------
     >>> pair = Pair(kind="internal", module=1e-3, teeth_1=26, teeth_2=52, pressure_angle=0.4363323129985824, shift=0.5)
     >>> all(margin > 0 for margin in interference_margins(pair).values())
     True

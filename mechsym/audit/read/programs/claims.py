@@ -239,8 +239,10 @@ class _Build:
         about = self._about(let)
         if let.name == "return":
             if tree is not None:
-                self._claim(let, tree, about or self.scope.name, case)
+                self._claim(let, tree, about, case)
             return
+        if _uses_itself(let):  # what it was before is a step on the way
+            self.claims = [c for c in self.claims if c.name != let.name or c.line >= let.line]
         letter = self._fresh(let.name)
         if about:
             self.abouts.setdefault(let.name, about)

@@ -1,0 +1,79 @@
+"""What each line of docs/upstream.md costs, computed without the auditor: `python -m benchmarks.auditor.upstream`."""
+
+import numpy as np
+
+
+def newton(slope, target: float, share: float, start: float = 20.0) -> int:
+    """Steps of Newton's iteration for tan(x) - x = tan(target) - target, in degrees; `share` of each is taken."""
+    x, wanted = np.radians(start), np.radians(target)
+    for step in range(100):
+        left = np.tan(x) - x - (np.tan(wanted) - wanted)
+        if abs(left) < 2e-10:
+            return step
+        x -= share * left / slope(x)
+    return 100
+
+
+def hertz() -> tuple[float, float]:
+    """Larger relative radius of two bodies with radii 10 and 100, and 20 and 200, in the same planes [mm]."""
+    first, second = 1 / 10 - 1 / 100, 1 / 20 - 1 / 200
+    half = (1 / 10 + 1 / 100 + 1 / 20 + 1 / 200) / 2
+    # the curvatures of the gap along the two planes are the sums of the bodies' own
+    return 1 / (half - np.hypot(first, second) / 2), 1 / min(1 / 10 + 1 / 20, 1 / 100 + 1 / 200)
+
+
+def volume(sign: float) -> np.ndarray:
+    """Cylinder volume over half a turn in steps of a degree, bore 7.05, stroke bore/1.1, rod 3.5 cranks, r_c 10."""
+    crank = 7.05 / 1.1 / 2
+    rod, phi = 3.5 * crank, np.radians(np.arange(181))
+    pin = crank * np.cos(phi) + np.sqrt(rod**2 + sign * (crank * np.sin(phi)) ** 2)
+    return 1500 / 6 / 9 + (rod + crank - pin) * np.pi * 7.05**2 / 4
+
+
+def mean_speed() -> tuple[float, float]:
+    """Mean speed of a piston by its travel: stroke 2, one turn a second; and omega/2/pi*stroke."""
+    phi = np.linspace(0, 2 * np.pi, 100_001)
+    place = np.cos(phi) + np.sqrt(9 - np.sin(phi) ** 2)
+    return float(np.sum(np.abs(np.diff(place)))), 2 * np.pi / 2 / np.pi * 2
+
+
+def cam_radius(arm: float = 1.8, pivot: float = 2.0, start: float = np.pi / 6) -> tuple[float, float]:
+    """Radius of curvature of the path of a roller's centre on an arm that swings by 0.1 sin a, by differences, at 0.7;
+    and as written."""
+
+    def centre(a: float) -> complex:
+        b = start + 0.1 * np.sin(a)
+        return (pivot - arm * np.cos(b) + 1j * arm * np.sin(b)) * np.exp(1j * a)
+
+    a, h = 0.7, 1e-4
+    before, here, after = (centre(a + k * h) for k in (-1, 0, 1))
+    slope, bend = (after - before) / (2 * h), (after - 2 * here + before) / h**2
+    radius = abs(slope) ** 3 / (slope.conjugate() * bend).imag
+    b, rate, second = start + 0.1 * np.sin(a), 0.1 * np.cos(a), -0.1 * np.sin(a)
+    u = np.arctan2(arm * np.sin(b) * (1 - rate), pivot - arm * np.cos(b) * (1 - rate))
+    turned = arm * (1 - rate) * rate * np.cos(b + u) - arm * second * np.sin(b + u)
+    uh = turned / (pivot * np.cos(u) - arm * (1 - rate) * np.cos(b + u))
+    return radius, (arm * np.cos(b) * (1 - rate) + pivot) / ((1 + uh) * np.cos(u))
+
+
+def main() -> None:
+    """Print the numbers in the order of the page."""
+    for target in (25, 35):
+        steps = newton(lambda x: 1 / np.cos(x) - 1, target, 0.5), newton(lambda x: np.tan(x) ** 2, target, 1.0)
+        print(f"freecad.gears: to {target} degrees {steps[0]} halved steps as written, {steps[1]} whole ones")
+    print("tribology: larger relative radius {:.1f} mm as written, {:.1f} mm".format(*hertz()))
+    print("ThermoCycle: mean piston speed {:.3f} by its travel, {:.3f} as written".format(*mean_speed()))
+    written, right = volume(1), volume(-1)
+    worst = int(np.argmax(np.abs(written / right - 1)))
+    print(f"EMAE360: at {worst} degrees {written[worst]:.1f} cm^3 as written, {right[worst]:.1f} cm^3")
+    print("Chrono: radius {:.4f} by differences, {:.3f} as written".format(*cam_radius()))
+    print(f"ModelingProject3: 1e-3 m^3 and 10 have {9 / 1e-3:.0f} as written, {1e-3 / 9:.2e} m^3")
+    print(f"gearCalculator: 24 teeth of pitch 10, outside 2.6 in: {2.6 * 10 + 2:.0f} teeth as written")
+    swept = np.pi * 0.04**2 * 0.02 / 2
+    print(
+        f"Projet-Bielle-DAM: at the dead centre {10 * swept / 2 + swept / 19:.2e} m^3 as written, {swept / 19:.2e} m^3"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,179 @@
+"""Whole files and folders of programs: slips are found, and what only looks alike is left alone."""
+
+import json
+import random
+
+import pytest
+from click.testing import CliRunner
+
+from mechsym.audit.hosts import findings as told
+from mechsym.audit.hosts.repository import audited, counts, findings, programs
+from mechsym.audit.judge.asked import Asked
+from mechsym.audit.read.programs.claims import read_program
+from mechsym.audit.read.spelling import to_python
+from mechsym.cli import mechsym
+from mechsym.errors import BadInput
+
+NONE = Asked(text="", against="")
+
+
+def rows_of(tmp_path, files):
+    for name, text in files.items():
+        place = tmp_path / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return findings(list(audited(tmp_path, NONE, programs(tmp_path))))
+
+
+# a piston's place with a sign under the root, in the manner of each language; {sign} is - where it is right
+PLACES = {
+    "p.py": "def place(crank_radius, rod_length, theta):\n"
+    "    s = crank_radius*np.cos(theta) + np.sqrt(rod_length**2 {sign} (crank_radius*np.sin(theta))**2)\n"
+    "    return s\n",
+    "p.m": "function s = place(theta)\n% theta: crank angle [deg]\ncrank_rad = 5; rod_len = 18; % cm\n"
+    "s = crank_rad*cosd(theta) + sqrt(rod_len^2 {sign} crank_rad^2*sind(theta).^2);\nend\n",
+    "p.cpp": "double Crank::place(double theta) const {\n  double s = crankRadius*std::cos(theta) // place\n"
+    "    + std::sqrt(rodLength*rodLength {sign} pow(crankRadius*sin(theta), 2));\n  return s;\n}\n",
+    "P.java": "class P { double rodLength, crankRadius; double place(double theta) { double s ="
+    " crankRadius*Math.cos(theta) + Math.sqrt(rodLength*rodLength {sign} Math.pow(this.crankRadius"
+    "*Math.sin(theta), 2)); return s; } }\n",
+    "p.js": "function place(c, theta) {\n  const s = c.crankRadius*Math.cos(theta) + Math.sqrt(c.rodLength**2 {sign} "
+    "(c.crankRadius*Math.sin(theta))**2);\n  return s;\n}\n",
+    "p.jl": "function place(crank_radius, rod_length, theta)\n    s = crank_radius*cos(theta) + "
+    "sqrt(rod_length^2 {sign} crank_radius^2*sin(theta)^2)\n    return s\nend\n",
+    "p.f90": "real(8) function place(crank_radius, rod_length, theta) result(s)\n  real(8) :: crank_radius\n"
+    "  s = crank_radius*cos(theta) + SQRT(rod_length**2 &\n    {sign} (crank_radius*sin(theta))**2)\nend function\n",
+    "P.mo": 'model P "piston"\n  parameter Real crank_radius = 0.05;\n  parameter Real rod_length(unit = "m") = 0.18;\n'
+    "equation\n  s = crank_radius*cos(theta) + sqrt(rod_length^2 {sign} (crank_radius*sin(theta))^2);\nend P;\n",
+}
+
+
+@pytest.mark.parametrize("name", PLACES)
+def test_a_sign_under_the_root_in_every_language(tmp_path, name):
+    if name not in ("p.py", "P.mo"):
+        pytest.importorskip("tree_sitter")
+    assert rows_of(tmp_path / "right", {name: PLACES[name].replace("{sign}", "-")}) == []
+    (row,) = rows_of(tmp_path / "wrong", {name: PLACES[name].replace("{sign}", "+")})
+    assert (row["verdict"], row["claim"], row["file"]) == ("misprint", "cylinder_volume.s", name)
+    assert row["correction"] and row["max_rel_error"] > 0.05
+
+
+# attacks on precision, written before the code: none of these is wrong
+ATTACKS = {
+    "a parameter": 'model K\n  parameter Real b = 0.69 "Peclet exponent";\n  parameter Real a = 0.56;\nend K;\n',
+    "polar coordinates": "def f(r, phi, l):\n    x = r*cos(phi)\n    y = r*sin(phi)\n    v = r*sin(phi)*l\n",
+    "another unit": "def f(bore, stroke):\n    V_d = 3.14159265358979/4*bore**2*stroke/1000\n    return V_d\n",
+    "degrees": "def f(crank_radius, rod_length, theta):\n    x = theta*pi/180\n"
+    "    s = crank_radius*cos(theta*pi/180) + sqrt(rod_length**2 - (crank_radius*sin(theta*pi/180))**2)\n",
+    "the other sense": "def f(crank_radius, rod_length, theta):\n"
+    "    s = -crank_radius*cos(theta) - sqrt(rod_length**2 - (crank_radius*sin(theta))**2)\n    return s\n",
+    "the other origin": "def f(crank_radius, rod_length, theta):\n    x = crank_radius*cos(theta) + "
+    "sqrt(rod_length**2 - (crank_radius*sin(theta))**2)\n    return x\n",
+    "a step on the way": "def f(crank_radius, rod_length, theta):\n"
+    "    root = sqrt(rod_length**2 - (crank_radius*sin(theta))**2)\n    return crank_radius*cos(theta) + root\n",
+    "other letters of the same names": "def f(r, l, B, p):\n    s = r + l*B\n    V = p*r/l\n    return s*V\n",
+    "a speed by revolutions": "def f(stroke, rpm):\n    mean_piston_speed = 2*stroke*rpm/60\n",
+    "a derivative by degrees": "def f(a, t):\n    V = a*sin(t*pi/180)\n    dV_dt = a*cos(t*pi/180)*pi/180\n",
+    "a partial derivative": "def f(a, t):\n    y = interp(a, t)\n    V = a*y\n    dV_dt = a*0 + y*t\n    return V\n",
+    "changed in place": "def f(bore, stroke):\n    V_d = bore**2*stroke\n    V_d *= 0.785398\n    return V_d\n",
+    "in a branch": "def f(bore, stroke, n):\n    if n > 1:\n        stroke = stroke/2\n    V = bore*stroke\n",
+}
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+def test_what_only_looks_alike_is_no_finding(tmp_path, attack):
+    assert rows_of(tmp_path, {f"a{'.mo' if 'model' in ATTACKS[attack] else '.py'}": ATTACKS[attack]}) == []
+
+
+NEWTON = "def solve(a):\n    def inv(x):\n        return np.tan(x) - x\n    def f(x):\n        return inv(x) - a\n"
+
+
+def test_a_derivative_that_is_none_is_found_by_the_program_itself(tmp_path):
+    wrong = NEWTON + "    def d_f(x):\n        return 1.0/np.cos(x) - 1\n    return root(f, d_f)\n"
+    (row,) = rows_of(tmp_path / "1", {"n.py": wrong})
+    assert row["verdict"] == "derivative" and row["correction"] == "1.0/cos(x)**2 - 1" and row["line"] == 7
+    assert rows_of(tmp_path / "2", {"n.py": wrong.replace("np.cos(x) -", "np.cos(x)**2 -")}) == []
+    wrong = "def g(r, t):\n    V = r*sin(t)**2\n    dV_dt = r*sin(t)*cos(t)\n    return dV_dt\n"
+    (row,) = rows_of(tmp_path / "3", {"n.py": wrong})
+    assert row["claim"] == "the derivative of V by t"
+
+
+def test_a_mean_speed_that_counts_one_stroke_and_a_fraction_turned_over(tmp_path):
+    text = "def f(stroke, rpm):\n    u = rpm/60*stroke  # mean piston speed [m/s]\n    return u\n"
+    (row,) = rows_of(tmp_path / "1", {"u.py": text})
+    assert row["claim"] == "piston_speed.mean_piston_speed" and row["max_rel_error"] == pytest.approx(0.5)
+    text = "def f(Vd, compression_ratio):\n    clearance_volume = (compression_ratio - 1)/Vd\n"
+    (row,) = rows_of(tmp_path / "2", {"v.py": text})
+    assert row["claim"] == "cylinder_volume.V_c" and "inverted" in row["note"]
+
+
+def test_whole_numbers_of_c_divide_as_c_divides_them():
+    pytest.importorskip("tree_sitter")
+    (claim,) = read_program("double f(double r, double h) { return 1/3*r*r*h; }", ".c").claims
+    assert to_python(claim.tree) == "0*r*r*h"
+
+
+def test_fields_indices_loops_and_other_letters():
+    text = "for i = 1:3\n  y(i) = c.CD*x(i)^2; z = y(i) + 1;\nend\nth3(2) = acos(q.L/c.CD); %% no\n"
+    pytest.importorskip("tree_sitter")
+    claims = {c.name: to_python(c.tree) for c in read_program(text, ".m").claims}
+    assert claims == {"y": "c·CD*x**2", "z": "y + 1", "th3_2": "acos(q·L/c·CD)"}
+
+
+def test_latin_1_broken_and_absent(tmp_path):
+    rows = rows_of(tmp_path, {"a.py": "# Stra\xdfe\nx = r*2\n".encode("latin-1"), "b.py": "def f(:\n", "c.py": b"\0\1"})
+    files = list(audited(tmp_path, NONE, programs(tmp_path)))
+    assert rows == [] and [bool(f.why) for f in files] == [False, True, True] and counts(files)["read"] == 1
+    with pytest.raises(BadInput, match="no such file or folder"):
+        programs(tmp_path / "nowhere")
+
+
+WORDS = "x = ( ) + * / ^ [ ] { } ; \n if end for def return : , . ' % // 1 2.5e3 sin r_1 & λ function model".split(" ")
+
+
+@pytest.mark.parametrize("suffix", [".py", ".mo", ".c", ".m", ".jl", ".f90", ".java", ".js"])
+def test_random_programs_give_an_answer_or_one_line(suffix):
+    if suffix not in (".py", ".mo"):
+        pytest.importorskip("tree_sitter")
+    draw = random.Random(7)
+    for _ in range(40):
+        text = " ".join(draw.choices(WORDS, k=draw.randint(1, 60)))
+        try:
+            read_program(text, suffix)
+        except BadInput as error:
+            assert "\n" not in str(error)
+    for deep in ("(" * 3000 + "x" + ")" * 3000, "x = " + "-" * 3000 + "1", "if x\n" * 2000):
+        try:
+            read_program(f"y = {deep}", suffix)
+        except BadInput as error:
+            assert "\n" not in str(error)
+
+
+def test_the_command_tells_coverage_writes_sarif_and_fails_on_what_is_new(tmp_path):
+    place, log, page = tmp_path / "src", tmp_path / "f.sarif", tmp_path / "page"
+    rows_of(place, {"p.py": PLACES["p.py"].replace("{sign}", "+")})
+    run = CliRunner().invoke(mechsym, ["audit", "--code", str(place), "--sarif", str(log), "--out", str(page)])
+    assert run.exit_code == 1 and "1 of 1 files read" in run.output and "p.py:2:" in run.output
+    (result,) = json.loads(log.read_text())["runs"][0]["results"]
+    assert result["locations"][0]["physicalLocation"]["region"] == {"startLine": 2}
+    assert "Findings" in (page / "audit.html").read_text()
+    again = CliRunner().invoke(mechsym, ["audit", "--code", str(place), "--baseline", str(log), "--json"])
+    assert again.exit_code == 0 and json.loads(again.output)["coverage"]["findings"] == 1
+    # a line above moves the finding and does not make it new
+    (place / "p.py").write_text("import numpy as np\n\n" + PLACES["p.py"].replace("{sign}", "+"))
+    assert CliRunner().invoke(mechsym, ["audit", "--code", str(place), "--baseline", str(log)]).exit_code == 0
+    (place / "q.py").write_text("def f(stroke, rpm):\n    mean_piston_speed = stroke*rpm/60\n    return 1\n")
+    assert CliRunner().invoke(mechsym, ["audit", "--code", str(place), "--baseline", str(log)]).exit_code == 1
+    log.write_text("[]")
+    refused = CliRunner().invoke(mechsym, ["audit", "--code", str(place), "--baseline", str(log)])
+    assert "neither a SARIF nor a JSON file of findings" in str(refused.exception)
+
+
+def test_a_log_says_what_sarif_asks_for(tmp_path):
+    rows = rows_of(tmp_path, {"p.py": PLACES["p.py"].replace("{sign}", "+")})
+    log = told.sarif(rows, "1.0")
+    (run,) = log["runs"]
+    assert log["version"] == "2.1.0" and {r["ruleId"] for r in run["results"]} <= {
+        r["id"] for r in run["tool"]["driver"]["rules"]
+    }
+    assert run["results"][0]["message"]["text"] and run["results"][0]["partialFingerprints"]
