@@ -66,6 +66,15 @@ def test_units_find_the_slips_of_a_thesis():
     assert sum(bool(s.sides) for s in paper.said if not s.inline) == 133
 
 
+@pytest.mark.slow
+@pytest.mark.heavy
+@pytest.mark.skipif(not SEEDS, reason="MECHSYM_TEST_SEEDS names the folder of the five sources")
+def test_a_thesis_as_it_is_has_seven_findings_that_its_registry_knows():
+    rows, cover = check_whole(next(Path(SEEDS).glob("004*")))
+    assert blamed(rows) == ["2.16", "2.17", "2.46", "2.49", "2.53", "2.60", "2.71"]
+    assert cover.read == cover.equations == 133 and cover.judged >= 0.6 * cover.equations
+
+
 @pytest.mark.parametrize(
     ("text", "sides"),
     [

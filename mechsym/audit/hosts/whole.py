@@ -272,7 +272,8 @@ class _Judge:
         if _PUT_BACK.search(row["note"]) and units.id_of(said) not in self.odd:
             return None  # what is left out may be 1 there; with a unit it cannot
         right = read_expression(row["correction"], (), AnyLetter())[0]
-        spelled = {k: v for k, v in said.spelled.items()} | {f"{self.world.angle}d": r"\dot{\varphi}"}
+        everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
+        spelled = everywhere | dict(said.spelled) | {f"{self.world.angle}d": r"\dot{\varphi}"}
         spelled |= {a: said.spelled[k] for k, a in self.world.aliases.items() if k in said.spelled}
         left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
         if left:
