@@ -108,6 +108,26 @@ def wobble(phi, phid, p):
     return machine, [*loads, (shaft, np.zeros(3), np.array([0, 0, p["M"]]), zero)]
 
 
+def pump(phi, phid, p):
+    barrel, zero, tip = Body(0.0, (0, 0, p["I"])), (0, 0, 0), (0, 0, -p["l"])
+    barrel.R = about((0, 0, 1), phi)
+    joints, bodies, loads = [revolute("A", GROUND, barrel, zero, zero, EYE[2], EYE[2])], [barrel], []
+    for k in range(3):
+        bore = p["R"] * about((0, 0, 1), 2 * np.pi * k / 3)[:, 0]
+        piston = Body(p["m_p"], (p["A"], p["A"], p["C"]), R=barrel.R)
+        shoe = barrel.R @ bore
+        shoe[2] = np.tan(p["tilt"]) * shoe[0]
+        piston.r = shoe + [0, 0, p["l"]]
+        joints.append(prismatic(f"G{k + 1}", barrel, piston, bore, tip, EYE[2]))
+        normal = [-np.sin(p["tilt"]), 0, np.cos(p["tilt"])]
+        joints.append(Rows(f"S{k + 1}", GROUND, piston, zero, tip, [("plane", normal)]))
+        bodies.append(piston)
+        pressed = np.array([0, 0, p[f"F{k + 1}"]])  # between piston and barrel, whose bottom bears it
+        loads += [(piston, -pressed, np.zeros(3), zero), (barrel, pressed, np.zeros(3), bore)]
+    machine = Machine(bodies, joints).close().move([0, 0, 0, 0, 0, phid])
+    return machine, [*loads, (barrel, np.zeros(3), np.array([0, 0, p["M"]]), zero)]
+
+
 def door(phi, phid, p):
     leaf = Body(p["mass"], (p["Ix"], p["Iy"], p["Iz"]))
     leaf.R = about((0, 0, 1), phi)
@@ -130,6 +150,10 @@ NUMBERS = {
     "wobble": (
         wobble,
         dict(tilt=0.35, R=0.06, l=0.1, s=0.07, I=0.01, A=0.002, C=0.003, m_p=0.4, m_w=0.9, J=2e-4, F=150.0, M=3.0),
+    ),
+    "pump": (
+        pump,
+        dict(tilt=0.3, R=0.04, m_p=0.15, l=0.02, I=0.003, A=5e-5, C=1e-5, F1=800.0, F2=150.0, F3=900.0, M=6.0),
     ),
     "door": (door, dict(w=0.9, h=2.0, mass=25.0, Ix=8.0, Iy=10.0, Iz=2.0, tilt=0.05)),
 }  # fmt: skip

@@ -1,6 +1,6 @@
-"""Linkages in space: RSSR, RSSP, Hooke's joint, a wobble plate, a door on two hinges."""
+"""Linkages in space: RSSR, RSSP, Hooke's joint, a wobble plate, an axial pump, a door on two hinges."""
 
-from mechsym.derive import Mechanism, cos, sin
+from mechsym.derive import Mechanism, cos, pi, sin
 
 
 def rssr():
@@ -76,6 +76,28 @@ def wobble():
     m.spherical("D", rod.at(0, 0, l), piston)
     m.force_at((0, 0, -F), piston)
     m.torque(M, along=phi)
+    return m
+
+
+def pump():
+    m = Mechanism(
+        "pump", space=3, about="An axial pump: pistons in a barrel that turns, their shoes on a plate that stands."
+    )
+    phi = m.coordinates("phi")
+    tilt, R = m.parameters("tilt", "rad", above=0, below=0.6), m.parameters("R", "m", above=0)
+    m_p, l = m.parameters("m_p", "kg", above=0), m.parameters("l", "m")  # of a piston, its centre above the shoe
+    I, A, C = m.parameters("I A C", "kg*m^2", above=0)  # barrel; a piston across and along
+    M = m.inputs("M", "N*m")
+    barrel, plate = m.link("barrel", inertia=I), m.frame.axis((-sin(tilt), 0, cos(tilt)))
+    m.revolute("A", m.frame, barrel, axis="z", turns=phi)
+    for k, F in enumerate(m.inputs("F1 F2 F3", "N")):
+        place = 2 * pi * k / 3
+        piston = m.link(f"piston{k + 1}", mass=m_p, centre=(0, 0, l), inertia=(A, A, C))
+        bore = m.prismatic(f"G{k + 1}", barrel.at(R * cos(place), R * sin(place), 0), piston, axis="z")
+        m.plane(f"S{k + 1}", plate, piston)
+        m.force(-F, along=bore.slide)  # the pressure acts on the barrel's bottom too
+    m.torque(M, along=phi)
+    m.rotor("shaft", angle=phi, drive=M)
     return m
 
 

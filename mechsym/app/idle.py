@@ -124,7 +124,7 @@ def _weighed(case: Case, data: object) -> str | None:
 
 
 def _family(case: Case, data: object) -> str | None:
-    return "codesign.scavenge tells it at each load" if case.need("codesign").scavenge else None
+    return "the scavenging of the co-design tells it at each load" if case.need("codesign").scavenge else None
 
 
 _REACH = 2.0  # as far as sliders go, times the value

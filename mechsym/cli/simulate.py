@@ -82,6 +82,9 @@ def _rest(case: "Case") -> None:
     places = [*(done.rests[0].at if done.rests else ())]
     units = done.rests[0].at.units if done.rests else {}
     more = "" if done.complete else "\nlooked for about the start: there may be more"
+    if done.singular:
+        ends = ", ".join(f"{math.degrees(angle):.2f} deg" for angle in done.singular)
+        more = f"\nlooked for up to singular poses of the loops, {ends}: behind them there may be more"
     text = table(rows, [*places, "", "frequencies [Hz]"], units) if rows else "it stays at rest nowhere"
     emit(done, lambda: text + more)
 

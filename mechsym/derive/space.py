@@ -14,7 +14,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, ClassVar
 
-from sympy import Expr, Integer, Symbol, cos, pi, sin, sqrt
+from sympy import Expr, Integer, Rational, Symbol, cos, pi, sin, sqrt
 
 from mechsym.derive import rates
 from mechsym.derive import vectors as vec
@@ -235,7 +235,8 @@ class SpatialDeclaration(Declaration):
             if value not in AXES:
                 refuse(f"{value!r} is no direction; there are {', '.join(AXES)}, or three values")
             return AXES[value]
-        x, y, z = (self._checked(v, "", "direction") for v in three(value))
+        exact = (Rational(repr(v)) if isinstance(v, float) else v for v in three(value))
+        x, y, z = (self._checked(v, "", "direction") for v in exact)
         return vec.unit((x, y, z), f"the direction {value}")
 
     # places
@@ -250,7 +251,7 @@ class SpatialDeclaration(Declaration):
                 refuse(
                     f"link {loose.name!r} hangs on nothing that is placed; join it, or m.free('..', link)", loose.where
                 )
-            self._hang(min(hanging, key=lambda j: (not j.given and j.kind != "free", KINDS[j.kind].count(j))))
+            self._hang(min(hanging, key=lambda j: (not j.comes_first, KINDS[j.kind].count(j))))
 
     def _hang(self, joint: SpaceJoint) -> None:
         joint.child = child = joint.second.link if joint.second.link.part is None else joint.first.link

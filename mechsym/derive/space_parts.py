@@ -85,6 +85,7 @@ class SpaceJoint:
     length: Expr = O
     axes: SpaceLink | None = None  #: In whose axes its reactions are told; the frame's without
     where: str = ""
+    asked: bool = False  #: Whether a formula takes a coordinate of it, so that it hangs before others
     child: SpaceLink | None = None  #: What it has placed
     parts: tuple[TreeBody, ...] = ()
     freedoms: list[Freedom] = field(default_factory=list)
@@ -96,16 +97,22 @@ class SpaceJoint:
         first, second = (JointSide(s.link.part, s.at, s.direction or NONE) for s in (self.first, self.second))
         return first, second
 
+    @property
+    def comes_first(self) -> bool:
+        """Whether it hangs a body before joints of few freedoms do: by coordinates that a formula takes, or freely."""
+        return bool(self.given) or self.asked or self.kind == "free"
+
     def coordinate(self, turns: bool, number: int = 0) -> Expr:
         """A coordinate of the joint: of its turns [rad] or of its ways [m], the first where there are several."""
         m = self.second.link.m
+        self.asked = True
         m.settle(self.second.link)
         values = [f.value for f in self.freedoms if f.turns is turns]
         if number >= len(values):
-            why = "closes a loop" if self.child is None else f"has {len(values)} of them"
-            refuse(
-                f"the {self.kind} joint {self.name!r} has no such coordinate: it {why}; name one by turns= or slides="
-            )
+            why = f"has {len(values)} of them"
+            if self.child is None:
+                why = "closes a loop; ask it before coordinates of other joints"
+            refuse(f"the {self.kind} joint {self.name!r} has no such coordinate: it {why}")
         return values[number]
 
     turn = property(lambda self: self.coordinate(True), doc="Its turn, of the second against the first [rad].")

@@ -104,6 +104,7 @@ def choose(
     dependents = _dependents(m, slopes[0][rows][:, loose], loose, rank)
     _require_held(m, [np.asarray(functions[1](x)) for x in poses], slopes)
     guesses = {**{q: m.guesses.get(q.name, 0.0) for q in m.dependent_list}, **m.own}
+    guesses |= _assembled(m, functions[0], guesses, poses[0])
     free = [scipy.linalg.null_space(j.T, rcond=_TOLERANCE) for j in slopes]
     return ClosureChoice(rows=[names[i] for i in rows], dependents=dependents, guesses=guesses, count=len(names),
                   free=free, poses=poses, names=names)  # fmt: skip
@@ -187,6 +188,26 @@ def _poses(m: Declaration, function: ca.Function) -> list[np.ndarray]:
             f"the loops of {m.name} close nowhere near their pose; give joints a pose=, or other sizes", m.where[m.name]
         )
     return found
+
+
+def _assembled(
+    m: Declaration, function: ca.Function, guesses: Mapping[Symbol, float], near: np.ndarray
+) -> dict[Symbol, float]:
+    """Where the loops close near the guesses, declared coordinates in their pose; nothing where letters lack values."""
+    letters, fixed = _letters(m), set(m.parameter_list)
+    if any("default" not in m.ranges.get(s.name, {}) for s in fixed):
+        return {}
+    first = {**{q: m.poses.get(q.name, 0.0) for q in m.q}, **guesses}
+    generator, moves = np.random.default_rng(1), np.array([s in guesses for s in letters])
+    for k in range(_TRIES):
+        drawn = [_drawn(m, s, first, fixed, generator, k) for s in letters]
+        start = np.array([v if s in guesses and k else first.get(s, v) for s, v in zip(letters, drawn, strict=True)])
+        x = _closed(function, start, moves)
+        if x is not None:
+            return {s: float(v) for s, v in zip(letters, x, strict=True) if s in guesses}
+    at = [f"{s} = {v:.4g}" for s, v in zip(letters, near, strict=True) if s in m.q]
+    refuse(f"the loops of {m.name} do not close near its pose; they do at {', '.join(at)}; say m.pose(..) and pose= of "
+           "the joints, or other sizes", m.where[m.name])  # fmt: skip
 
 
 def _drawn(m: Declaration, s: Symbol, first: Any, fixed: set[Symbol], generator: np.random.Generator, k: int) -> float:

@@ -203,10 +203,13 @@ class Unilateral(Roles):
             refuse(f"the joint {joint.name!r} is a gear, which has no friction of its own; name a pin, slider or slot")
         first, second = joint.first, joint.second
         turned = second.link.angle - first.link.angle
-        if not joint.displacements or not {*joint.displacements} <= {*self.reaction_of}:
-            why = f"the joint {joint.name!r} has no reaction in closed form yet"
-            refuse(f"{why}; declare its friction behind all joints")
-        names = [self.reaction_of[d].name for d in joint.displacements]
+        names = [self.reaction_of[d].name for d in joint.displacements if d in self.reaction_of]
+        if not joint.used:  # it will close by constraint, whose multipliers have these names
+            names = [f"R_{axis}_{joint.name}" for axis in ("xy" if joint.kind == "pin" else "n")]
+        elif len(names) < len(joint.displacements):
+            refuse(
+                f"the joint {joint.name!r} has no reaction in closed form yet; declare its friction behind all joints"
+            )
         if joint.kind == "pin":
             return turned, names
         line, point = (first, second) if isinstance(first, LinkLine) else (second, first)

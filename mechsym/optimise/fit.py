@@ -313,8 +313,8 @@ def unit_columns(columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | None = None) -> ClosestMotion | None:
     """The motion that comes closest to the trace, from one nearby; None where there is no motion nearby.
 
-    states: coordinates and velocities [rad, rad/s], shape (2 n, points); theta: parameters, the one of number `held`
-    stays [SI], shape (k,).
+    states: coordinates and velocities [rad, rad/s], shape (2 n, points); theta: parameters [SI], shape (k,). What
+    has the number `held` among parameters and start stays.
     """
     here, damping = _motion(task, states, theta), _DAMPING
     if here is None:
@@ -323,8 +323,8 @@ def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | 
         # numbers of the values that may move: not the held one, none that its least value holds
         k = len(task.model.start)
         downhill = here.slopes.T @ here.rest.ravel()
-        stays = [i for i in range(k) if i == held or (here.theta[i] <= task.model.low[i] and downhill[i] <= 0)]
-        free = np.setdiff1d(np.arange(here.slopes.shape[1]), stays)
+        stays = [i for i in range(k) if here.theta[i] <= task.model.low[i] and downhill[i] <= 0]
+        free = np.setdiff1d(np.arange(here.slopes.shape[1]), stays if held is None else [*stays, held])
         columns, width = unit_columns(here.slopes[:, free])
         # what Gauss and Newton's step would take off the sum of squares, and that step
         left, singular, right = np.linalg.svd(columns, full_matrices=False)
@@ -346,6 +346,22 @@ def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | 
         else:
             damping *= 10
     return here._replace(status=f"no steady values after {_STEPS} steps")
+
+
+def pulled(task: TraceTask, here: ClosestMotion, number: int, move: float) -> ClosestMotion | None:
+    """The closest motion with a parameter or a start moved on, by its size [-] or by itself [SI]."""
+    model, k = task.model, len(here.theta)
+    others = np.delete(np.arange(here.slopes.shape[1]), number)
+    columns, width = unit_columns(here.slopes[:, others])
+    step = np.zeros(here.slopes.shape[1])
+    step[number] = move
+    target = here.rest.ravel() - here.slopes[:, number] * move
+    step[others] = np.linalg.lstsq(columns, target, rcond=1e-7)[0] / width
+    theta = np.maximum(here.theta + step[:k] * model.size, model.low)
+    step[:k] = (theta - here.theta) / model.size
+    states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
+    motion = closest(task, states, theta, number)
+    return motion if motion is not None and motion.status == "converged" else None
 
 
 def _step(task: TraceTask, here: ClosestMotion, free: np.ndarray, damping: float) -> ClosestMotion | None:

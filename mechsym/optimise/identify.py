@@ -14,7 +14,7 @@ far the trace lets go; an end that is never reached is open.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated
 
 import casadi as ca
@@ -32,6 +32,7 @@ from mechsym.optimise.fit import (
     approach,
     closest,
     grid,
+    pulled,
     unit_columns,
 )
 from mechsym.optimise.preview import require_plausible
@@ -205,8 +206,31 @@ def identify(model: TracedMotion, trace: Trace) -> Identified:
             f"{trace.file}: {why} from {_pose(model)} or a quarter turn on; {way_out}, and see whether [drive], units "
             "and the values of the case fit it"
         )
+    walked = [len(model.names) + i for i, turns in enumerate(seen) if turns]
+    fits = sorted([*fits, *(fit for i in walked for fit in _behind(task, fits[0], i))], key=lambda fit: fit.left)
     task.most = most
     return _result(task, fits)
+
+
+# a start's walk: first step in standard errors, each by the last, the widest, how many, and how high it climbs [reach]
+_FIRST, _GROWS, _WIDEST, _MOST, _RIDGE = 2.0, 1.3, 0.25, 24, 30.0
+
+
+def _behind(task: TraceTask, best: ClosestMotion, number: int) -> Iterator[ClosestMotion]:
+    """Fits behind ridges: a start walks both ways from the best one, all else follows, until nothing explains it."""
+    variance = best.left / best.rest.size
+    error = math.sqrt(float(np.linalg.pinv(best.slopes.T @ best.slopes)[number, number]) * variance)
+    reach = _T95**2 * variance
+    for side in (1, -1):
+        here, inside = best, True
+        for k in range(_MOST):
+            step = min(_FIRST * error * _GROWS**k, _WIDEST)
+            there = None if task.spent else pulled(task, here, number, side * step)
+            if there is None or there.left - best.left > _RIDGE * reach:
+                break
+            here, was_inside, inside = there, inside, there.left - best.left < reach
+            if inside and not was_inside and (fit := closest(task, here.states, here.theta)) is not None:
+                yield fit
 
 
 def _pose(model: TracedMotion) -> str:
@@ -334,20 +358,8 @@ def _distance(task: TraceTask, fit: ClosestMotion, number: int, far: float, leas
     for _ in range(_TRIALS):
         if task.spent:  # a trial that was not finished bounds nothing
             return outer[0] if math.isfinite(outer[1]) else math.inf
-        # the closest motion with one parameter held, from one nearby
-        model, theta = task.model, here.theta.copy()
-        move = ((float(fit.theta[number]) + math.copysign(distance, far)) - theta[number]) / model.size[number]
-        others = np.delete(np.arange(here.slopes.shape[1]), number)
-        columns, width = unit_columns(here.slopes[:, others])
-        step = np.zeros(here.slopes.shape[1])
-        step[number] = move
-        target = here.rest.ravel() - here.slopes[:, number] * move
-        step[others] = np.linalg.lstsq(columns, target, rcond=1e-7)[0] / width
-        theta = np.maximum(theta + step[: len(theta)] * model.size, model.low)
-        step[: len(theta)] = (theta - here.theta) / model.size
-        states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
-        motion = closest(task, states, theta, number)
-        there = motion if motion is not None and motion.status == "converged" else None
+        target = float(fit.theta[number]) + math.copysign(distance, far)
+        there = pulled(task, here, number, (target - float(here.theta[number])) / task.model.size[number])
         growth = math.inf if there is None else math.sqrt(max(there.left - least, 0.0))
         if abs(growth - wide) < _CLOSE * wide or (growth < wide and distance >= room):
             return distance

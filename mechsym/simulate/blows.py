@@ -27,18 +27,17 @@ class Blow:
     lost: float  #: Energy [J]
 
 
-def solve(elements: tuple[Numbers, ...], touching: set[int], v: Array, mass: Array, W: Array) -> Blow:
+def solve(elements: tuple[Numbers, ...], touching: set[int], v: Array, mass: Array, W: Array, along: Array) -> Blow:
     """The blow of stops that touch.
 
     v: speed along each element, below 0 where a stop closes [m/s]; mass: mass matrix [kg, kg*m^2]; W: generalised
-    force by each element's own [-]. Returns blow: of several that are
-    hit at once the one in which each keeps its own restitution; others may be as right.
+    force by each element's own [-]; along: velocities that its impulse changes [1/kg]. Returns blow: of several that
+    are hit at once the one in which each keeps its own restitution; others may be as right.
 
     Raises BadInput: no impulses satisfy all conditions, or friction would give energy to the bodies.
     """
     stops = sorted(touching)
     sliding = [i for i, e in enumerate(elements) if isinstance(e.role, FrictionRole) and e.contact in touching]
-    along = np.linalg.solve(mass, W)
     G = W.T @ along
     wanted = {i: -elements[i].sizes.get("restitution", 0.0) * min(v[i], 0.0) for i in stops}
     scale = max(float(np.abs(v).max()), 1e-300)
@@ -93,7 +92,6 @@ def _checked(change: Array, lost: float, scale: float) -> Blow:
     return Blow(change=change, lost=max(lost, 0.0))
 
 
-def stay(mass: Array, W: Array, u: Array) -> Array:
-    """Velocities u [m/s] without those along some columns of W [-], by impulses along them; mass matrix [kg]."""
-    along = np.linalg.solve(mass, W)
+def stay(W: Array, along: Array, u: Array) -> Array:
+    """Velocities u [m/s] without those along columns of W [-], by impulses that change those `along` [1/kg]."""
     return u - along @ np.linalg.lstsq(W.T @ along, W.T @ u, rcond=None)[0]

@@ -14,7 +14,7 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms.roles import FrictionRole, StopRole
 from mechsym.native.integrate import Level
 from mechsym.quantities.units import Array, Second
-from mechsym.simulate import blows
+from mechsym.simulate import blows, constrained
 from mechsym.simulate.equations import System
 from mechsym.simulate.integrate import integrate as whole_run
 from mechsym.simulate.laws import Model, model
@@ -30,6 +30,11 @@ _CHATTER = 1e-7  # of the run: a bounce that ends within this is over [-]
 _MOST, _STUCK = 100_000, 60
 _CLOSED = 1e-9  # a gap at the start, beyond which a stop is passed [m] or [rad]
 _LOOKS = 12  # at the fixed point of a leg
+_SINGULAR, _FALLS = (
+    1e-6,
+    0.3,
+)  # condition of loops that are singular; fall of a determinant, after which another is chosen
+MARGIN = "margin"
 
 
 def integrate(
@@ -39,8 +44,9 @@ def integrate(
 
     ends: ends of the stretches in which nothing jumps. Returns equations, raw, happened: equations without guards.
     """
-    known = model(problem)
+    known = model(problem, tuple(problem.mechanism.dependents))
     now = _start(problem, known)
+    known = _chosen(problem, known, now)
     times, states, steps, end, failure, idle = [np.array([now.t])], [now.y[None]], 0, "t_end", "", 0
     missed, rested, done = np.inf, False, now.t
     for _ in range(_MOST):
@@ -58,14 +64,22 @@ def integrate(
             continue
         reached = np.isin(leg.t, due)
         times.append(leg.t[reached])
-        states.append(leg.y[reached, : known.base])
+        states.append(_closed(known, leg.y[reached, : known.base]))
         _require_contraction(known, now, leg)
         idle = idle + 1 if leg.t[-1] - now.t <= 1e-15 * abs(now.t) else 0
-        now.t, now.y, steps, failure = float(leg.t[-1]), leg.y[-1, : known.base].copy(), steps + leg.steps, leg.failure
+        now.t, now.y, steps, failure = (
+            float(leg.t[-1]),
+            _closed(known, leg.y[-1:, : known.base])[0],
+            steps + leg.steps,
+            leg.failure,
+        )
         if failure or leg.end not in (*levels, "t_end") or now.t >= problem.t_end:
             end = leg.end
             break
         done = now.t  # an event made exact may lie before
+        if leg.end == MARGIN:
+            known = _chosen(problem, known, now)
+            continue
         _pass(known, now, leg.end if leg.end in levels else "", problem)
         over = wanted[(wanted > done) & (wanted <= now.t)]  # by a bounce that is summed up
         times.append(over)
@@ -89,6 +103,32 @@ def integrate(
     bare = replace(known.system, columns=known.system.columns[: known.base], units=known.system.units[: known.base])
     raw = Raw(t=all_t, y=all_y, steps=steps, end="failure" if failure else end, failure=failure)
     return bare, raw, Happened(events=tuple(now.events), contraction=now.contraction or None)
+
+
+def _chosen(problem: Problem, known: Model, now: Now) -> Model:
+    """The equations for the best choice of the coordinates that loops hold, and how far its determinant may fall.
+
+    Raises BadInput: the loops are singular there.
+    """
+    if known.margin is None:
+        return known
+    choice = constrained.choose(problem.mechanism, now.y[: known.system.size], known.dependents)
+    if choice.condition < _SINGULAR:
+        why = f"{problem.mechanism.name} comes to a singular pose of its loops at t = {now.t:.6g} s"
+        raise BadInput(f"{why}, and stops and friction go through none; end before, or start otherwise")
+    if choice.determinant < 0.5 * choice.best_determinant:
+        known = model(problem, choice.best)
+    now.floor = float(look(known, now).guards[known.margin or 0] + np.log(_FALLS))
+    return known
+
+
+def _closed(known: Model, y: np.ndarray) -> np.ndarray:
+    """States with coordinates and velocities put on the closure of the loops."""
+    n = known.system.size
+    if known.margin is None or not len(y):
+        return y.copy()
+    q_u = known.pose.map(len(y))(y[:, :n].T, y[:, n : 2 * n].T)
+    return np.hstack([*(np.asarray(v).T for v in q_u), y[:, 2 * n :]])
 
 
 def _missed(known: Model, leg: Raw) -> Second:
@@ -120,6 +160,12 @@ def _require_contraction(known: Model, now: Now, leg: Raw) -> None:
         now.contraction = max(now.contraction, rate)
 
 
+def _impulses(known: Model, now: Now) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mass matrix, generalised forces of the elements, and the velocities that their impulses change."""
+    mass, W, along, _ = (np.asarray(o) for o in known.blow.call([now.y[: known.system.size]]))
+    return mass, W, along
+
+
 def _slow(known: Model, now: Now, short: Second) -> bool:
     """Whether all that touches goes no faster than in so short a time, so that blows from stop to stop are over."""
     seen = look(known, now)
@@ -143,10 +189,10 @@ def _stay(known: Model, now: Now) -> None:
         return
     quick = [one for one in now.events if one.kind in ("hit", "rest") or one.t < now.t]
     now.events = quick  # what changed again and again without time is no event
-    mass, W = (np.asarray(o) for o in known.blow.call([now.y[:n]]))
+    mass, W, along = _impulses(known, now)
     rubbing = {k for k in frictions(known) if known.elements[k].contact in now.touching}
     u = now.y[n : 2 * n].copy()
-    now.y[n : 2 * n] = blows.stay(mass, W[:, sorted(now.touching | rubbing)], u)
+    now.y[n : 2 * n] = blows.stay(*(m[:, sorted(now.touching | rubbing)] for m in (W, along)), u)
     lost = float(u @ mass @ u - now.y[n : 2 * n] @ mass @ now.y[n : 2 * n]) / 2
     now.y[known.base - 1] += lost
     names = " and ".join(known.elements[i].role.name for i in sorted(now.touching))
@@ -155,7 +201,8 @@ def _stay(known: Model, now: Now) -> None:
 
 
 def _start(problem: Problem, known: Model) -> Now:
-    y = np.concatenate([problem.q0, problem.u0, np.zeros(known.base - 2 * known.system.size)])
+    q_u = constrained.start(problem) if known.dependents else (problem.q0, problem.u0)
+    y = np.concatenate([*q_u, np.zeros(known.base - 2 * known.system.size)])
     now = Now(t=problem.t_start, y=y, mode=np.zeros(2 * len(known.elements) + 1))
     seen = look(known, now)
     for i, (one, place) in enumerate(zip(known.elements, known.places, strict=True)):
@@ -183,6 +230,8 @@ def _levels(known: Model, now: Now) -> dict[str, Level]:
     def watch(what: str, i: int, place: int, direction: int) -> None:
         levels[f"{what} {i}"] = Level(state=base + place, level=0.0, direction=direction)
 
+    if known.margin is not None:
+        levels[MARGIN] = Level(state=base + known.margin, level=now.floor, direction=-1)
     if now.mode[-1]:
         watch("slip+", 0, len(seen.guards) - 2, 1)
         watch("slip-", 0, len(seen.guards) - 1, -1)
@@ -265,8 +314,8 @@ def _pass(known: Model, now: Now, met: str, problem: Problem) -> None:
         _chatter(known, now, problem)
     elif kind in ("release", "slip+", "slip-"):
         if kind == "release":  # what integration has left of its speed would close it again at once
-            mass, W = (np.asarray(o) for o in known.blow.call([now.y[:n]]))
-            now.y[n : 2 * n] = blows.stay(mass, W[:, [i]], now.y[n : 2 * n])
+            _, W, along = _impulses(known, now)
+            now.y[n : 2 * n] = blows.stay(W[:, [i]], along[:, [i]], now.y[n : 2 * n])
         now.events.append(RunEvent(name=one.role.name, kind=kind.rstrip("+-"), t=now.t))
     settle(known, now, banned, kind if now.mode[-1] and kind.startswith("slip") else "")
     if kind == "stick":
@@ -302,8 +351,8 @@ def _hit(known: Model, now: Now) -> None:
     closing = {i for i in now.touching if seen.v[i] < -ZERO * speed}
     if not closing:
         return
-    mass, W = (np.asarray(o) for o in known.blow.call([now.y[:n]]))
-    blow = blows.solve(known.elements, now.touching, seen.v, mass, W)
+    mass, W, along = _impulses(known, now)
+    blow = blows.solve(known.elements, now.touching, seen.v, mass, W, along)
     now.y[n : 2 * n] += blow.change
     now.y[known.base - 1] += blow.lost
     names = " and ".join(known.elements[i].role.name for i in sorted(closing))
@@ -328,9 +377,9 @@ def _chatter(known: Model, now: Now, problem: Problem) -> None:
             longest = max(longest, rest)
     if not longest:
         return
-    mass, W = (np.asarray(o) for o in known.blow.call([now.y[:n]]))
+    mass, W, along = _impulses(known, now)
     u = now.y[n : 2 * n].copy()
-    now.y[n : 2 * n] = blows.stay(mass, W[:, sorted(now.touching)], u)
+    now.y[n : 2 * n] = blows.stay(*(m[:, sorted(now.touching)] for m in (W, along)), u)
     lost = float(u @ mass @ u - now.y[n : 2 * n] @ mass @ now.y[n : 2 * n]) / 2
     now.y[known.base - 1] += lost
     settle(known, now)

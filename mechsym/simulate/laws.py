@@ -7,6 +7,9 @@ by two flags of each, K and D, which condition holds:
 
 .. math:: K_i\,\dot v_i + (1 - K_i)\,(p_i - f_i(p)) = 0,\qquad M \ddot q + h = Q + W p
 
+Where loops close by constraint, \ddot q = T a + c with the accelerations a of the coordinates that are free; which
+they are may change where the run comes near a dead point of them (the last guard is the logarithm of the determinant).
+
 A closed stop and a friction that sticks have K = 1; one that slides has f = -D \mu(v) N(p) r, N made of reactions,
 which p itself changes: Newton's method solves for all at once. Guards are what a change of mode is seen by; they are
 integrated beside the motion, so that the integrator ends a step where one is zero.
@@ -18,6 +21,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.errors import BadInput
+from mechsym.mechanisms import loops
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.record import velocities
 from mechsym.mechanisms.roles import FrictionRole, StopRole
@@ -50,7 +54,12 @@ class Model:
     holds: bool  #: Whether all friction acts on one freedom, which it may hold at rest
     #: (t, y, w) to p, v, dv/dt, limit of each, guards, rate of each column, derivative of friction by p
     look: ca.Function
-    blow: ca.Function  #: q to mass matrix and W
+    blow: (
+        ca.Function
+    )  #: q to mass matrix, W, the velocities that impulses along W change, and W of the free coordinates
+    pose: ca.Function  #: Coordinates and velocities put on the closure of the loops
+    dependents: tuple[str, ...]  #: Coordinates that the loops hold
+    margin: int | None  #: The guard that tells how far they are from a dead point
 
 
 _RANGES = {"restitution": (0, 1), "stiffness": (0, np.inf), "damping": (0, np.inf), "mu_s": (0, np.inf),
@@ -84,7 +93,7 @@ def numbers(problem: Problem) -> tuple[Numbers, ...]:
 class _Letters:
     """Letters of the equations."""
 
-    def __init__(self, problem: Problem, elements: tuple[Numbers, ...]) -> None:
+    def __init__(self, problem: Problem, elements: tuple[Numbers, ...], dependents: tuple[str, ...]) -> None:
         mechanism, n, m = problem.mechanism, len(problem.mechanism.coordinates), len(elements)
         self.t, self.q, self.u, self.p = ca.SX.sym("t"), ca.SX.sym("q", n), ca.SX.sym("u", n), ca.SX.sym("p", m)
         self.outer = outer_values(problem)
@@ -101,7 +110,16 @@ class _Letters:
         mass, bias, force = mechanism.functions["dynamics"](*q, *u, *self.inputs)
         self.mass, self.W = mass, ca.jacobian(force, self.p)
         free = ca.substitute(force, self.p, ca.SX.zeros(m))
-        self.a = ca.solve(mass, free - bias + ca.mtimes(self.W, self.p))
+        self.free, held = loops.split(mechanism, dependents)
+        T, c = loops.motion(mechanism, self.q, self.u[self.free], dependents)
+        reduced, self.along_free = ca.mtimes(T.T, ca.mtimes(mass, T)), ca.mtimes(T.T, self.W)
+        push = ca.mtimes(T.T, free - bias - ca.mtimes(mass, c)) + ca.mtimes(self.along_free, self.p)
+        self.a = ca.mtimes(T, ca.solve(reduced, push)) + c
+        self.moved = ca.mtimes(T, ca.solve(reduced, self.along_free))
+        self.margin = ca.SX(0, 1)
+        if held:
+            jacobian = mechanism.functions["constraints"](*q, *([0] * n))[1][:, held]
+            self.margin = ca.log(ca.fabs(ca.det(jacobian)))
         self.v = ca.mtimes(self.W.T, self.u)
         self.v_rate = ca.jtimes(self.v, self.q, self.u) + ca.mtimes(self.W.T, self.a)
         names = list(dict.fromkeys(r for e in elements for r in getattr(e.role, "reactions", ())))
@@ -173,14 +191,14 @@ def _solved(s: _Letters, residual: ca.SX) -> ca.SX:
 
 
 @lru_cache(maxsize=8)
-def model(problem: Problem) -> Model:
-    """The equations of a problem with stops and friction.
+def model(problem: Problem, dependents: tuple[str, ...]) -> Model:
+    """The equations of a problem with stops and friction; `dependents` are the coordinates that its loops hold.
 
-    Raises BadInput: the mechanism closes by constraint, or what acts cannot go with friction that sticks.
+    Raises BadInput: what acts cannot go with friction that sticks.
     """
     elements, mechanism = numbers(problem), problem.mechanism
     _require_suited(problem)
-    s = _Letters(problem, elements)
+    s = _Letters(problem, elements, dependents)
     moving, static, limits, gaps = _laws(problem, elements, s)
     m = len(elements)
     condition = s.K * s.stand[:m] + (1 - s.K) * (s.p - moving)
@@ -190,6 +208,8 @@ def model(problem: Problem) -> Model:
     p_rate = -ca.solve(slope, ca.jtimes(residual, s.x, s.x_rate))
     dips = all(isinstance(e.role, StopRole) for e in elements)  # beside friction such a rate is too long a formula
     holds, places, seen, needed = _guards(problem, elements, s, gaps, limits, p_rate if dips else None)
+    margin = seen.shape[0] if dependents else None
+    seen, needed = ca.vertcat(seen, s.margin), ca.vertcat(needed, ca.SX.ones(s.margin.shape[0], 1))
     seen_rate = ca.jtimes(seen, s.x, s.x_rate) + ca.mtimes(ca.jacobian(seen, s.p), p_rate)
     at = ca.Function("at", s.all, [s.a * (1 - s.rest), s.v, s.v_rate, limits, seen, seen_rate * needed,
                                    ca.jacobian(moving_, s.p)])  # fmt: skip
@@ -203,7 +223,8 @@ def model(problem: Problem) -> Model:
     y = ca.SX.sym("y", len(columns) + seen.shape[0])
     out = ca.vertcat(s.u, a, *powers, loss - ca.dot(p, v), seen_rate)
     whole = ca.Function("whole", s.all[1:], [out, p, v, v_rate, limit, seen, gain])
-    ydot, *others = whole(s.t, y[:n], y[n : 2 * n], s.w)
+    pose = _closure(problem, dependents)
+    ydot, *others = whole(s.t, *pose(y[:n], y[n : 2 * n]), s.w)
     names = [f"guard {k}" for k in range(seen.shape[0])]
     system = System(
         function=ca.Function("system", [s.t, y, s.w], [ydot], ["t", "y", "w"], ["ydot"]),
@@ -216,9 +237,19 @@ def model(problem: Problem) -> Model:
     )
     p_, v_, v_rate_, limit_, seen_, gain_ = others
     look = ca.Function("look", [s.t, y, s.w], [p_, v_, v_rate_, limit_, seen_, ydot, gain_])
-    blow = ca.Function("blow", [s.q], [s.mass, s.W])
+    blow = ca.Function("blow", [s.q], [s.mass, s.W, s.moved, s.along_free])
     return Model(system=system, elements=elements, base=len(columns), places=places, dips=dips, holds=holds, look=look,
-                 blow=blow)  # fmt: skip
+                 blow=blow, pose=pose, dependents=dependents, margin=margin)  # fmt: skip
+
+
+def _closure(problem: Problem, dependents: tuple[str, ...]) -> ca.Function:
+    """Coordinates and velocities put on the closure of the loops, as they are where there are none."""
+    mechanism, n = problem.mechanism, len(problem.mechanism.coordinates)
+    q, u = ca.SX.sym("q", n), ca.SX.sym("u", n)
+    if not dependents:
+        return ca.Function("closure", [q, u], [q, u])
+    at, free = loops.closed(mechanism, q, dependents), loops.split(mechanism, dependents)[0]
+    return ca.Function("closure", [q, u], [at, ca.mtimes(loops.motion(mechanism, at, u[free], dependents)[0], u[free])])
 
 
 def _guards(
@@ -231,7 +262,7 @@ def _guards(
 ) -> tuple[bool, tuple[int, ...], ca.SX, ca.SX]:
     """Whether friction may hold the only freedom, each element's first guard, guards, and whether a mode needs them."""
     sticking = [e for e in elements if isinstance(e.role, FrictionRole) and e.role.law != "smooth"]
-    holds = len(problem.mechanism.coordinates) == 1 and len(sticking) > 1
+    holds = len(s.free) == 1 and len(sticking) > 1
     places: list[int] = []
     guards: list[ca.SX] = []
     needed: list[ca.SX] = []  # a guard that a mode has no use for stands still
@@ -257,7 +288,8 @@ def _held(s: _Letters, static: ca.SX, seen: ca.SX, seen_rate: ca.SX) -> tuple[ca
     for way in (edge, ca.substitute(edge, s.D, -s.D)):
         p, condition = _solved(s, way), ca.substitute(way, s.stand, s.linear)
         rate = -ca.solve(ca.jacobian(condition, s.p), ca.jtimes(condition, s.t, ca.SX(1)))
-        at = ca.Function("at", s.all, [s.a, ca.jtimes(s.a, s.t, ca.SX(1)) + ca.mtimes(ca.jacobian(s.a, s.p), rate)])
+        a = s.a[s.free]
+        at = ca.Function("at", s.all, [a, ca.jtimes(a, s.t, ca.SX(1)) + ca.mtimes(ca.jacobian(a, s.p), rate)])
         a, a_rate = at(p, *s.all[1:])
         seen, seen_rate = ca.vertcat(seen, a), ca.vertcat(seen_rate, a_rate * s.rest)
     return seen, seen_rate
@@ -270,16 +302,13 @@ def _columns(problem: Problem) -> tuple[str, ...]:
 
 def _require_suited(problem: Problem) -> None:
     mechanism = problem.mechanism
-    if mechanism.dependents or "constraints" in mechanism.functions:
-        why = f"{mechanism.name} closes by constraint, and stops and friction take independent coordinates"
-        raise BadInput(f"{why}; close its loops in closed form, see mechsym derive --explain")
     sticking = [e.name for e in problem.unilateral if isinstance(e, FrictionRole) and e.law != "smooth"]
     rough = [p.name for p in problem.parts if isinstance(p.value, Periodic) or callable(p.value)]
     if rough and sticking:
         why = f"{sticking[0]} sticks, and {rough[0]!r} comes from a table or a cycle, whose rate in time is not known"
         raise BadInput(f"{why}; declare law='smooth' with its smoothing")
     driven = [e.name for e in problem.unilateral if isinstance(e, FrictionRole) and e.speed is not None]
-    if driven and len(sticking) > 1 and len(mechanism.coordinates) == 1:
+    if driven and len(sticking) > 1 and len(mechanism.coordinates) - len(mechanism.dependents) == 1:
         why = f"{driven[0]} rubs on a face that moves, beside {len(sticking) - 1} more on the same freedom"
         raise BadInput(f"{why}, which may stick one by one; declare law='smooth' for all but one")
     if problem.states or problem.inertia or problem.curves:

@@ -26,6 +26,7 @@ class Now:
     turned: set[int] = field(default_factory=set)  # stops whose speed, or rate of force, has just passed zero
     opened: set[int] = field(default_factory=set)  # the stop that has just let go: it leaves as slowly as can be
     events: list[RunEvent] = field(default_factory=list)
+    floor: float = -np.inf  # to which the determinant of the loops may fall, by its logarithm
     contraction: float = 0.0  # largest rate of the fixed point of normal forces
 
 
@@ -62,8 +63,8 @@ def settle(known: Model, now: Now, banned: int = -1, way: str = "") -> None:
     slow = ZERO * max(1.0, float(np.abs(now.y[n : 2 * n]).max()))
     set_valued = [i for i in frictions(known) if getattr(known.elements[i].role, "law", "") != "smooth"]
     now.still |= {i for i in set_valued if abs(seen.guards[known.places[i]]) <= slow}
-    if known.holds and abs(now.y[n]) <= slow and now.still:
-        now.y[n] = 0.0
+    if known.holds and np.abs(now.y[n : 2 * n]).max() <= slow and now.still:
+        now.y[n : 2 * n] = 0.0
         now.mode = _rest_or_not(known, now, way)
         return
     choices: list[tuple[tuple[float, float], ...]] = []
@@ -117,7 +118,7 @@ def _agrees(known: Model, now: Now, mode: np.ndarray, banned: int) -> bool:
 def _rest_or_not(known: Model, now: Now, way: str) -> np.ndarray:
     """The mode of a mechanism of one freedom without speed: friction holds it, or it goes the way that it is pushed."""
     n, m = known.system.size, len(known.elements)
-    W = np.asarray(known.blow.call([now.y[:n]])[1])[0]
+    W = np.asarray(known.blow.call([now.y[:n]])[3])[0]
     rubbing = np.array([isinstance(e.role, FrictionRole) for e in known.elements])
     mode = np.concatenate([np.zeros(m), np.where(rubbing, np.sign(W), now.mode[m : 2 * m]), [1.0]])
     forwards, backwards = look(known, now, mode).guards[-2:]

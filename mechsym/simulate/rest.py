@@ -3,8 +3,9 @@ r"""Poses in which a mechanism stays at rest, and whether it comes back to them.
 .. math:: \ddot q(q, 0) = 0, \qquad \dot x = \begin{pmatrix} 0 & 1 \\ A & C \end{pmatrix} x
 
 Forces are those of the end of the run. One angle is scanned half a turn both ways; other coordinates are looked for
-from the start and from poses about it, those that no force feels stay at the start. The eigenvalues of the linear
-motion about a pose judge it.
+from the start and from poses about it, those that no force feels stay at the start. The scan ends where the loops are
+singular: accelerations have a pole there, which changes its sign and is no rest, and behind it more than one way goes
+on. The eigenvalues of the linear motion about a pose judge it.
 """
 
 import itertools
@@ -26,6 +27,7 @@ _GRID = 720  # angles of half a turn
 _STARTS = 60  # of the search beside the start
 _STEP = 1e-5  # of a difference, of a radian or of the size of a length
 _ZERO = 1e-4  # of the largest eigenvalue: one below it is of neither sign
+_SINGULAR = 1e-6  # least singular value of closed loops by the largest
 _SAME = 1e-6  # rad or of the size of a length: poses nearer are one
 
 
@@ -47,6 +49,7 @@ class RestPoses:
     case: str = part()
     rests: list[RestPose] = part()
     complete: bool = part()  #: Whether a whole turn was scanned; else there may be more
+    singular: list[float] = quantity("rad")  #: Angles at which singular poses of the loops end the scan
 
 
 @record
@@ -58,6 +61,16 @@ class _Motion:
     close: Callable[[np.ndarray, np.ndarray], np.ndarray | None]  #: independent values and a pose near: whole pose
     rates: Callable[[float, np.ndarray], np.ndarray]
     columns: int
+
+    def condition(self, pose: np.ndarray) -> float:
+        """Least singular value of the loops' rows by the largest, 0 where they are singular, 1 without loops."""
+        mechanism = self.problem.mechanism
+        if not mechanism.dependents:
+            return 1.0
+        values = mechanism.functions["constraints"].call([*pose, *np.zeros(len(pose))])
+        held = [i for i in range(len(pose)) if i not in self.free]
+        sizes = np.linalg.svd(loops.scaled(mechanism, np.asarray(values[1]))[:, held], compute_uv=False)
+        return float(sizes[-1] / sizes[0])
 
     def at(self, pose: np.ndarray, speeds: np.ndarray | None = None) -> np.ndarray:
         """Accelerations of the independent coordinates at a closed pose [rad/s^2] or [m/s^2]."""
@@ -81,9 +94,9 @@ def rests(problem: Problem, case: str) -> RestPoses:
         motion.free
     ) == 1 and units[motion.free[0]] == "rad"  # fmt: skip
     sizes = np.array([1.0 if u == "rad" else max(abs(x), 0.1) for u, x in zip(units, start, strict=True)])
-    poses = _round(motion, start) if turning else _from_many(motion, start, sizes, units)
-    told = [_judged(motion, pose, sizes) for pose in poses]
-    return RestPoses(case=case, rests=told, complete=turning)
+    poses, ends = _round(motion, start) if turning else (_from_many(motion, start, sizes, units), [])
+    told = [_judged(motion, pose, sizes) for pose in poses if motion.condition(pose) > _SINGULAR]
+    return RestPoses(case=case, rests=told, complete=turning and not ends, singular=ends)
 
 
 def _motion(problem: Problem) -> _Motion:
@@ -103,16 +116,26 @@ def _motion(problem: Problem) -> _Motion:
     return _Motion(problem=problem, free=free, close=close, rates=rates, columns=len(system.columns))
 
 
-def _round(motion: _Motion, start: np.ndarray) -> list[np.ndarray]:
+def _way(motion: _Motion, start: np.ndarray, step: float) -> tuple[list[np.ndarray | None], list[float]]:
+    """Poses over half a turn from the start, None where the loops are open; the angle of a singular pose at its end."""
+    (i,) = motion.free
+    way: list[np.ndarray | None] = [start]
+    last = now = motion.condition(start)
+    for k in range(1, _GRID + 1):
+        near = next(p for p in reversed(way) if p is not None)
+        pose = motion.close(np.array([start[i] + k * step]), near)
+        if pose is not None:
+            last, now = now, motion.condition(pose)
+            if now < max(_SINGULAR, last - now):  # reached within the next step
+                return way, [float(start[i] + (k + now / max(last - now, now, 1e-300)) * step)]
+        way.append(pose)
+    return way, []
+
+
+def _round(motion: _Motion, start: np.ndarray) -> tuple[list[np.ndarray], list[float]]:
     """Where the acceleration over one angle changes its sign without a jump, half a turn both ways from the start."""
     (i,) = motion.free
-    step, ways = np.pi / _GRID, []
-    for side in (-1, 1):
-        way: list[np.ndarray | None] = [start]
-        for k in range(1, _GRID + 1):
-            near = next(p for p in reversed(way) if p is not None)
-            way.append(motion.close(np.array([start[i] + side * k * step]), near))
-        ways.append(way)
+    ways, ends = zip(*(_way(motion, start, side * np.pi / _GRID) for side in (-1, 1)), strict=True)
     poses = [*ways[0][:0:-1], *ways[1]]
     rows = [(p, motion.at(p)[0] if p is not None else math.nan) for p in poses]
     largest = max((abs(a) for _, a in rows if math.isfinite(a)), default=0.0)
@@ -128,7 +151,7 @@ def _round(motion: _Motion, start: np.ndarray) -> list[np.ndarray]:
         if pose is not None and abs(motion.at(pose)[0]) <= 1e-6 * largest:
             found.append(pose)
     same = len(found) > 1 and abs(found[-1][i] - found[0][i] - 2 * np.pi) < _SAME
-    return found[:-1] if same else found
+    return found[:-1] if same else found, [*ends[0], *ends[1]]
 
 
 def _along(motion: _Motion, angle: float, near: np.ndarray) -> float:

@@ -91,3 +91,11 @@ def test_two_letters_are_found_again_in_its_own_trace(name, tmp_path):
     found = json.loads(run("identify", case, "--trace", trace, "--free", ",".join(free), *settings, "--json"))
     for letter, estimate in found["parameters"].items():
         assert estimate["low"] <= truth[letter] <= estimate["high"], (letter, estimate)
+
+
+@pytest.mark.slow
+def test_an_interval_holds_what_lies_behind_a_ridge(tmp_path, monkeypatch):
+    """Over 0.4 s the trace fits two starts of the crank nearly alike, and a search may end in the wrong one."""
+    moves, torque, _, free = TEN["chebyshev"]
+    monkeypatch.setitem(TEN, "chebyshev", (moves, torque, 0.4, free))
+    test_two_letters_are_found_again_in_its_own_trace("chebyshev", tmp_path)

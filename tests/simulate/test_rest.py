@@ -80,3 +80,34 @@ def test_what_friction_holds_is_refused_and_the_command_tells(tmp_path):
     assert done.exit_code == 0
     assert "stable" in done.output
     assert "-47.48" in done.output
+
+
+LIFT = """    phi = m.coordinates("phi")
+    bar = dict(mass="8 kg", centre=("0.5 m", 0))
+    a, b = m.link("a", turns=phi, pose="30 deg", **bar), m.link("b", pose="150 deg", **bar)
+    top, foot = m.link("top", mass="40 kg", pose=0), m.link("foot", mass="1 kg")
+    m.pin("O", m.frame, a)
+    m.slider("F", m.frame, foot)
+    m.pin("J", foot, b)
+    m.pin("X", a.at("0.5 m"), b.at("0.5 m"))
+    m.pin("W", b.at("1 m"), top)
+    m.slot("Z", top.line(), a.at("1 m"))
+    m.weight(0, -9.81)
+    m.spring("12 kN/m", stretch=foot.at().x - m.parameters("free", "m", default="0.6 m"))
+"""
+
+
+@pytest.mark.slow
+def test_a_scissor_lift_rests_between_its_singular_poses(tmp_path):
+    found = rests(tmp_path, LIFT)
+    weight = 9.81 * (8 + 40)  # half of two bars, the top
+
+    def push(x):
+        return weight * math.cos(x) - 12000 * (math.cos(x) - 0.6) * math.sin(x)
+
+    roots = [scipy.optimize.brentq(push, low, high, xtol=1e-15) for low, high in ((-1.2, -0.6), (0, 0.2), (0.6, 1.2))]
+    assert [p.at["phi"] for p in found.rests] == pytest.approx(roots, abs=1e-11)
+    assert [p.kind for p in found.rests] == ["stable", "unstable", "stable"]
+    # its bars lie on one another at a right angle: accelerations change their sign there by a pole
+    assert found.singular == pytest.approx([-math.pi / 2, math.pi / 2], abs=1e-3)
+    assert not found.complete

@@ -28,6 +28,10 @@ def test_accelerations_and_reactions(name):
         axis = np.argmax(np.abs(machine.bodies[0].w))
         wanted = accelerations[0, 3 + axis]
         assert found.acceleration[0] == pytest.approx(wanted, rel=1e-10, abs=1e-10)
+        if name == "pump":  # its shoes go over the plate: z = x tan(tilt), and the pistons press and shake on it
+            behind = phi + 2 * np.pi * np.arange(3) / 3
+            rise = numbers["R"] * np.tan(numbers["tilt"]) * np.cos(behind)
+            assert [pose[f"slide_G{k}"] for k in (1, 2, 3)] == pytest.approx(rise, abs=1e-14)
         largest = max(np.abs(r).max() for r in reactions.values())
         for joint in machine.joints:
             for k, kind in enumerate(("R_x", "R_y", "R_z", "M_x", "M_y", "M_z")):

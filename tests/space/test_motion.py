@@ -124,7 +124,9 @@ def test_hookes_joint_turns_as_its_formula_says():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name, speed", [("rssr", 30.0), ("rssp", 30.0), ("hooke", 12.0), ("wobble", 40.0)])
+@pytest.mark.parametrize(
+    "name, speed", [("rssr", 30.0), ("rssp", 30.0), ("hooke", 12.0), ("wobble", 40.0), ("pump", 40.0)]
+)
 def test_twenty_turns_keep_the_energy_and_the_loops(name, speed):
     letters = own.load(f"{FILE}:{name}").listing["parameters"]
     mechanism = bind(f"{FILE}:{name}", {k: NUMBERS[name][1].get(k, 9.81) for k in letters})

@@ -267,9 +267,11 @@ class Scavenging:
     #: `given`: both as `[cycle]` has them; `turbocharger`: the balance of the turbocharger, which replaces them
     source: str = choice("given", "turbocharger", default="turbocharger", about="where p_s and T_evc come from")
     turbine_area: float = quantity("m^2", above=0, below=1, about="effective nozzle area, by cylinder")
-    port_width: float = quantity("m", above=0, below=30, about="width of all scavenge ports; they open at cycle.spo")
+    port_width: float = quantity("m", above=0, below=30, about="width of all scavenge ports")
     valve_diameter: float = quantity("m", above=0, below=5, about="seat of the exhaust valve")
-    valve_lift: float = quantity("m", above=0, below=2, about="largest lift, open from cycle.evo to cycle.evc")
+    valve_lift: float = quantity(
+        "m", above=0, below=2, about="largest lift, between opening and closing of the exhaust"
+    )
     discharge: float = quantity("-", default=0.7, above=0, high=1, about="discharge coefficient of ports and valve")
     compressor_efficiency: float = quantity("-", default=0.8, above=0, high=1, about="isentropic")
     turbine_efficiency: float = quantity("-", default=0.8, above=0, high=1, about="isentropic")

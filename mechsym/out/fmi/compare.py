@@ -159,6 +159,7 @@ def driven(path: Path, kind: str, tolerance: float = _TOLERANCE) -> Iterator[Dri
 TOLERANCE = 1e-13  # of all runs that are compared
 _MEETING = 1e-10  # where two motions meet, beside which rounding is larger
 POINTS = 200
+_LEAST = 1e-6  # SI: what no state of its unit exceeds is rounding, as the way of a slide that nothing moves
 _STILL = 0.1  # of the largest of its unit: what moves less is measured by that
 _FIRST = 1e-2  # of a segment: a first step over knots of a table, chosen by its slope alone, hides what it missed
 
@@ -189,6 +190,7 @@ def compare(path: Path, problem: Problem, kinds: tuple[str, ...] = ("me", "cs"))
     # what stands still beside others of its unit is measured by them
     alike = [max(p for p, other in zip(peaks, units, strict=True) if other == unit) for unit in units]
     sizes, allowed = np.maximum(peaks, np.array(alike) * _STILL), 1e-6 if meets else ALLOWED
+    sizes = np.maximum(sizes, _LEAST)
     for kind in kinds:
         run = _RUNS[kind](path, t, tolerance)
         count = min(len(run), len(wanted))
