@@ -388,8 +388,8 @@ def _of(
         yield from proportion("point_speed", f"speed of the outermost joint of {name}", speed)
 
 
-def _point(pair: Sequence[str], letters: Mapping[str, float]) -> tuple[float, float]:
-    return _number(pair[0], letters), _number(pair[1], letters)
+def _point(place: Sequence[str], letters: Mapping[str, float]) -> tuple[float, ...]:
+    return tuple(_number(text, letters) for text in place)
 
 
 def _number(text: str, letters: Mapping[str, float]) -> float:

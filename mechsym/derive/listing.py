@@ -1,5 +1,6 @@
 """The equations of a mechanism as LaTeX and MathML, stored beside the generated code so that reports need no sympy."""
 
+import itertools
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import NotRequired, TypedDict, cast
@@ -11,10 +12,13 @@ from mechsym.derive.emit import groups
 from mechsym.derive.lagrange import Equations
 from mechsym.derive.linkage import Link, LinkPoint
 from mechsym.derive.rates import accelerations, velocities
+from mechsym.derive.space import SpatialDeclaration
+from mechsym.derive.space_parts import SpaceLink
 from mechsym.files import Json
 
 _DOT, _TWO_DOTS = "\u0307", "\u0308"
 _LATEX = {"lam": r"\lambda", "phi": r"\varphi", "inertia": "I"}
+_PLACED = ("revolute", "universal", "spherical")  # joints in space that stand at a point of both bodies
 _GREEK = {
     "phi": "\u03c6", "psi": "\u03c8", "theta": "\u03b8", "alpha": "\u03b1", "beta": "\u03b2", "gamma": "\u03b3",
     "delta": "\u03b4", "lam": "\u03bb", "mu": "\u03bc", "xi": "\u03be", "eta": "\u03b7", "rho": "\u03c1",
@@ -92,7 +96,7 @@ def _own(m: Declaration) -> Json:
         "shapes": m.shapes,
         "pins": m.pins,
         "sketch": m.sketches,
-        "links": [link for link in map(partial(_link, m), m.links) if link],
+        "links": [link for link in (*map(partial(_link, m), m.links), *_in_space(m)) if link],
         "springs": _constants(m, m.springs),
         "dampers": _constants(m, m.dampers),
         "watched": [*m.watched],
@@ -127,6 +131,34 @@ def _link(m: Declaration, link: Link) -> Json:
         "points": points,
         "pivot": next(((str(p.u), str(p.v)) for p in ground if isinstance(p, LinkPoint)), None),
         "turns": str(link.turns) if link.turns in m.q and link.turns not in m.dependent_list else "",
+    }
+
+
+def _in_space(m: Declaration) -> list[Json]:
+    if not isinstance(m, SpatialDeclaration):
+        return []
+    return [_body(m, body) for body in m.space_links]
+
+
+def _body(m: SpatialDeclaration, body: SpaceLink) -> Json:
+    """As `_link`; the inertia is half the trace, mass times squared distance of all that is in it from its centre."""
+    both = [(joint, *pair) for joint in m.space_joints for pair in itertools.permutations((joint.first, joint.second))]
+    held = [(joint, side, other) for joint, side, other in both if side.link is body and joint.kind in _PLACED]
+    points = list(dict.fromkeys(tuple(map(str, side.at)) for _, side, _ in held))
+    free = {s for _, side, _ in held for x in side.at for s in x.free_symbols}
+    inertia = body.inertia[2][2] if body.flat else sum(body.inertia[i][i] for i in range(3)) / 2
+    if body.mass == inertia == 0 or len(points) < 2 or not free <= {*m.parameter_list}:
+        return {}
+    ground = [(joint, side) for joint, side, other in held if other.link is m.frame]
+    turns = [q for joint, _ in ground for q in joint.given if q in m.q and q not in m.dependent_list]
+    return {
+        "name": body.name,
+        "mass": str(body.mass),
+        "inertia": str(inertia),
+        "centre": [*map(str, body.centre)],
+        "points": points,
+        "pivot": next((tuple(map(str, side.at)) for _, side in ground), None),
+        "turns": str(turns[0]) if turns else "",
     }
 
 

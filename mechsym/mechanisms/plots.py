@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.mechanisms import constraints, own
-from mechsym.mechanisms.drawing import Circle, Shapes, declared, extent_of, shapes
+from mechsym.mechanisms.drawing import Circle, Line, Shapes, declared, extent_of, shapes
 from mechsym.mechanisms.drawn_parts import turns_round
 from mechsym.mechanisms.record import bind
 from mechsym.mechanisms.turning import STYLES, ordered, rules, scene
@@ -38,6 +39,21 @@ def _paint(axes: "Axes", drawn: Callable[[float], Shapes], angle: float) -> None
     axes.set_axis_off()
 
 
+_VIEWS = {"from the front: x, z": (0, 2), "from the right: y, z": (1, 2), "from above: x, y": (0, 1)}
+
+
+def _view(drawn: Callable[[float], Shapes], i: int, j: int) -> Callable[[float], Shapes]:
+    """A drawing in space along an axis: the coordinates i and j of its places."""
+
+    def flat(shape: Line | Circle) -> Line | Circle:
+        points = tuple((place[i], place[j]) for place in shape.space)
+        if isinstance(shape, Circle):
+            return replace(shape, centre=points[0], space=())
+        return replace(shape, points=points, space=())
+
+    return lambda angle: tuple(flat(shape) for shape in drawn(angle) if shape.space)
+
+
 def figure(mechanism: str, parameters: Record, angle: Radian, bore: Metre | None = None) -> "Figure":
     """One drawing with a scale. bore: diameter of the cylinders."""
     return figure_of(lambda at: shapes(mechanism, parameters, at, bore), angle)
@@ -47,14 +63,35 @@ def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -
     """One drawing with a scale, at a crank angle [rad]."""
     from matplotlib.figure import Figure
 
+    degrees = f"{math.degrees(angle):.0f} deg"
+    if any(shape.space for shape in drawn(angle)):
+        picture = Figure(figsize=(7.6, 6.8), layout="constrained")
+        grid = picture.subplots(2, 2)
+        views = {name: _view(drawn, *axes) for name, axes in _VIEWS.items()}
+        left, right, *_ = extent_of(drawn)  # whichever way it is turned: one scale for all
+        for axes, (name, view) in zip(grid.flat, {**views, "turned": drawn}.items(), strict=True):
+            _paint(axes, view, angle)
+            x0, x1, y0, y1 = extent_of(view)
+            middles, half = ((x0 + x1) / 2, (y0 + y1) / 2), 0.55 * (right - left)
+            axes.set(**{f"{n}lim": (m - half, m + half) for n, m in zip("xy", middles, strict=True)})
+            axes.set_title(name, fontsize=8, color=INK)
+        axes, drawn = grid[0, 0], views["from the front: x, z"]
+    else:
+        left, right, low, high = extent_of(drawn)
+        size = min(8.0 / (right - left), 6.0 / (high - low))
+        inches = max(size * (right - left), 3.4), max(size * (high - low), 1.2) + 0.8
+        picture = Figure(figsize=inches, layout="constrained")
+        axes = picture.add_subplot()
+        _paint(axes, drawn, angle)
+    picture.set_label(title or f"The mechanism to scale, crank at {degrees}")
+    _scale(axes, drawn, degrees)
+    return picture
+
+
+def _scale(axes: "Axes", drawn: Callable[[float], Shapes], degrees: str) -> None:
+    """A length below a drawing, and the crank angle."""
     left, right, low, high = extent_of(drawn)
     wide, tall = right - left, high - low
-    size = min(8.0 / wide, 6.0 / tall)
-    picture = Figure(figsize=(max(size * wide, 3.4), max(size * tall, 1.2) + 0.8), layout="constrained")
-    degrees = f"{math.degrees(angle):.0f} deg"
-    picture.set_label(title or f"The mechanism to scale, crank at {degrees}")
-    axes = picture.add_subplot()
-    _paint(axes, drawn, angle)
     step = 10 ** math.floor(math.log10(max(wide, tall / 4) / 3))
     length = max(k * step for k in (1, 2, 5) if k == 1 or k * step <= wide / 3)
     y, pad = low - 0.08 * max(wide, tall), 0.04 * max(wide, tall)
@@ -63,7 +100,6 @@ def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -
     factor, unit = axis_unit("m", length)
     told = f"{length * factor:.4g} {unit}, crank at {degrees}"
     axes.text(left + length + pad, y, told, va="center", fontsize=8, color=INK)
-    return picture
 
 
 def animation(mechanism: str, parameters: Record, title: str, bore: float | None = None) -> str:

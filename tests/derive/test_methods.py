@@ -55,6 +55,32 @@ def kane():
     return method
 
 
+def whole():
+    # the pendulum as a System of Kane's, whose speed is its own rate
+    B = N.orientnew("B", "Axis", [a, N.z])
+    B.set_ang_vel(N, u * N.z)
+    P = O.locatenew("P", -l * B.y)
+    P.v2pt_theory(O, N, B)
+    system = System(N, O)
+    system.add_bodies(Particle("bob", P, m))
+    system.add_coordinates(a)
+    system.add_speeds(u)
+    system.add_kdes(u - a.diff())
+    system.add_loads(Force(P, -m * g * N.y))
+    return system
+
+
+def turning():
+    # a rigid body in space on a gimbal: precession a, leaning b
+    A = N.orientnew("A", "Axis", [a, N.z])
+    B = A.orientnew("B", "Axis", [b, A.x])
+    G = O.locatenew("G", l * B.z)
+    G.v2pt_theory(O, N, B)
+    body = RigidBody("body", G, B, m, (inertia(B, 2 * M, 2 * M, M), G))
+    body.potential_energy = m * g * l * cos(b)
+    return LagrangesMethod(Lagrangian(N, body), [a, b], frame=N)
+
+
 def lagrange():
     C, P, *bodies = cart([x.diff(), b.diff()])
     bodies[1].potential_energy = -m * g * l * cos(b)
@@ -96,6 +122,23 @@ def swung():
 def test_speeds_of_its_own_are_put_in(model, swung):
     end = end_of(case_of(model, "odd", {"a": 0.7}))
     assert [end["a"], end["ad"]] == pytest.approx(swung.tolist(), abs=1e-10)
+
+
+def test_a_system_runs_as_its_method_does(model, swung):
+    end = end_of(case_of(model, "whole", {"a": 0.7}))
+    assert [end["a"], end["ad"]] == pytest.approx(swung.tolist(), abs=1e-10)
+
+
+def test_frames_in_space_are_a_mechanism(model):
+    """A body on a gimbal against its moments of inertia: A sin^2 b + C cos^2 b about the upright."""
+    m, l, g, M, b = 1.2, 0.8, 9.81, 0.3, 0.6
+    plan = plan_of(f"{model}:turning")
+    at = {"a": 0.2, "b": b, "ad": 1.5, "bd": -0.7}
+    found = state(build(f"{model}:turning", plan.parameters(m=m, l=l, g=g, M=M)), at).acceleration
+    A, C = 2 * M + m * l**2, M
+    upright, slope = A * np.sin(b) ** 2 + C * np.cos(b) ** 2, 2 * (A - C) * np.sin(b) * np.cos(b)
+    wanted = [-slope * 1.5 * -0.7 / upright, (slope / 2 * 1.5**2 + m * g * l * np.sin(b)) / A]
+    assert found == pytest.approx(wanted, rel=1e-12)
 
 
 def test_a_holonomic_constraint_is_held(model, swung):

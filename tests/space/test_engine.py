@@ -113,3 +113,20 @@ def test_the_page_does_what_it_says(tmp_path):
                 [sys.executable, "-m", *shlex.split(line)], cwd=tmp_path, capture_output=True, text=True
             )
             assert done.returncode == 0, (line, done.stderr)
+
+
+def test_a_drawing_in_space_has_three_views_at_one_scale():
+    from mechsym.mechanisms import own
+    from mechsym.mechanisms.drawing import declared
+    from mechsym.mechanisms.plots import figure_of
+
+    file = str(ROOT / "examples/space/swash_engine.py")
+    drawn = declared(bind(file, P), own.load(file).listing, lambda angle: [angle, 0.0, 0.0, 0.0])
+    front, right, above, turned = figure_of(drawn, 0.4).axes
+    assert [axes.get_title() for axes in (front, right, above)] == [
+        "from the front: x, z", "from the right: y, z", "from above: x, y",
+    ]  # fmt: skip
+    spans = [np.ptp(axes.get_xlim()) for axes in (front, right, above, turned)]
+    assert spans == pytest.approx([spans[0]] * 4)
+    ring = max((line for line in above.patches), key=lambda patch: np.ptp(patch.get_path().vertices[:, 0]))
+    assert np.ptp(ring.get_path().vertices[:, 1]) == pytest.approx(8 * P["R"] / 3, rel=0.05)  # the plate, from above

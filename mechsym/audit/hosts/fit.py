@@ -81,12 +81,12 @@ class Lexicon:
         self.heads = {_joined(phrase) for phrase, _ in self.phrases}
         self.parts = {word for phrase, _ in self.phrases for word in phrase if len(word) > 2}
         self.known: dict[tuple[str, str], list[tuple[int, str]]] = {}
-        self._states: States | None = None
+        self._states: Probes | None = None
 
     @property
-    def states(self) -> "States":
+    def states(self) -> "Probes":
         """Where its numbers are compared."""
-        self._states = self._states or States(self.theory)
+        self._states = self._states or Probes(self.theory)
         return self._states
 
     def touches(self, names: Iterable[str]) -> bool:
@@ -221,7 +221,7 @@ class Nearness:
     shift: bool  #: Whether it is the quantity, of either sign, but for what does not turn
 
 
-class States:
+class Probes:
     """Random states of a theory, and turns of its angle from four of them, with the values of its names as needed."""
 
     def __init__(self, theory: Theory) -> None:
@@ -236,7 +236,7 @@ class States:
         self.turned: dict[str, Values] = {"pi": np.pi, **turned}
 
     def values(self, at: dict[str, Values], form: Formula, quantity: str) -> tuple[np.ndarray, np.ndarray]:
-        """Numbers of a formula and of a quantity at states. Raises BadInput and ArithmeticError."""
+        """Numbers of a formula and of a quantity at states [unit of each]. Raises BadInput and ArithmeticError."""
         count = len(next(v for k, v in at.items() if k != "pi"))
         with np.errstate(all="ignore"):
             complete(self.theory, at, [quantity, *used_names(form)], FLOATS)
@@ -246,7 +246,7 @@ class States:
         return tuple(np.broadcast_to(v, (count,)) for v in both)  # type: ignore[return-value]
 
 
-def compared(form: Formula, states: States, quantity: str) -> Nearness | None:
+def compared(form: Formula, states: Probes, quantity: str) -> Nearness | None:
     """A formula's numbers beside a quantity's; None where there are none."""
     try:
         printed, expected = states.values(states.random, form, quantity)
@@ -278,17 +278,17 @@ _SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi) for power in 
 
 
 def is_slip(ratio: float | None) -> bool:
-    """Whether a factor is one that is lost or taken twice; another one is somebody's own number."""
+    """Whether a ratio [-] is one that is lost or taken twice; another one is somebody's own number."""
     return ratio is None or any(abs(abs(ratio) / k - 1) < 1e-5 for k in _SLIPS)
 
 
 def of_units(ratio: float | None) -> bool:
-    """Whether two numbers differ by units or by sign alone."""
+    """Whether a ratio of numbers [-] is one of units, or of sign alone."""
     return ratio is not None and any(abs(ratio / u - 1) < 1e-5 for u in _UNITS)
 
 
-def nearest(fitted: Fitted, form: Formula, states: States) -> Iterator[tuple[float, str]]:
-    """Quantities whose numbers a formula comes near to, the nearest first."""
+def nearest(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
+    """Quantities whose numbers a formula comes near to, the nearest first, with how far it is off [-]."""
     theory = fitted.theory
     used = {m for t in form.letters.values() for m in letters(t)}
     near = []

@@ -13,7 +13,7 @@ from mechsym.audit.hosts.fit import (
     ANGLES,
     Fitted,
     Lexicon,
-    States,
+    Probes,
     compared,
     fit,
     formula,
@@ -179,7 +179,7 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
     return {"verdict": "", "claim": ""}
 
 
-def _met(fitted: Fitted, form: Formula, states: States) -> Iterator[tuple[float, str]]:
+def _met(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
     seen = set()
     for quantity in fitted.quantities:
         met = compared(form, states, quantity)
@@ -309,7 +309,7 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
             data="the program itself",
         )
         trees.check(slope)
-        met = compared(Formula(tree=slope), States(theory), "slope")
+        met = compared(Formula(tree=slope), Probes(theory), "slope")
     except (BadInput, RecursionError):
         return None
     if met is None or of_units(met.ratio):

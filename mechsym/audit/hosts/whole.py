@@ -15,6 +15,7 @@ from mechsym.audit.hosts.paper import CARRIED, DEFINED, EquationPlace, few
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as units
 from mechsym.audit.judge.asked import Asked
+from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.world import World, alike, free, states
 from mechsym.audit.read.reader import AnyLetter, joined, read_expression
 from mechsym.audit.read.said import Said, read_text_whole
@@ -31,7 +32,7 @@ from mechsym.quantities.results import part, result, tell
 _PUT_BACK = re.compile("repaired by (?:put back|letter)")
 SUFFIXES = (".tex", ".md", ".txt")
 AGREES = "units agree"
-_SEARCHES = 24  # searches for a slip in one text
+_SEARCHES = 48  # searches for a slip in one text
 _LARGEST = 8_000_000  # bytes of a file
 
 
@@ -74,6 +75,11 @@ class _Judge:
         met = self._met(order, said)
         if met is not None and not odd:
             return met
+        if (squares := squares_of_sums(self.world, order, said)) is not None:
+            return Verdict(
+                verdict="misprint", matched="the text", correction=to_latex(squares, said.spelled),
+                note="the squares belong outside the sums: so the resultant has the size that stands beside it",
+            )  # fmt: skip
         own = self._by_text(order, said)
         if own.verdict in (*FINDINGS, CARRIED) or own.verdict not in ("", DEFINED) and not odd:
             return own
@@ -103,15 +109,16 @@ class _Judge:
         for k, side in enumerate(said.sides[1:], 1):
             tree = self.world.plain(side)
             used = [n for n in letters(tree) if n != "pi"]
-            if (order, k) in fit.met or not used or any(n not in fit.meant for n in used):
+            if (order, k) in fit.met or not used or len(used) < 2:
                 continue
             partners = [fit.met[order, j].quantity for j in range(1, len(said.sides)) if (order, j) in fit.met]
             for quantity in partners or fitting.candidates(fit, said, self.world):
-                row = self._asked(fit.theory, quantity, tree, {n: fit.meant[n] for n in used}, said)
-                if row is not None and (found := self._finding(row, said, side, f"{fit.theory.name}.{quantity}")):
-                    return found
-                if row is not None and row["verdict"] in PASSED:
-                    return _passed(row, f"{fit.theory.name}.{quantity}")
+                for reading in fitting.readings(fit, self.world, used):
+                    row = self._asked(fit.theory, quantity, tree, reading, said)
+                    if row is not None and (slip := self._finding(row, said, side, f"{fit.theory.name}.{quantity}")):
+                        return slip
+                    if row is not None and row["verdict"] in PASSED:
+                        return _passed(row, f"{fit.theory.name}.{quantity}")
         return None
 
     def _by_text(self, order: int, said: Said) -> Verdict:
@@ -265,7 +272,8 @@ class _Judge:
         if _PUT_BACK.search(row["note"]) and units.id_of(said) not in self.odd:
             return None  # what is left out may be 1 there; with a unit it cannot
         right = read_expression(row["correction"], (), AnyLetter())[0]
-        spelled = {k: v for k, v in said.spelled.items()} | {f"{self.world.angle}d": r"\dot{\varphi}"}
+        everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
+        spelled = everywhere | dict(said.spelled) | {f"{self.world.angle}d": r"\dot{\varphi}"}
         spelled |= {a: said.spelled[k] for k, a in self.world.aliases.items() if k in said.spelled}
         left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
         if left:
@@ -332,7 +340,7 @@ def _rows_of(file: Path) -> list[Row]:
     world = World(paper=paper, kinds=kinds)
     judge = _Judge(world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted)
     rows = []
-    for order, said in enumerate(paper.said):
+    for order, said in enumerate(world.paper.said):
         if not said.inline:
             rows.append(_row(file, said, judge.verdict(order, said) if said.sides else None, slips))
     return rows

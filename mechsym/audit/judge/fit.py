@@ -58,7 +58,8 @@ class Fit:
 
     def of_kind(self, kind: tuple[object, ...] | None) -> list[str]:
         """Names of the theory that have a unit, all where it is not known."""
-        return [n for n in self.values if n != "pi" and (kind is None or self.kinds.get(n) in (None, kind[:4]))]
+        outer = [n for n in self.values if n != "pi" and not _INNER.match(n)]
+        return [n for n in outer if kind is None or self.kinds.get(n) in (None, kind[:4])]
 
 
 @cache
@@ -214,6 +215,13 @@ def _quantity(fit: Fit, world: World, tree: Node, reading: Mapping[str, str], le
             if same_kind and quantity not in reading.values() and wanted in ("", quantity):
                 return quantity, sign
     return "", 0
+
+
+def readings(fit: Fit, world: World, used: Sequence[str]) -> list[dict[str, str]]:
+    """What the letters of a formula mean in a theory: as other formulas have shown, or as they are called."""
+    by_name = {n: _by_name(fit, world, n) for n in used}
+    both = ({n: fit.meant.get(n) or by_name[n] for n in used}, {n: by_name[n] or fit.meant.get(n, "") for n in used})
+    return [r for i, r in enumerate(both) if all(r.values()) and (not i or r != both[0])]
 
 
 def candidates(fit: Fit, said: Said, world: World) -> Sequence[str]:

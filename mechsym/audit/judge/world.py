@@ -9,7 +9,7 @@ import re
 import zlib
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -81,16 +81,18 @@ class World:
         }
 
     def _name_applied(self) -> None:
-        # S(theta) where only an S_piston is a function of the angle
+        # S(theta) is the one letter with an S that is a function of the angle: S_piston
         sign = {"lam": "lambda"}.get(self.angle, self.angle)
-        for letter in (
-            set(re.findall(rf"(?<![A-Za-z_\\{{]])([A-Za-z])\s*\(\s*\\(?:var)?{sign}\s*\)", self.paper.prose))
-            if sign
-            else ()
-        ):
-            turning = {d.letter for d in self.defined if d.letter.startswith(letter) and self.turns(d.letter)}
-            if len(turning) == 1 and all(d.letter != letter for d in self.defined):
-                self.aliases[letter] = turning.pop()
+        applied = re.compile(rf"(?<![A-Za-z_\\{{])([A-Za-z])\s*\(\s*\\(?:var)?{sign}\s*\)")
+        said = []
+        for one in self.paper.said:
+            meant: dict[str, str] = {}
+            for letter in set(applied.findall(one.shown.text)) if sign else ():
+                turning = {d.letter for d in self.defined if d.letter.startswith(letter) and self.turns(d.letter)}
+                if len(turning) == 1 and all(d.letter != letter for d in self.defined):
+                    meant[letter] = turning.pop()
+            said.append(replace(one, sides=tuple(_renamed(s, meant) for s in one.sides)) if meant else one)
+        self.paper = replace(self.paper, said=said)
 
     def _name_rates(self) -> None:
         rates = {f"{self.angle}d": 1, f"{self.angle}prime": 1, f"d{self.angle}_dt": 1, f"{self.angle}dd": 2}
@@ -245,6 +247,10 @@ class World:
             return Letter(unit=unit, value=1.0, sign="any")
         share = zlib.crc32(letter.encode()) % 100 / 250
         return Letter(unit=unit, value=4.0 if rod else 0.8 + share, sign="positive")
+
+
+def _renamed(tree: Node, meant: Mapping[str, str]) -> Node:
+    return substitute(tree, lambda n: name(meant[n.id]) if isinstance(n, ast.Name) and n.id in meant else None)
 
 
 def _is_rate(tree: Node) -> bool:
