@@ -1,6 +1,5 @@
 """The equations of a mechanism as LaTeX and MathML, stored beside the generated code so that reports need no sympy."""
 
-import itertools
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import NotRequired, TypedDict, cast
@@ -142,8 +141,12 @@ def _in_space(m: Declaration) -> list[Json]:
 
 def _body(m: SpatialDeclaration, body: SpaceLink) -> Json:
     """As `_link`; the inertia is half the trace, mass times squared distance of all that is in it from its centre."""
-    both = [(joint, *pair) for joint in m.space_joints for pair in itertools.permutations((joint.first, joint.second))]
-    held = [(joint, side, other) for joint, side, other in both if side.link is body and joint.kind in _PLACED]
+    held = [
+        (joint, side, other)
+        for joint in m.space_joints
+        for side, other in ((joint.first, joint.second), (joint.second, joint.first))
+        if side.link is body and joint.kind in _PLACED
+    ]
     points = list(dict.fromkeys(tuple(map(str, side.at)) for _, side, _ in held))
     free = {s for _, side, _ in held for x in side.at for s in x.free_symbols}
     inertia = body.inertia[2][2] if body.flat else sum(body.inertia[i][i] for i in range(3)) / 2

@@ -192,7 +192,8 @@ def _stay(known: Model, now: Now) -> None:
     mass, W, along = _impulses(known, now)
     rubbing = {k for k in frictions(known) if known.elements[k].contact in now.touching}
     u = now.y[n : 2 * n].copy()
-    now.y[n : 2 * n] = blows.stay(*(m[:, sorted(now.touching | rubbing)] for m in (W, along)), u)
+    held = sorted(now.touching | rubbing)
+    now.y[n : 2 * n] = blows.stay(W[:, held], along[:, held], u)
     lost = float(u @ mass @ u - now.y[n : 2 * n] @ mass @ now.y[n : 2 * n]) / 2
     now.y[known.base - 1] += lost
     names = " and ".join(known.elements[i].role.name for i in sorted(now.touching))
@@ -379,7 +380,8 @@ def _chatter(known: Model, now: Now, problem: Problem) -> None:
         return
     mass, W, along = _impulses(known, now)
     u = now.y[n : 2 * n].copy()
-    now.y[n : 2 * n] = blows.stay(*(m[:, sorted(now.touching)] for m in (W, along)), u)
+    held = sorted(now.touching)
+    now.y[n : 2 * n] = blows.stay(W[:, held], along[:, held], u)
     lost = float(u @ mass @ u - now.y[n : 2 * n] @ mass @ now.y[n : 2 * n]) / 2
     now.y[known.base - 1] += lost
     settle(known, now)

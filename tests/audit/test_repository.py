@@ -58,7 +58,7 @@ def test_a_sign_under_the_root_in_every_language(tmp_path, name):
     assert row["correction"] and row["max_rel_error"] > 0.05
 
 
-# attacks on precision, written before the code: none of these is wrong
+# attacks on precision: none of these is wrong
 ATTACKS = {
     "a parameter": 'model K\n  parameter Real b = 0.69 "Peclet exponent";\n  parameter Real a = 0.56;\nend K;\n',
     "polar coordinates": "def f(r, phi, l):\n    x = r*cos(phi)\n    y = r*sin(phi)\n    v = r*sin(phi)*l\n",
