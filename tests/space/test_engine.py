@@ -130,3 +130,27 @@ def test_a_drawing_in_space_has_three_views_at_one_scale():
     assert spans == pytest.approx([spans[0]] * 4)
     ring = max((line for line in above.patches), key=lambda patch: np.ptp(patch.get_path().vertices[:, 0]))
     assert np.ptp(ring.get_path().vertices[:, 1]) == pytest.approx(8 * P["R"] / 3, rel=0.05)  # the plate, from above
+
+
+def test_what_a_loop_by_constraint_holds_is_no_formula_to_audit():
+    from mechsym.audit import check_formula
+
+    file = ROOT / "examples/space/gyroscope.py"
+    kinetic = "mass*l**2*(thetad**2 + psid**2*sin(theta)**2)/2 + (A*(thetad**2 + psid**2*sin(theta)**2)"
+    kinetic += " + C*(phid + psid*cos(theta))**2)/2"
+    assert check_formula(kinetic, f"{file}:gyroscope.kinetic_energy")["verdict"] == "exact"
+    with pytest.raises(BadInput, match="loop closed by constraint cannot be audited"):
+        check_formula("R*tan(tilt)*(1 - cos(phi))", f"{ROOT / 'examples/space/swash_engine.py'}:x1")
+
+
+@pytest.mark.slow
+def test_a_linkage_in_space_is_swept_and_exported(tmp_path):
+    case = str(ROOT / "examples/space/rssr.toml")
+    for words in (
+        ["sweep", case, "--over", "m2=0.6,0.8", "--set", "simulation.t_end=0.2 s", "--out", str(tmp_path / "sweep")],
+        ["export", case, "--to", "c,julia", "--out", str(tmp_path / "export")],
+    ):
+        done = subprocess.run([sys.executable, "-m", "mechsym", *words, "--trust"] if words[0] == "sweep" else
+                              [sys.executable, "-m", "mechsym", *words], capture_output=True, text=True)  # fmt: skip
+        assert done.returncode == 0, done.stderr
+    assert len((tmp_path / "sweep" / "sweep.csv").read_text().splitlines()) == 3

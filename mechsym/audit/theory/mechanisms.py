@@ -97,22 +97,35 @@ def mechanism_theory(
         quantities |= {"acceleration": solved_accelerations(equations)[0]}
     results = (quantities | residuals(equations)) | {name: expression for name, (expression, _) in more.items()}
     letters = {}
+    held = {f"{q.name}{d}" for q in m.dependent_list for d in ("", "d", "dd")}  # of loops: by no formula of the letters
     for symbol in (*m.q, *velocities(m), *accelerations(m), *m.parameter_list, *m.input_list):
+        if symbol.name in held:
+            continue
         k, sign = symbol.name, "any" if symbol.name in _SIGNED else ""
         letters[k] = Letter(unit=units[k], value=float(values.get(k, 1.0)), sign=sign)
     closed = dict.fromkeys(m.joint_list, Integer(0))
     entries = {s.name: m.tape.entries[s].xreplace(closed) for s in m.tape.needed(results.values())}
     own = {n: e.xreplace(closed) for n, e in results.items() if n not in entries}
+    kept = _determined(entries | own, letters)
     return Theory(
         name=m.name,
         letters=letters,
-        tape=tape_of(entries | own),
-        results=tuple(results),
+        tape=tape_of(kept),
+        results=tuple(n for n in results if n in kept),
         units=units | {name: unit for name, (_, unit) in more.items()},
         angle=m.q[0].name,
         rods=rods,
         data=data,
     )
+
+
+def _determined(steps: dict[str, Expr], letters: Mapping[str, Letter]) -> dict[str, Expr]:
+    """Steps that letters determine: none of what hangs on coordinates or multipliers of loops closed by constraint."""
+    held = {n: {s.name for s in e.free_symbols} for n, e in steps.items()}
+    lost = {s for n, inner in held.items() for s in inner if s not in letters and (s not in steps or s == n)}
+    while more := {n for n, inner in held.items() if n not in lost and inner & lost}:
+        lost |= more
+    return {n: e for n, e in steps.items() if n not in lost}
 
 
 def _units(m: Mechanism) -> dict[str, str]:

@@ -197,7 +197,9 @@ def known(theory: Theory) -> list[str]:
 def need_result(theory: Theory, quantity: str) -> None:
     """Refuse a quantity that the theory does not derive."""
     if quantity not in theory.tape:
-        raise BadInput(f"{theory.name} has no quantity {quantity!r}; it has {', '.join(theory.results)}")
+        known = ", ".join(n for n in theory.results if not n.endswith("_"))
+        beyond = "what hangs on a loop closed by constraint cannot be audited"
+        raise BadInput(f"{theory.name} has no quantity {quantity!r}; it has {known}; {beyond}")
 
 
 def extended(
