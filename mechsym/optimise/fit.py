@@ -40,7 +40,7 @@ _SHORTER = 0.5 ** np.arange(10)  # parts of a first step that are tried
 
 @functools.cache
 def legendre() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Start and Legendre points of an interval of length 1, their slopes by columns, and what its end is made of."""
+    """Start and Legendre points of a unit interval [-], their slopes by columns, and what its end is made of."""
     tau = np.append(0.0, ca.collocation_points(DEGREE, "legendre"))
     slopes, end, _ = (np.asarray(m) for m in ca.collocation_coeff(tau[1:].tolist()))
     return tau, slopes, end.ravel()

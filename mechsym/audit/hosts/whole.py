@@ -40,8 +40,8 @@ _LARGEST = 8_000_000  # bytes of a file
 class Coverage:
     """How much of a text was read and judged."""
 
-    equations: int = results.quantity("-")
-    read: int = results.quantity("-")
+    equations: int = results.quantity("-")  #: Displayed in the text
+    read: int = results.quantity("-")  #: Understood as a formula
     matched: int = results.quantity("-")  #: Compared with something
     judged: int = results.quantity("-")  #: With a verdict
     by_units: int = results.quantity("-")  #: Of these, by their units alone
@@ -49,13 +49,13 @@ class Coverage:
 
 
 @record
-class Verdict:
+class Judged:
     """What is said of an equation."""
 
     verdict: str
     matched: str = ""  #: What it was compared with
     note: str = ""
-    error: float | None = None
+    error: float | None = None  #: Largest relative difference over the states compared [-]
     correction: str | None = None
     follows: tuple[str, ...] = ()
 
@@ -63,20 +63,20 @@ class Verdict:
 @dataclass
 class _Judge:
     world: World
-    fits: Sequence[fitting.Fit]
+    fits: Sequence[fitting.Match]
     odd: Mapping[str, list[units.Odd]]
     agreeing: set[str]
     searches: int = _SEARCHES
     wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
 
-    def verdict(self, order: int, said: Said) -> Verdict:
+    def verdict(self, order: int, said: Said) -> Judged:
         """The verdict of an equation: a theory that fits, the text itself, its units."""
         odd = self.odd.get(units.id_of(said), ())
         met = self._met(order, said)
         if met is not None and not odd:
             return met
         if (squares := squares_of_sums(self.world, order, said)) is not None:
-            return Verdict(
+            return Judged(
                 verdict="misprint", matched="the text", correction=to_latex(squares, said.spelled),
                 note="the squares belong outside the sums: so the resultant has the size that stands beside it",
             )  # fmt: skip
@@ -84,27 +84,27 @@ class _Judge:
         if own.verdict in (*FINDINGS, CARRIED) or own.verdict not in ("", DEFINED) and not odd:
             return own
         if odd:
-            return Verdict(verdict="wrong", matched="units", note="; ".join(dict.fromkeys(o.why for o in odd)))
+            return Judged(verdict="wrong", matched="units", note="; ".join(dict.fromkeys(o.why for o in odd)))
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
                 return slip
         if units.id_of(said) in self.agreeing:
-            return Verdict(verdict=AGREES, matched="units", note=own.note)
+            return Judged(verdict=AGREES, matched="units", note=own.note)
         return (
-            own if own.verdict else Verdict(verdict="untestable", note="nothing in the text or a theory is told of it")
+            own if own.verdict else Judged(verdict="untestable", note="nothing in the text or a theory is told of it")
         )
 
-    def _met(self, order: int, said: Said) -> Verdict | None:
+    def _met(self, order: int, said: Said) -> Judged | None:
         for fit in self.fits:
             met = [fit.met[order, k] for k in range(1, len(said.sides)) if (order, k) in fit.met]
             if met and len(met) == len(said.sides) - 1:
                 against = f"{fit.theory.name}.{met[0].quantity}"
                 if all(m.sign > 0 for m in met):
-                    return self._carried(order, said, Verdict(verdict="exact", matched=against, error=0.0))
-                return Verdict(verdict="convention", matched=against, note="exact with the opposite sense")
+                    return self._carried(order, said, Judged(verdict="exact", matched=against, error=0.0))
+                return Judged(verdict="convention", matched=against, note="exact with the opposite sense")
         return None
 
-    def _slip(self, fit: fitting.Fit, order: int, said: Said) -> Verdict | None:
+    def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
         # one slip away from the quantity that the text's words name, in letters that are all known
         for k, side in enumerate(said.sides[1:], 1):
             tree = self.world.plain(side)
@@ -121,7 +121,7 @@ class _Judge:
                         return _passed(row, f"{fit.theory.name}.{quantity}")
         return None
 
-    def _by_text(self, order: int, said: Said) -> Verdict:
+    def _by_text(self, order: int, said: Said) -> Judged:
         world = self.world
         own = next((d for d in world.defined if d.order == order), None)
         reference = own.side if own else 0
@@ -129,7 +129,7 @@ class _Judge:
         if own is None or own.side == 0:
             pairs = [(0, k) for k in range(1, len(said.sides))]
         if not pairs or own and own.side == 0 and len(pairs) == 1:
-            return Verdict(verdict=DEFINED, note=f"the text's own {own.letter}" if own else "")
+            return Judged(verdict=DEFINED, note=f"the text's own {own.letter}" if own else "")
         said_all = [self._pair(order, said, i, k) for i, k in pairs]
         worst = next((v for v in said_all if v.verdict in (*FINDINGS, CARRIED)), None)
         if worst is not None:
@@ -137,10 +137,10 @@ class _Judge:
         told = [v for v in said_all if v.verdict]
         if told:
             return self._carried(order, said, max(told, key=lambda v: PASSED.index(v.verdict)))
-        return Verdict(verdict=DEFINED if own else "", note=f"the text's own {own.letter}" if own else "")
+        return Judged(verdict=DEFINED if own else "", note=f"the text's own {own.letter}" if own else "")
 
-    def _pair(self, order: int, said: Said, i: int, k: int) -> Verdict:
-        nothing = Verdict(verdict="")
+    def _pair(self, order: int, said: Said, i: int, k: int) -> Judged:
+        nothing = Judged(verdict="")
         theory = self.world.theory(order)
         left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
         if value_of(right) == 0 and value_of(left) is None and not (free(theory, left)):
@@ -153,7 +153,7 @@ class _Judge:
             if same:
                 if ast.dump(first) == ast.dump(second):
                     return nothing
-                return Verdict(verdict="exact", matched="the text", error=0.0)
+                return Judged(verdict="exact", matched="the text", error=0.0)
         return self._unlike(order, said, i, k, theory)
 
     def _readings(self, left: Node, right: Node, theory: Theory) -> Iterator[tuple[Node, Node]]:
@@ -179,8 +179,8 @@ class _Judge:
 
         return substitute(self.world.plain(tree), changed)
 
-    def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Verdict:
-        nothing = Verdict(verdict="")
+    def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:
+        nothing = Judged(verdict="")
         left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
         by = "{}_d" if f"{self.world.angle}d" in letters(right) else f"d{{}}_d{self.world.angle}"
         left, right = _primed(left, by, theory), _primed(right, by, theory)
@@ -200,7 +200,7 @@ class _Judge:
             return _passed(row, "the text")
         return self._finding(row, said, said.sides[k], "the text") or nothing
 
-    def _believed(self, order: int, said: Said, i: int, k: int) -> Verdict | None:
+    def _believed(self, order: int, said: Said, i: int, k: int) -> Judged | None:
         # right where earlier slips are believed
         if not self.wrong:
             return None
@@ -224,12 +224,12 @@ class _Judge:
         still = replace(theory.letters[rate], value=1e-300)
         return replace(theory, letters={**theory.letters, rate: still})
 
-    def _follows(self, names: Sequence[str]) -> Verdict:
+    def _follows(self, names: Sequence[str]) -> Judged:
         sources = tuple(self.wrong[n][0] for n in names)
         told = f"follows from {', '.join(f'({s})' for s in sources)} as printed, and is no slip of its own"
-        return Verdict(verdict=CARRIED, matched="the text", note=told, follows=sources)
+        return Judged(verdict=CARRIED, matched="the text", note=told, follows=sources)
 
-    def _carried(self, order: int, said: Said, verdict: Verdict) -> Verdict:
+    def _carried(self, order: int, said: Said, verdict: Judged) -> Judged:
         # right by the text's own letters, one of which is wrong: not so with the right one
         own = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
         for letter, (source, _, right) in self.wrong.items():
@@ -265,7 +265,7 @@ class _Judge:
         except BadInput:
             return None
 
-    def _finding(self, row: Row, said: Said, side: Node, matched: str) -> Verdict | None:
+    def _finding(self, row: Row, said: Said, side: Node, matched: str) -> Judged | None:
         # one slip explains it, and the correction is right
         if row["verdict"] != "misprint" or not row["correction"] or ", then by " in row["note"]:
             return None
@@ -278,14 +278,14 @@ class _Judge:
         left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
         if left:
             self.wrong[left] = (said.name, self.world.plain(side), right)
-        return Verdict(
+        return Judged(
             verdict="misprint", matched=matched, note=row["note"], error=row["max_rel_error"],
             correction=to_latex(right, spelled),
         )  # fmt: skip
 
 
-def _passed(row: Row, matched: str) -> Verdict:
-    return Verdict(verdict=row["verdict"], matched=matched, note=row["note"], error=row["max_rel_error"])
+def _passed(row: Row, matched: str) -> Judged:
+    return Judged(verdict=row["verdict"], matched=matched, note=row["note"], error=row["max_rel_error"])
 
 
 def _primed(tree: Node, by: str, theory: Theory) -> Node:
@@ -346,7 +346,7 @@ def _rows_of(file: Path) -> list[Row]:
     return rows
 
 
-def _row(file: Path, said: Said, verdict: Verdict | None, slips: Sequence[units.TableSlip]) -> Row:
+def _row(file: Path, said: Said, verdict: Judged | None, slips: Sequence[units.TableSlip]) -> Row:
     shown = said.shown
     place = {"file": str(file), **tell(EquationPlace(line=shown.line, label=shown.label or None))}
     if verdict is None:

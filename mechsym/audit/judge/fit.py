@@ -44,7 +44,7 @@ class Met:
 
 
 @dataclass
-class Fit:
+class Match:
     """A theory with the reading of the text's letters under which it fits."""
 
     theory: Theory
@@ -63,7 +63,7 @@ class Fit:
 
 
 @cache
-def _states(theory_name: str) -> "Fit":
+def _states(theory_name: str) -> "Match":
     theory = named(theory_name)
     rng = np.random.default_rng(3)
     values: dict[str, np.ndarray] = {"pi": np.full(_STATES, np.pi)}
@@ -84,7 +84,7 @@ def _states(theory_name: str) -> "Fit":
     values = {n: v for n, v in values.items() if np.shape(v) == (_STATES,)}
     kinds = {n: _kind(theory, n) for n in values}
     asked = [q for q in (*theory.results, *_rates(theory)) if q in values and not _INNER.match(q)]
-    return Fit(theory=theory, values=values, kinds=kinds, asked=asked, table=np.array([values[q] for q in asked]))
+    return Match(theory=theory, values=values, kinds=kinds, asked=asked, table=np.array([values[q] for q in asked]))
 
 
 def _rates(theory: Theory) -> list[str]:
@@ -101,7 +101,7 @@ def _kind(theory: Theory, letter: str) -> tuple[object, ...] | None:
     return None if kind is None else tuple(kind[:4])
 
 
-def fits(world: World) -> list[Fit]:
+def fits(world: World) -> list[Match]:
     """The theories that fit a text, those that say most of it first."""
     sides = list(_sides(world))
     used = {n.replace("_", "") for *_, tree in sides for n in letters(tree)}
@@ -115,7 +115,7 @@ def fits(world: World) -> list[Fit]:
         found.append(fit)
     prose = world.paper.prose.lower()
     strange = {f.theory.name: sum(w not in prose for w in f.theory.name.split("_")) for f in found}
-    kept: list[Fit] = []
+    kept: list[Match] = []
     for fit in sorted(found, key=lambda f: (strange[f.theory.name], -len(f.strong), len(f.theory.name))):
         # what says nothing new fits by chance
         if len(fit.strong - {o for f in kept for o in f.strong}) > 1:
@@ -136,7 +136,7 @@ def _sides(world: World) -> Iterator[tuple[int, int, Node]]:
                 yield order, k, world.plain(side)
 
 
-def _by_name(fit: Fit, world: World, letter: str) -> str:
+def _by_name(fit: Match, world: World, letter: str) -> str:
     theory = fit.theory
     if world.angle and letter.startswith(world.angle) and theory.angle:
         rest = letter[len(world.angle) :]
@@ -149,12 +149,12 @@ def _by_name(fit: Fit, world: World, letter: str) -> str:
     return ""
 
 
-def _one_kind(fit: Fit, kinds: Kinds, letter: str, known: str) -> bool:
+def _one_kind(fit: Match, kinds: Kinds, letter: str, known: str) -> bool:
     mine, its = kinds.of(letter), fit.kinds.get(known)
     return mine is None or its is None or tuple(mine[:4]) == its
 
 
-def _meet(fit: Fit, world: World, order: int, side: int, tree: Node) -> None:
+def _meet(fit: Match, world: World, order: int, side: int, tree: Node) -> None:
     used = [n for n in letters(tree) if n != "pi"]
     heavy = sum(isinstance(n, (ast.BinOp, ast.Call)) for _, n in walk(tree))
     if not used or heavy < 1 or len(used) > 9:
@@ -181,7 +181,7 @@ def _meet(fit: Fit, world: World, order: int, side: int, tree: Node) -> None:
         return
 
 
-def _choices(fit: Fit, world: World, letter: str, strong: bool) -> list[str]:
+def _choices(fit: Match, world: World, letter: str, strong: bool) -> list[str]:
     if letter in fit.meant:
         return [fit.meant[letter]]
     if by_name := _by_name(fit, world, letter):
@@ -197,7 +197,7 @@ def _choices(fit: Fit, world: World, letter: str, strong: bool) -> list[str]:
     return [n for n in fit.of_kind(kind) if kind is not None or n in fit.theory.letters or n in fit.theory.results][:24]
 
 
-def _quantity(fit: Fit, world: World, tree: Node, reading: Mapping[str, str], left: str) -> tuple[str, int]:
+def _quantity(fit: Match, world: World, tree: Node, reading: Mapping[str, str], left: str) -> tuple[str, int]:
     given = {"pi": fit.values["pi"]} | {k: fit.values[v] for k, v in reading.items()}
     with np.errstate(all="ignore"):
         try:
@@ -217,14 +217,14 @@ def _quantity(fit: Fit, world: World, tree: Node, reading: Mapping[str, str], le
     return "", 0
 
 
-def readings(fit: Fit, world: World, used: Sequence[str]) -> list[dict[str, str]]:
+def readings(fit: Match, world: World, used: Sequence[str]) -> list[dict[str, str]]:
     """What the letters of a formula mean in a theory: as other formulas have shown, or as they are called."""
     by_name = {n: _by_name(fit, world, n) for n in used}
     both = ({n: fit.meant.get(n) or by_name[n] for n in used}, {n: by_name[n] or fit.meant.get(n, "") for n in used})
     return [r for i, r in enumerate(both) if all(r.values()) and (not i or r != both[0])]
 
 
-def candidates(fit: Fit, said: Said, world: World) -> Sequence[str]:
+def candidates(fit: Match, said: Said, world: World) -> Sequence[str]:
     """Quantities that a text's words call what an equation gives, of the right unit, that no other formula is."""
     left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
     if not left:

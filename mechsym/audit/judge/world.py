@@ -337,7 +337,7 @@ class States:
     values: dict[str, np.ndarray]
 
     def value(self, tree: Node) -> np.ndarray:
-        """Values of an expression, nan where it has none."""
+        """Values of an expression [SI], nan where it has none."""
         with np.errstate(all="ignore"):
             complete(self.theory, self.values, letters(tree), FLOATS)
             return np.broadcast_to(np.asarray(evaluate(tree, self.values, FLOATS), dtype=float), (_STATES,))

@@ -56,7 +56,7 @@ class Displayed:
 
 
 @record
-class _Block:
+class _Display:
     body: str
     start: int
     rows: bool
@@ -105,7 +105,7 @@ def _joins(last: str, plain: str, same_block: bool) -> bool:
     return bool(re.match(rf"{_SPACE}*=", plain) or re.search(r"=\s*$", last))
 
 
-def _blocks(text: str, at: int) -> Iterator[_Block]:
+def _blocks(text: str, at: int) -> Iterator[_Display]:
     while match := _OPENING.search(text, at):
         at = match.end()
         name, star = match["name"], match["star"] or ""
@@ -118,7 +118,7 @@ def _blocks(text: str, at: int) -> Iterator[_Block]:
         start, at = at, close + len(closing)
         margin = _MARGIN.match(text, at) if not name else None
         numbered = name in (*_ROWS, "equation", "multline") and not star
-        yield _Block(body=body, start=start, rows=rows, numbered=bool(numbered), number=margin[1] if margin else "")
+        yield _Display(body=body, start=start, rows=rows, numbered=bool(numbered), number=margin[1] if margin else "")
         at = margin.end() if margin else at
 
 
