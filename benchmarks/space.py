@@ -4,7 +4,7 @@
 
 chain     20 links on revolute joints across one another: accelerations of one state
 stewart   accelerations of a Stewart platform on its loops, all thirteen bodies with mass
-rssr      10,000 turns, 1,000 of the peers: how far the loop gapes after them, what the energy has lost, the seconds;
+rssr      10,000 turns, 1,000 in Exudyn: how far the loop gapes after them, what the energy has lost, the seconds;
           Pinocchio, which has no integrator, by Runge and Kutta's steps, its constraint stabilised, Exudyn by its
           generalised alpha
 
@@ -29,7 +29,7 @@ from mechsym.mechanisms.record import bind, bind_module
 from mechsym.simulate import Problem, Settings, simulate
 
 EXAMPLES = Path(__file__).parents[1] / "examples/space"
-LINKS, TURNS, PEER_TURNS = 20, 10_000, 1_000
+LINKS, TURNS, EXUDYN_TURNS = 20, 10_000, 1_000
 PLATFORM = dict(R=1.0, r=0.6, half=0.4, gap=0.2, plate_mass=30.0, low=3.0, up=2.0, I=2.0, A=0.1, C=0.005, g=9.81)
 LINKAGE = dict(a=0.1, b=0.5, c=0.32, d=0.35, h=0.2, m2=0.8, m3=0.6, I1=0.02, I2=0.013, J2=3e-4, I3=0.006, g=9.81)
 
@@ -353,8 +353,8 @@ def main(wanted):
             exudyn_platform()
     if "rssr" in wanted:
         run_linkage(TURNS)
-        pinocchio_linkage(PEER_TURNS)
-        exudyn_linkage(PEER_TURNS)
+        pinocchio_linkage(TURNS)
+        exudyn_linkage(EXUDYN_TURNS)
 
 
 if __name__ == "__main__":
