@@ -65,8 +65,8 @@ def _share(within: re.Match[str]) -> float:
     return float(within[1]) * (0.01 if within[2] else 1.0)
 
 
-def answer(asked: Asked) -> Row:
-    """The row of one formula; of a = b = c that of the worst equality."""
+def answer(asked: Asked, *, one: bool = False) -> Row:
+    """The row of one formula; of a = b = c that of the worst equality. one: repairs of two edits are not looked for."""
     said, claim = statement(asked.text), asked.claim.strip()
     if claim not in ("", "=", "approx") and not _ORDER.fullmatch(claim) and not _WITHIN.fullmatch(claim):
         raise BadInput(f'--claim {claim!r} is not known; it is "=", "approx", "lam^2" or "within 1 %"')
@@ -75,7 +75,7 @@ def answer(asked: Asked) -> Row:
         raise BadInput(
             f"--claim {claim!r} is {100 * _share(within):g} %, which most formulas keep; write 'within 1 %' or '0.01'"
         )
-    rows = [_answer(asked, replace(said, right=(right,)), claim) for right in said.right]
+    rows = [_answer(asked, replace(said, right=(right,)), claim, one) for right in said.right]
     return min(rows, key=lambda r: WORST.index(r["verdict"]))
 
 
@@ -99,10 +99,10 @@ def shared(rows: Sequence[Row]) -> list[Row]:
     return settled
 
 
-def _answer(asked: Asked, said: Statement, claim: str) -> Row:
+def _answer(asked: Asked, said: Statement, claim: str, one: bool) -> Row:
     chosen = [c for c in conventions.checked(asked.convention) if c != "show"]
     question = question_of(asked, said)
-    verdict = decide(question)
+    verdict = decide(question, one=one)
     read = {*dependencies(question.theory, [question.quantity]), *used_names(question.formula)}
     held, idle = ([f"{k} = {v:g}" for k, v in question.hold.items() if (k in read) == there] for there in (True, False))
     notes = [f"compared at {', '.join(held)}" if held else "", left_note(question, asked, said.left)]

@@ -84,6 +84,19 @@ def read_text(path: Path | str, option: str = "", way_out: str = "", encoding: s
         raise OSError(error.errno, error.strerror, str(path)) from None
 
 
+def read_any_text(path: Path | str, most: int, option: str = "") -> str:
+    """Text of a file, Latin-1 where it is no UTF-8. Raises BadInput: as `read_text`; over `most` characters; binary."""
+    try:
+        text = read_text(path, option, encoding="utf-8-sig")
+    except BadInput:  # a file that is not there is refused again
+        text = read_text(path, option, encoding="latin-1")
+    if len(text) > most:
+        raise BadInput(f"{option} {path} has {len(text)} characters; at most {most} are read".strip())
+    if "\0" in text:
+        raise BadInput(f"{option} {path} is no text".strip())
+    return text
+
+
 _TABLE = re.compile(rb"""["']([\w./ -]+\.csv)["']""")  # as a file names it
 
 

@@ -282,7 +282,7 @@ READERS = {
 @pytest.mark.parametrize("reader", READERS)
 @pytest.mark.parametrize("failure", [errno.EACCES, errno.EIO])
 def test_a_file_that_the_system_does_not_give(monkeypatch, capsys, tmp_path, reader, failure):
-    file = tmp_path / {"paper": "a.tex", "case": "a.toml", "theory": "a.toml"}.get(reader, "a.csv")
+    file = tmp_path / {"paper": "a.tex", "case": "a.toml", "theory": "a.toml", "code": "a.py"}.get(reader, "a.csv")
     file.write_text("")
     given = Path.read_bytes
 

@@ -5,11 +5,12 @@ from collections.abc import Collection
 from pathlib import Path
 
 from mechsym.audit.read import tree as trees
-from mechsym.audit.read.programs.claims import ENDS, Claim, base, inlined, is_changed, read_program, text_of
+from mechsym.audit.read.programs.claims import ENDS, LONGEST_FILE, Claim, base, inlined, is_changed, read_program
 from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, letters
 from mechsym.errors import BadInput
+from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record
 
 LONGEST = 5000  # of a formula with everything put in
@@ -35,8 +36,9 @@ def read_code(place: str, own: Collection[str] = ()) -> list[Assigned]:
     suffix = Path(file).suffix.lower()
     if suffix not in ENDS:
         raise BadInput(f"--code {file}: files that are read end in {', '.join(ENDS)}")
+    text = read_any_text(file, LONGEST_FILE, "--code")
     try:
-        reading = read_program(text_of(Path(file)), suffix)
+        reading = read_program(text, suffix)
     except BadInput as error:
         raise BadInput(f"--code {file}: {error}") from None
     if function not in reading.names:

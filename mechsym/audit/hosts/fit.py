@@ -48,7 +48,7 @@ class Fitted:
 
 
 def words(text: str) -> tuple[str, ...]:
-    """The words of a name or a comment: `crankRad_1` is crank, rad, 1; a single letter keeps its case."""
+    """The words of a name or a comment: 'crankRad_1' is crank, rad, 1; a single letter keeps its case."""
     parts = re.findall(r"[A-Za-z]+|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text))
     return tuple(p if len(p) == 1 else p.lower() for p in parts)
 

@@ -25,7 +25,7 @@ from mechsym.audit.hosts.fit import (
 from mechsym.audit.judge.asked import Asked, question_of
 from mechsym.audit.judge.conventions import also_exact
 from mechsym.audit.read import tree as trees
-from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, inlined, read_program, text_of
+from mechsym.audit.read.programs.claims import ENDS, LONGEST_FILE, Claim, Reading, base, inlined, read_program
 from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import Formula, statement
 from mechsym.audit.read.spelling import to_python
@@ -36,6 +36,7 @@ from mechsym.audit.theory.record import Letter, Theory
 from mechsym.audit.theory.tape import TheoryTape, derivative
 from mechsym.audit.verdict import PASSED, decide
 from mechsym.errors import BadInput
+from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record
 
 _LEFT_OUT = {
@@ -92,7 +93,7 @@ def audited(place: Path, asked: Asked, chosen: Sequence[Path]) -> Iterator[File]
     for path in chosen:
         shown = path.relative_to(root).as_posix()
         try:
-            reading = read_program(text_of(path), path.suffix.lower())
+            reading = read_program(read_any_text(path, LONGEST_FILE), path.suffix.lower())
         except BadInput as error:
             yield File(path=shown, why=str(error))
             continue

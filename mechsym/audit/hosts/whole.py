@@ -26,6 +26,7 @@ from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import retaped
 from mechsym.audit.verdict import FINDINGS, PASSED
 from mechsym.errors import BadInput
+from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record, results
 from mechsym.quantities.results import part, result, tell
 
@@ -33,7 +34,7 @@ _PUT_BACK = re.compile("repaired by (?:put back|letter)")
 SUFFIXES = (".tex", ".md", ".txt")
 AGREES = "units agree"
 _SEARCHES = 48  # searches for a slip in one text
-_LARGEST = 8_000_000  # bytes of a file
+_LARGEST = 8_000_000  # characters of a file
 
 
 @result
@@ -261,7 +262,7 @@ class _Judge:
             claim="approx" if said.claim else "", letters={k: v for k, v in meant.items() if k != v},
         )  # fmt: skip
         try:
-            return answer(asked)
+            return answer(asked, one=True)
         except BadInput:
             return None
 
@@ -320,14 +321,9 @@ def coverage(rows: Sequence[Row]) -> Coverage:
 
 
 def _rows_of(file: Path) -> list[Row]:
+    text = read_any_text(file, _LARGEST)
     try:
-        size = file.stat().st_size
-        if size > _LARGEST:
-            raise BadInput(f"it has {size} bytes; at most {_LARGEST} are read: give a part of it")
-        text = file.read_bytes().decode("utf-8", errors="replace").replace("\r\n", "\n")
         paper = read_text_whole(text)
-    except OSError as error:
-        raise BadInput(f"{file}: it cannot be read: {error.strerror}") from None
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
     kinds = units.kinds_of(paper)

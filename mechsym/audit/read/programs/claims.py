@@ -4,7 +4,6 @@ import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
-from pathlib import Path
 
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.grammars import GRAMMARS, read_grammar
@@ -16,7 +15,7 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 ENDS = (".py", ".mo", *GRAMMARS)  #: Of the names of files that are read
-LONGEST = 1_000_000  #: Of a file [bytes]
+LONGEST_FILE = 1_000_000  #: Characters
 # before the number of a name's later values: changed with regard to the one before, or given in branches alone
 _AGAIN, _ANEW = "__v", "__w"
 
@@ -54,23 +53,6 @@ def base(letter: str) -> str:
 def is_changed(letter: str) -> bool:
     """Whether a letter is what a loop or a branch made of an earlier value."""
     return _AGAIN in letter
-
-
-def text_of(path: Path) -> str:
-    """The text of a program, in UTF-8 or Latin-1. Raises BadInput."""
-    try:
-        raw = path.read_bytes()
-    except OSError as error:
-        raise BadInput(f"{path} cannot be read: {error.strerror}") from None
-    if len(raw) > LONGEST:
-        raise BadInput(f"{path} has {len(raw)} bytes; at most {LONGEST} are read")
-    try:
-        text = raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = raw.decode("latin-1")
-    if "\0" in text:
-        raise BadInput(f"{path} is no text")
-    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def read_program(text: str, suffix: str) -> Reading:
