@@ -213,8 +213,8 @@ def rows_of(found: "Sweep") -> list[Json]:
     rows = []
     for name, column in main_results(found).items():
         ends = np.nanmin(column), np.nanmax(column)
-        # of points that differ by round-off the first
-        low, high = (int(np.flatnonzero(np.abs(column - end) <= 1e-12 * np.abs(end))[0]) for end in ends)
+        # of points that differ by no more than a run is known to the first
+        low, high = (int(np.flatnonzero(np.abs(column - end) <= 1e-9 * np.abs(end))[0]) for end in ends)
         numbers = dict(zip(_NUMBERS, map(float, (*ends, np.nanmean(column), np.nanstd(column))), strict=True))
         largest = max(map(abs, numbers.values()))
         row = {"name": name, "unit": found.units[name], "at min": place(found, low), "at max": place(found, high)}

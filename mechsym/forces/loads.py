@@ -140,6 +140,7 @@ def orders(values: Pure[Array], period: Radian, highest: Pure = 12.0) -> Harmoni
     there = amplitude > _ROUND_OFF * amplitude.max(initial=0.0)
     amplitude[0] = spectrum[0].real
     phase = np.where(there, -np.angle(spectrum), 0.0)
+    phase[phase < _ROUND_OFF - math.pi] = math.pi  # the sign of half a turn would be that of round-off
     return Harmonics(order=order[wanted], amplitude=amplitude[wanted], phase=phase[wanted])
 
 

@@ -34,6 +34,8 @@ def test_whole_numbers_count():
     assert not same_text("3 of 4 limits", "3 of 5 limits", 1e-6)
     assert same_text("steps      1030", "steps      1009", 1e-6)
     assert not same_text("x = 1.2e-03 m", "x = 1.4e-03 m", 1e-6) and same_text("x = 1.2e-03 m", "x = 1.3e-03 m", 1e-6)
+    assert same_text("energy residual       0", "energy residual       below 1e-8", 1e-6)
+    assert not same_text("energy residual       0", "energy residual       below 1e-5", 1e-6)
     assert not [*differences({"energy_residual": 3e-11}, {"energy_residual": -8e-12})]
     assert [*differences({"energy_residual": 3e-11}, {"energy_residual": 2e-3})]
 
