@@ -4,7 +4,6 @@ A sample's half is told by the hash of its text: `late` ones were first run when
 """
 
 import hashlib
-import time
 
 import pytest
 
@@ -164,9 +163,7 @@ QUICK = (
 @pytest.mark.parametrize(("expected", "text", "against", "more"), [sample(*s) for s in SAMPLES])
 def test_nothing_is_exact_or_corrected_that_is_not(tiny, expected, text, against, more):
     more = more | ({"theory": tiny} if against.startswith("tiny.") else {})
-    begin = time.process_time()
     row = check_formula(text, against, **more)
-    assert time.process_time() - begin < 25  # at most 8 on the machine where the budgets were chosen
     if expected != "refused":
         assert row["verdict"] == expected
         return
