@@ -17,11 +17,12 @@ SMALL = 1e-6
 NOTHING = 1e-7
 # lines of a file of text: a number that is nearly 0 may stand there or not
 SIZE = 0.01
-_SIZE = re.compile(r"^\.files\.[^\[]*\.\w+$")
+_SIZE = re.compile(r"^\.files\..*\.(c|h|mo|jl|m|py|md|toml|txt|v)$")
 # steps and rounds of a search turn with the last digit of what they search; what a run's energy changes by over whole
 # turns is a difference of energies that a sweep does not show
 LOOSE = re.compile(
-    r"(^|\.)(steps|rounds|iterations|evaluations|runs|rejected|energy\.change)( \[[-J]\])?(\[\d+\])*(\.(first|last|min|max))?$"
+    r"(^|\.)(steps|rounds|iterations|evaluations|runs|rejected|energy\.change)( \[[-J]\])?(\[\d+\])*"
+    r"(\.(first|last|min|max))?$"
 )
 _COLUMN_UNIT = re.compile(r"\[([^\]\d-][^\]]*)\]")
 _FIGURE = re.compile(r"\.(first|last|min|max)$|\[\d+\]$")
