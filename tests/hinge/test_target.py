@@ -99,7 +99,9 @@ def written(folder):
 @pytest.mark.slow
 @pytest.mark.parametrize("case", HINGES)
 @pytest.mark.parametrize(
-    "words", [("hinge",), ("codesign",), ("codesign", "--peers", "--pareto", "3,5%")], ids="_".join
+    "words",
+    [("hinge",), ("codesign",), pytest.param(("codesign", "--peers", "--pareto", "3,5%"), marks=pytest.mark.heavy)],
+    ids="_".join,
 )
 def test_no_word_of_success_beside_a_missed_target(case, words, tmp_path):
     done = command(words[0], case, *words[1:], "--out", str(tmp_path))

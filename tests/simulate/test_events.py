@@ -185,6 +185,7 @@ def test_a_toggle_press_with_friction_in_every_joint_moves_as_by_an_own_fixed_po
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_a_press_stays_while_its_friction_holds_and_one_that_locks_itself_is_refused():
     p = press_numbers(0.1)
 
