@@ -30,10 +30,8 @@ _CHATTER = 1e-7  # of the run: a bounce that ends within this is over [-]
 _MOST, _STUCK = 100_000, 60
 _CLOSED = 1e-9  # a gap at the start, beyond which a stop is passed [m] or [rad]
 _LOOKS = 12  # at the fixed point of a leg
-_SINGULAR, _FALLS = (
-    1e-6,
-    0.3,
-)  # condition of loops that are singular; fall of a determinant, after which another is chosen
+_SINGULAR = 1e-6  # condition of loops that are singular [-]
+_FALLS = 0.3  # of a determinant, after which other coordinates are chosen [-]
 MARGIN = "margin"
 
 
@@ -67,12 +65,8 @@ def integrate(
         states.append(_closed(known, leg.y[reached, : known.base]))
         _require_contraction(known, now, leg)
         idle = idle + 1 if leg.t[-1] - now.t <= 1e-15 * abs(now.t) else 0
-        now.t, now.y, steps, failure = (
-            float(leg.t[-1]),
-            _closed(known, leg.y[-1:, : known.base])[0],
-            steps + leg.steps,
-            leg.failure,
-        )
+        now.t, now.y = float(leg.t[-1]), _closed(known, leg.y[-1:, : known.base])[0]
+        steps, failure = steps + leg.steps, leg.failure
         if failure or leg.end not in (*levels, "t_end") or now.t >= problem.t_end:
             end = leg.end
             break

@@ -54,9 +54,8 @@ class Model:
     holds: bool  #: Whether all friction acts on one freedom, which it may hold at rest
     #: (t, y, w) to p, v, dv/dt, limit of each, guards, rate of each column, derivative of friction by p
     look: ca.Function
-    blow: (
-        ca.Function
-    )  #: q to mass matrix, W, the velocities that impulses along W change, and W of the free coordinates
+    #: q to mass matrix, W, the velocities that impulses along W change, and W of the free coordinates
+    blow: ca.Function
     pose: ca.Function  #: Coordinates and velocities put on the closure of the loops
     dependents: tuple[str, ...]  #: Coordinates that the loops hold
     margin: int | None  #: The guard that tells how far they are from a dead point

@@ -9,7 +9,9 @@ from dataclasses import field
 from functools import cache
 from pathlib import Path
 
-from mechsym.audit.hosts.fit import (
+from mechsym.audit.judge.asked import Asked, question_of
+from mechsym.audit.judge.conventions import also_exact
+from mechsym.audit.judge.lexicon import (
     ANGLES,
     Fitted,
     Lexicon,
@@ -22,8 +24,6 @@ from mechsym.audit.hosts.fit import (
     of_units,
     safe,
 )
-from mechsym.audit.judge.asked import Asked, question_of
-from mechsym.audit.judge.conventions import also_exact
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import ENDS, LONGEST_FILE, Claim, Reading, base, inlined, read_program
 from mechsym.audit.read.programs.statements import OF
@@ -39,18 +39,7 @@ from mechsym.errors import BadInput
 from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record
 
-_LEFT_OUT = {
-    ".git",
-    "node_modules",
-    ".venv",
-    "venv",
-    "__pycache__",
-    "build",
-    "dist",
-    "third_party",
-    ".tox",
-    "site-packages",
-}
+_LEFT_OUT = {*"node_modules venv __pycache__ build dist third_party site-packages".split()}  # and what a dot begins
 _NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
 _MOST_FILES = 20_000
 _LARGEST = 120  # parts of a formula for which a slip is searched: the search is the one thing here that takes long
@@ -118,7 +107,7 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
         matched += outcome is not None or own is not None
         judged += bool(outcome and outcome["verdict"] != "") or bool(own)
         for row in (outcome, own):
-            if row is not None and row["verdict"] in ("misprint", "factor", "derivative"):
+            if row is not None and row["verdict"] in ("misprint", "derivative"):
                 rows.append(_placed(row, claim, shown))
     for claim, row in _slopes(reading):
         matched, judged = matched + 1, judged + 1
@@ -136,7 +125,7 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
 
 
 def _placed(row: Row, claim: Claim, shown: str) -> Row:
-    printed = f"{base(claim.name).replace(OF, chr(46))} = {_shown(claim.tree)}"
+    printed = f"{base(claim.name).replace(OF, '.')} = {_shown(claim.tree)}"
     told = "|".join([shown, claim.scope, claim.name, row["claim"], printed])
     return row | {
         "file": shown,
@@ -291,11 +280,9 @@ def _with_name(tree: Node, old: str, new: str) -> Node:
 
 def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | None:
     free = {safe(k): Letter(unit="-", value=1.0) for k in letters(whole) if k != "pi"}
-    plain = trees.substitute(
-        whole, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
-    )
-    slope = trees.substitute(
-        slope, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
+    plain, slope = (
+        trees.substitute(t, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None)
+        for t in (whole, slope)
     )
     letter = safe(by)
     if letter not in free:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from mechsym.audit.hosts.paper import CARRIED, DEFINED, EquationPlace, few
 from mechsym.audit.judge import fit as fitting
-from mechsym.audit.judge import kinds as units
+from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.world import World, alike, free, states
@@ -65,14 +65,14 @@ class Judged:
 class _Judge:
     world: World
     fits: Sequence[fitting.Match]
-    odd: Mapping[str, list[units.Odd]]
+    odd: Mapping[str, list[of_units.Odd]]
     agreeing: set[str]
     searches: int = _SEARCHES
     wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
 
     def verdict(self, order: int, said: Said) -> Judged:
         """The verdict of an equation: a theory that fits, the text itself, its units."""
-        odd = self.odd.get(units.id_of(said), ())
+        odd = self.odd.get(of_units.id_of(said), ())
         met = self._met(order, said)
         if met is not None and not odd:
             return met
@@ -89,7 +89,7 @@ class _Judge:
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
                 return slip
-        if units.id_of(said) in self.agreeing:
+        if of_units.id_of(said) in self.agreeing:
             return Judged(verdict=AGREES, matched="units", note=own.note)
         return (
             own if own.verdict else Judged(verdict="untestable", note="nothing in the text or a theory is told of it")
@@ -270,7 +270,7 @@ class _Judge:
         # one slip explains it, and the correction is right
         if row["verdict"] != "misprint" or not row["correction"] or ", then by " in row["note"]:
             return None
-        if _PUT_BACK.search(row["note"]) and units.id_of(said) not in self.odd:
+        if _PUT_BACK.search(row["note"]) and of_units.id_of(said) not in self.odd:
             return None  # what is left out may be 1 there; with a unit it cannot
         right = read_expression(row["correction"], (), AnyLetter())[0]
         everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
@@ -326,13 +326,13 @@ def _rows_of(file: Path) -> list[Row]:
         paper = read_text_whole(text)
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
-    kinds = units.kinds_of(paper)
-    misfits, _ = units.odd(kinds, paper.said)
-    slips, left = units.table_slips(paper, kinds, misfits)
-    odd: dict[str, list[units.Odd]] = {}
-    for one in units.findings(kinds, left):
-        odd.setdefault(units.id_of(one.said), []).append(one)
-    _, fitted = units.odd(kinds, paper.said)
+    kinds = of_units.kinds_of(paper)
+    misfits, _ = of_units.odd(kinds, paper.said)
+    slips, left = of_units.table_slips(paper, kinds, misfits)
+    odd: dict[str, list[of_units.Odd]] = {}
+    for one in of_units.findings(kinds, left):
+        odd.setdefault(of_units.id_of(one.said), []).append(one)
+    _, fitted = of_units.odd(kinds, paper.said)
     world = World(paper=paper, kinds=kinds)
     judge = _Judge(world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted)
     rows = []
@@ -342,7 +342,7 @@ def _rows_of(file: Path) -> list[Row]:
     return rows
 
 
-def _row(file: Path, said: Said, verdict: Judged | None, slips: Sequence[units.TableSlip]) -> Row:
+def _row(file: Path, said: Said, verdict: Judged | None, slips: Sequence[of_units.TableSlip]) -> Row:
     shown = said.shown
     place = {"file": str(file), **tell(EquationPlace(line=shown.line, label=shown.label or None))}
     if verdict is None:

@@ -242,8 +242,8 @@ class Probes:
             complete(self.theory, at, [quantity, *used_names(form)], FLOATS)
             own = {k: evaluate(tree, at, FLOATS) for k, tree in form.letters.items()}
             printed = evaluate(form.tree, {**at, **own}, FLOATS)
-        both = (np.asarray(v, dtype=float) for v in (printed, at[quantity]))
-        return tuple(np.broadcast_to(v, (count,)) for v in both)  # type: ignore[return-value]
+        own_values, its = (np.broadcast_to(np.asarray(v, dtype=float), (count,)) for v in (printed, at[quantity]))
+        return own_values, its
 
 
 def compared(form: Formula, states: Probes, quantity: str) -> Nearness | None:
