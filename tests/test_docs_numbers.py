@@ -73,15 +73,8 @@ SOURCES = {
     # of `codesign zotov-89 --losses inside`, minutes long and not kept
     "README.md": {2353},
     "docs/codesign.md": {2353},
-    "docs/engine.md": {
-        3958,
-        977,
-        704,
-        288,
-        5.81,
-        5.61,
-        1.09,
-    },  # Timoumi 2008, NASA TM-82646, SETT, and 6.35 kW by its 5.81
+    # Timoumi 2008, NASA TM-82646, SETT, and 6.35 kW by its 5.81
+    "docs/engine.md": {3958, 977, 704, 288, 5.81, 5.61, 1.09},
     "docs/notation.md": {2.68, 2.75},  # numbers of equations
     "docs/proof.md": {264.312, 93.537, 100.015, 6956, 80559},  # make proof, whose test reads them off the page
     "docs/space.md": {5018, 182, 445},  # python -m benchmarks.space
@@ -106,10 +99,8 @@ def test_no_page_has_a_number_that_no_command_printed(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "docs"))
     known, unknown = printed_numbers(), {}
     for name in PAGES:
-        text, own = (
-            re.sub(LEFT_OUT, "", (ROOT / name).read_text(encoding="utf-8"), flags=re.S | re.M),
-            quoted_numbers(name),
-        )
+        text = re.sub(LEFT_OUT, "", (ROOT / name).read_text(encoding="utf-8"), flags=re.S | re.M)
+        own = quoted_numbers(name)
         for written in (n.replace(",", "") for n in NUMBER.findall(text)):
             plain = float(written) in known | SOURCES.get(name, set()) or 1800 < float(written) < 2100
             if len(written.replace(".", "").strip("0")) > 2 and not plain and not rounds(own, written):
