@@ -30,7 +30,7 @@ _DEEPEST = 12  # how often a piece is halved before it is told as singular
 _SEED = 20260
 _NEAR = 9.5  # bound by the largest error seen, above which a box is halved
 _ENOUGH = 1000  # samples, from which the largest error seen is near the largest that there is
-_MOST = 256  # parts of a box that are tried for a nearer bound
+_MOST = 1024  # parts of a box that are tried for a nearer bound
 _PER_SAMPLE, _PER_FAR_SAMPLE = 1e-4, 2e-5  # of each function, in 60 digits and in extended precision [s]
 
 
@@ -201,11 +201,11 @@ _MORE: dict[str, Callable[..., Ball]] = {
 def _bounded(tape: Tape, box: Box, along: Sequence[int], goals: Sequence[float]) -> list[list[tuple[Box, Rounded]]]:
     """For each output the parts of a box with what holds there; the part farthest above its goal is halved first."""
     parts: list[list[tuple[Box, Rounded]]] = [[] for _ in goals]
-    waiting: list[tuple[float, int, int, Box, int, list[Rounded], list[int]]] = []
+    waiting: list[tuple[float, int, int, Box, Callable[[], int], list[Rounded], list[int]]] = []
     count = itertools.count()
 
     def enter(part: Box, outputs: Sequence[int], depth: int) -> None:
-        values, widest = bounds(tape, part, along)
+        values, widest = bounds(tape, part, along, outputs)
         above = [i for i in outputs if values[i].error > goals[i]]
         for i in set(outputs) - set(above):
             parts[i].append((part, values[i]))
@@ -215,11 +215,12 @@ def _bounded(tape: Tape, box: Box, along: Sequence[int], goals: Sequence[float])
 
     enter(box, range(len(goals)), 0)
     while waiting:
-        worst, number, depth, part, k, values, above = heapq.heappop(waiting)
+        worst, number, depth, part, widest, values, above = heapq.heappop(waiting)
         if depth == _DEEPEST or (number >= _MOST and math.isfinite(worst)):
             for i in above:
                 parts[i].append((part, values[i]))
             continue
+        k = widest()
         low, high = part[k]
         for half in itertools.pairwise((low, (low + high) / 2, high)):
             enter((*part[:k], half, *part[k + 1 :]), above, depth + 1)

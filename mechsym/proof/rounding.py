@@ -14,12 +14,12 @@ sums of doubles of one sign, rounded up by `UP`.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
+from typing import NamedTuple
 
 from mechsym.errors import BadInput
 from mechsym.native.tape import Node, Tape
 from mechsym.proof.balls import REAL, UP, Ball, arb, ctx, upper
-from mechsym.quantities import record
 
 #: Units in the last place that an elementary function may be off; powers where |y log x| < 30, 16 beyond
 ULPS = {"sin": 2.0, "cos": 2.0, "tan": 3.0, "exp": 1.5, "log": 1.5, "asin": 3.0, "acos": 1.0, "atan": 1.0,
@@ -53,8 +53,7 @@ _COMPARED = ("lt", "le", "eq", "ne", "not", "and", "or", "sign")
 KNOWN = {*VALUES, *_COMPARED, "if_else_zero", "input", "constant"}
 
 
-@record
-class Rounded:
+class Rounded(NamedTuple):
     """A value and how far what is computed may be from it; infinite where it may be anything."""
 
     ball: Ball
@@ -78,11 +77,14 @@ def half_ulp(size: float, ulps: float = 0.5) -> float:
     return ulps * max(math.ldexp(1.0, math.frexp(size)[1] - 53), 5e-324) if size else 0.0
 
 
-def bounds(tape: Tape, box: Sequence[tuple[float, float]], along: Sequence[int] = ()) -> tuple[list[Rounded], int]:
-    """The outputs over a box of inputs [SI]: balls of their values and bounds of what they may be off; and the input
-    that the box is best halved by.
+def bounds(
+    tape: Tape, box: Sequence[tuple[float, float]], along: Sequence[int] = (), wanted: Collection[int] | None = None
+) -> tuple[list[Rounded], Callable[[], int]]:
+    """The outputs over a box of inputs [SI]: balls of their values and bounds of what they may be off; and what tells
+    the input that the box is best halved by.
 
     along: inputs whose width decides; without them, where many have one, values are enclosed by the mean value too.
+    wanted: numbers of the outputs that are bounded backwards too; None takes all.
     """
     unknown = sorted({op for op, _ in tape.nodes} - KNOWN)
     if unknown:
@@ -97,8 +99,13 @@ def bounds(tape: Tape, box: Sequence[tuple[float, float]], along: Sequence[int] 
             values.append(_leaf(node, inputs) if leaf else _node(op, [values[a] for a in args], always=not along))
             if middles:
                 values[-1] = middles.narrowed(node, values[-1])
-        bounded = [_backwards(tape, values, r) if 0 < values[r].error < math.inf else values[r] for r in tape.results]
-        return bounded, middles.widest() if middles else max(along, key=lambda k: box[k][1] - box[k][0])
+        bounded = [
+            _backwards(tape, values, r)
+            if 0 < values[r].error < math.inf and (wanted is None or i in wanted)
+            else values[r]
+            for i, r in enumerate(tape.results)
+        ]
+        return bounded, middles.widest if middles else lambda: max(along, key=lambda k: box[k][1] - box[k][0])
 
 
 def _leaf(node: Node, inputs: Sequence[Ball]) -> Rounded:
