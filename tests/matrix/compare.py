@@ -13,7 +13,7 @@ TOLERANCE = 1e-6
 # what is left of a balance, of two runs, of a closure: rounding, whose digits say nothing below this
 ROUNDING = re.compile(r"residual|difference|closure|energy_left|error|margin_error|deviation")
 SMALL = 1e-6
-# what is left of a sum is known to this share of the largest number of its unit in the same answer
+# what is left of a sum is known to this share of the largest number of its unit in the same answer, or of its own list
 NOTHING = 1e-7
 # lines of a file of text: a number that is nearly 0 may stand there or not
 SIZE = 0.01
@@ -39,17 +39,19 @@ class Scales:
             self._units |= {f"data.{name}": unit for name, unit in table.get("units", {}).items()}
         self._largest: dict[str, float] = {}
         for path, value in _numbers(record):
-            unit = self._unit(path)
+            unit = "" if path.endswith(".count") else self._unit(path)
             self._largest[unit] = max(self._largest.get(unit, 0.0), abs(value))
 
     def of(self, path: str) -> float:
-        """What rounding at a path is measured by; 0 where its unit is not known."""
+        """What rounding at a path is measured by; 0 of a number alone whose unit is not known."""
         unit = self._unit(path)
         return 1.0 if unit == "-" else self._largest.get(unit, 0.0) if unit else 0.0
 
     def _unit(self, path: str) -> str:
-        column = _COLUMN_UNIT.search(path)
-        return column[1] if column else self._units.get(_FIGURE.sub("", path).removeprefix(".json."), "")
+        if column := _COLUMN_UNIT.search(path):
+            return column[1]
+        whole = _FIGURE.sub("", path)
+        return self._units.get(whole.removeprefix(".json."), "" if whole == path else whole)
 
 
 def differences(

@@ -59,6 +59,13 @@ def test_what_is_left_of_a_sum_is_known_to_a_share_of_the_largest_of_its_unit():
     assert [line.split(":")[0] for line in differences(column, other, scales=Scales(other))] == [".t.csv.s [m].last"]
 
 
+def test_a_list_without_a_unit_is_measured_by_itself_and_never_by_its_length():
+    old = {"json": {"orders": {"phase": {"count": 13, "min": -5.47e-12, "max": 3.14}}, "gap": -5.47e-12}}
+    now = {"json": {"orders": {"phase": {"count": 13, "min": -5.42e-12, "max": 3.14}}, "gap": -5.42e-12}}
+    assert [line.split(":")[0] for line in differences(old, now, scales=Scales(now))] == [".json.gap"]
+    assert Scales({"t.csv": {"x [m]": {"count": 1440, "max": 0.2}}}).of(".t.csv.x [m].min") == 0.2
+
+
 def test_long_lists_are_kept_by_their_figures():
     kept = rounded({"wall_s": 3.2, "x": [0.1 * k for k in range(101)], "y": 1 / 3})
     figures = {"count": 101, "first": 0.0, "last": 10.0, "min": 0.0, "max": 10.0}
