@@ -86,6 +86,7 @@ def unit_of(path: str, units: Units) -> tuple[str, str]:
     """
     last = path.rpartition(".")[2].partition("[")[0]
     unit = units.get(path) or units.get(re.sub(r"(\[\d+\])+$", "", path), "")
+    unit = "" if " " in unit else unit  # of coordinates of several kinds
     if last in _FREQUENCIES and unit == "rad/s":
         return path, "Hz"
     front, dot, last = path.rpartition(".")

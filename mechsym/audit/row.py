@@ -161,7 +161,7 @@ def formula_row(question: Question, verdict: Decision, printed: str, note: str, 
         counterexample=_with_units(question, verdict.counterexample),
         other_repairs=[write(question.formula, r.tree) for r in verdict.repairs[1:4]],
     )
-    return tell(
+    told = tell(
         Compared(
             verdict=verdict.verdict,
             max_rel_error=verdict.max_rel_error,
@@ -175,6 +175,9 @@ def formula_row(question: Question, verdict: Decision, printed: str, note: str, 
             evidence=evidence,
         )
     )
+    if evidence.counterexample:  # a state keeps the units of its letters
+        told["evidence"]["counterexample"] = evidence.counterexample
+    return told
 
 
 def _with_units(question: Question, state: Mapping[str, float]) -> Columns:

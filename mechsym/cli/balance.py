@@ -89,6 +89,6 @@ def _text(told: "BalanceOfEngine") -> str:
 def _weight(name: str, one: "WeightNumbers") -> str:
     way = "" if name == "counterweight" else f" at {one.order:+d} times the crank's speed"
     return (
-        f"{name}{way}: {quantity_text(one.unbalance, 'kg*m', 4)} at {figure(one.angle_deg, 4)} deg, "
+        f"{name}{way}: {quantity_text(one.unbalance, 'kg*m', 4)} at {figure(round(one.angle_deg, 9), 4)} deg, "
         f"z = {quantity_text(one.z, 'm', 4)}" + (f", x = {quantity_text(one.x, 'm', 4)}" if one.x else "")
     )

@@ -153,13 +153,14 @@ def _show_figures(case: Case, omega: list[float], over: str | None, out: Path | 
     emit(found, lambda: _figures(found, page, units), beside=beside, files=files, findings=first)
 
 
-def _over(case: Case, omega: list[float], over: str) -> tuple[Json, dict[str, str]]:
+def _over(case: Case, omega: list[float], over: str) -> tuple[Columns, dict[str, str]]:
     """Figures over another value of the engine at one speed, and the units of its names."""
     from mechsym.cycle.engine import columns, over_design
     from mechsym.cycle.kinds import kind_of
     from mechsym.jobs.cycle import cylinders, engine, of_engine
     from mechsym.jobs.gas import one_cylinder
     from mechsym.optimise.solver import design_units
+    from mechsym.quantities.results import Columns
 
     cylinders(case)  # what is wrong with them is said before the work begins
     if not kind_of(case.need("cycle")).closed:
@@ -173,7 +174,8 @@ def _over(case: Case, omega: list[float], over: str) -> tuple[Json, dict[str, st
     design = {"omega": np.asarray(omega), name: np.asarray(values)}
     with progress(len(values), "cycles") as bar:
         found = columns(over_design(machine, design, bar.update))
-    return of_engine(case, {name: design[name]} | found, None), units
+    told = of_engine(case, {name: design[name]} | found, None)
+    return Columns(told, {**dict.fromkeys(told, ""), **UNITS, **units}), units
 
 
 def _write(case: Case, source: "GasSource | None", found: Json, omega: list[float], out: Path) -> list[Path]:

@@ -6,7 +6,7 @@ import re
 from mechsym.errors import BadInput, suggest
 from mechsym.files import Json
 from mechsym.quantities import load
-from mechsym.quantities.results import declared, leaves
+from mechsym.quantities.results import declared, leaves, walk
 from mechsym.quantities.schema import schema as of_class
 
 _OVER = "The value that --over runs over; 'mechsym sections' tells it"
@@ -63,13 +63,17 @@ KEYS = {"cycle": ("parameters", "chamber", "cycle", "gas", "heat_transfer", "fri
 def units_by_path(value: object, command: str) -> dict[str, str]:
     """Unit of each number that a command tells by its path, `speeds.phi.mean`; of plain values as they are declared."""
     units = {row["path"]: row["unit"] for row in rows(command)} if command in RESULTS else {}
+    words = {leaf.path: leaf.value for leaf in walk(value) if isinstance(leaf.value, str)}
     told = {}
     for leaf in leaves(value):
-        bare = re.sub(r"\[\d+\]", "", leaf.path)
-        listed = next((unit for name, unit in units.items() if _pattern(name).fullmatch(bare)), "")
-        if listed.startswith("of its "):  # a column inside a group has the unit of its name
-            listed = units.get(bare.rpartition(".")[2], "")
-        if unit := leaf.unit or listed:
+        bare = re.sub(r"\[\d+\]", "", leaf.path).lstrip(".")
+        front, _, name = leaf.path.rpartition(".")
+        unit = leaf.unit or next((unit for name, unit in units.items() if _pattern(name).fullmatch(bare)), "")
+        if unit.startswith("of its column"):  # a column inside a group has the unit of its name
+            unit = units.get(name, "")
+        elif unit.startswith("in "):  # it stands beside the number
+            unit = str(words.get(f"{front}.{unit[3:]}") or "-")
+        if unit:
             told[leaf.path] = unit
     return told
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms import constraints, driven, loops
-from mechsym.mechanisms.record import Mechanism, accelerations, velocities
+from mechsym.mechanisms.record import Mechanism, accelerations, listing, velocities
 from mechsym.quantities.results import Columns, part, quantity, result
 
 
@@ -70,7 +70,9 @@ def state(
 
 def _units(mechanism: Mechanism) -> dict[str, str]:
     """Of what is no output of the declaration."""
-    known: dict[str, str] = {}
+    known, told = {"constraint_rank": "-", "constraint_count": "-"}, listing(mechanism.name)
+    outputs = told.get("outputs", {})
+    known |= {f"force_{c}": outputs[name] for c, name in told.get("multipliers", {}).items() if name in outputs}
     for q in mechanism.coordinates:
         inertia, push, _ = _UNITS[unit := mechanism.units.get(q, "rad")]
         known |= {f"driving_{q}": push, f"dinertia_d{q}": f"{inertia}/{unit}"}

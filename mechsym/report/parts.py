@@ -31,7 +31,6 @@ from mechsym.jobs.hinge import hinge
 from mechsym.jobs.measured import MeasuredCycle, MeasuredDiagram, RecordAmongOthers, measured_combustion
 from mechsym.jobs.run import run
 from mechsym.jobs.size import check_printed, size
-from mechsym.machine.record import gas_of
 from mechsym.mechanisms import roles_of
 from mechsym.page import Card, Finding, Grid, card, grid, ranked
 from mechsym.plausible import Doubt, results, sifted
@@ -230,7 +229,7 @@ def _hinge(case: Case) -> ReportPart:
         verdict=f"{told} An ideal hinge saves a flywheel of {saved}." if verdict.feasible else told,
         grids=(grid("Limits of the guide", rows, ["check", "value and limit", "kept", "margin"]),
                grid("Runs in time", runs, ["run", "ripple", "end"])),
-        limits=tuple(limits), decide=tuple(decide), numbers=tell(numbers), doubts=of_gas(case, gas_of(design.machine)),
+        limits=tuple(limits), decide=tuple(decide), numbers=tell(numbers), doubts=of_gas(case, design.machine.gas),
         silent=_HINGE, turning=lambda: scenes(design),
     )  # fmt: skip
 
