@@ -70,9 +70,11 @@ def state(
 
 def _units(mechanism: Mechanism) -> dict[str, str]:
     """Of what is no output of the declaration."""
-    known, told = {"constraint_rank": "-", "constraint_count": "-"}, listing(mechanism.name)
-    outputs = told.get("outputs", {})
-    known |= {f"force_{c}": outputs[name] for c, name in told.get("multipliers", {}).items() if name in outputs}
+    known: dict[str, str] = {}
+    if "constraints" in mechanism.functions:
+        told = listing(mechanism.name)
+        known = {f"force_{c}": told["outputs"][name] for c, name in told.get("multipliers", {}).items()}
+        known |= {"constraint_rank": "-", "constraint_count": "-"}
     for q in mechanism.coordinates:
         inertia, push, _ = _UNITS[unit := mechanism.units.get(q, "rad")]
         known |= {f"driving_{q}": push, f"dinertia_d{q}": f"{inertia}/{unit}"}

@@ -27,7 +27,7 @@ def told(text: str) -> Iterator[tuple[str, str]]:
 
 def typed(text: str) -> str:
     """A text with its units as they are typed: kg*m^2 for kg m²."""
-    return re.sub(r"(?<=[Ngm]) (?=[ms]\b)|(?<=Pa) (?=s\b)", "*", text.replace("²", "^2").replace("³", "^3"))
+    return re.sub(r"(?<=[Ngma]) (?=[ms]\b)", "*", text.replace("²", "^2").replace("³", "^3"))
 
 
 def _measured(unit: str) -> tuple[tuple[Any, ...], float] | None:
