@@ -51,7 +51,7 @@ def _card(link: str, stem: str, title: str, kind: str = "curves") -> str:
 _STYLE = (
     ".gallery{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(21rem,100%),1fr));gap:1rem}"
     ".gallery .card{display:block;border:1px solid #8884;border-radius:.4rem;padding:.6rem;text-decoration:none}"
-    ".gallery img{width:100%;aspect-ratio:4/3;object-fit:contain}.gallery .curves{background:#fff}"
+    ".gallery img{width:100%;aspect-ratio:4/3;object-fit:contain}"
     ".gallery b{font-weight:500}"
 )
 
