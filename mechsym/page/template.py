@@ -2,11 +2,15 @@
 
 import functools
 import re
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 from unicodedata import lookup
 from xml.etree import ElementTree
 
+import numpy as np
+
 import mechsym
+from mechsym.files import Json
 from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text
 from mechsym.style import significant
 
@@ -48,13 +52,49 @@ def _environment() -> "jinja2.Environment":
         trim_blocks=True,
     )
     made.globals["version"] = mechsym.__version__
+    made.policies["json.dumps_kwargs"] = {"sort_keys": True, "separators": (",", ":")}
     made.filters |= {
         "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "plain": pretty,
         "pretty": typeset, "pieces": pieces,
         "words": key_words, "places": lambda text, said: _KEYED.sub(lambda found: f"{said(found[1])} = ", str(text)),
+        "packed": packed,
         "quantity": lambda value, unit, digits=5: typeset(quantity_text(value, unit, digits)),
     }  # fmt: skip
     return made
+
+
+def packed(scenes: Sequence[Json]) -> list[Json]:
+    """Scenes of a page in few letters: places by frame as steps from the frame before, equal ones once.
+
+    A shape that only shifts has one pair a frame in place of all its corners.
+    """
+    return [_packed_scene(scene) for scene in scenes]
+
+
+def _packed_scene(scene: Json) -> Json:
+    shown, places = scene | {"shapes": [_packed_shape(shape) for shape in scene["shapes"]]}, list[list[int]]()
+    if "loads" not in scene:
+        return shown
+    loads = []
+    for load in scene["loads"]:
+        ends = {key: _steps(load[key], 1) for key in ("at", "to")}
+        places += [steps for steps in ends.values() if steps not in places]
+        loads.append(load | {key: places.index(steps) for key, steps in ends.items()})
+    return shown | {"loads": loads, "places": places}
+
+
+def _packed_shape(shape: Json) -> Json:
+    if not shape["moves"]:
+        return shape
+    by = np.reshape(np.array(shape["moves"]) - shape["at"], (len(shape["moves"]), -1, 2))
+    only_shifts = by.shape[1] > 1 and np.ptp(by, axis=1).max() <= 0.11  # a rounded place is off by half a tenth
+    return shape | {"moves": _steps(by.mean(axis=1) if only_shifts else shape["moves"]), "shifts": bool(only_shifts)}
+
+
+def _steps(frames: Sequence[Sequence[float]], part: int = 10) -> list[int]:
+    """Whole parts of a pixel, frame after frame."""
+    parts = np.round(part * np.array(frames)).astype(int)
+    return np.diff(parts, axis=0, prepend=0 * parts[:1]).ravel().tolist()
 
 
 def _percent(share: float | None, digits: int = 3) -> str:

@@ -39,6 +39,8 @@ _RC: dict[Any, Any] = {
     "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
 }
 _NO_METADATA = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+# places to a thousandth of a point: a cursor reads four digits of them
+_PATH, _LONG, _GAP = re.compile(r' d="[^"]*"'), re.compile(r"-?\d+\.\d{4,}"), re.compile(r"\s*([A-Za-z])\s+")
 _ID, _USED = re.compile(r' id="([^"]+)"'), re.compile(r'(url\(#|href="#)([^")]+)')
 
 
@@ -56,7 +58,7 @@ def svg(figure: "Figure", name: str = "") -> str:
         number_curves(figure)
         FigureCanvasSVG(figure).print_svg(buffer, metadata=_NO_METADATA)
     text = buffer.getvalue()
-    text = text[text.index("<svg") :].replace("#000000", INK)
+    text = _PATH.sub(_shorter, text[text.index("<svg") :].replace("#000000", INK))
     own = hashlib.sha256((name + text).encode()).hexdigest()[:8]
     used = {match[2] for match in _USED.finditer(text)}
     known = {old: f' id="{own}-{k}"' for k, old in enumerate(sorted(used))}
@@ -72,6 +74,11 @@ def svg(figure: "Figure", name: str = "") -> str:
     live = f' data-panels="{escape(json.dumps(panels, separators=(",", ":")))}"' if panels else ""
     named = f'{head} class="picture"{split}{live} role="img" aria-labelledby="{own}-t {own}-d">'
     return f"{named}\n {words}\n <style>{_sheet(rest)}</style>{rest}"
+
+
+def _shorter(path: re.Match[str]) -> str:
+    places = _LONG.sub(lambda number: f"{float(number[0]):.3f}".rstrip("0").rstrip("."), path[0][4:-1])
+    return ' d="' + _GAP.sub(r"\1", places).strip() + '"'
 
 
 def _curve(name: str) -> str:

@@ -25,7 +25,15 @@ def svg_of(name):
     (scene,) = turning(cases.load(name))
     text = page("mechanism.html", title="t", scenes=[scene], readouts=[], rules=rules())
     (read,) = json.loads(re.search(r"const scenes = (.*?), readouts", text)[1])
-    return read, text
+    return read | {"shapes": [unpacked(shape) for shape in read["shapes"]]}, text
+
+
+def unpacked(shape):
+    """A shape of a page with its corners at each frame, from the steps in tenths of a pixel."""
+    wide = 2 if shape.get("shifts") else len(shape["at"])
+    moves = np.cumsum(np.reshape(shape["moves"], (-1, wide)), axis=0) / 10
+    corners = np.tile(moves, len(shape["at"]) // 2) + shape["at"] if shape.get("shifts") else moves
+    return shape | {"moves": corners.tolist()}
 
 
 def middles(scene, role, k):

@@ -73,7 +73,7 @@ static void curve_values(const machine *m, const struct curve *c, double q, doub
             const double near = CLOSE * kinks[n].period;
             inside = q < m->low[n] + near ? m->low[n] + near : q > m->high[n] - near ? m->high[n] - near : q;
         }
-    curve_at(c, c->ratio * q, c->ratio * inside, out);
+    curve_at(c, c->ratio * q - c->shift, c->ratio * inside - c->shift, out);
 }
 
 static void core_values(const machine *m, double t, const double *x, double *v)

@@ -74,17 +74,19 @@ def array(name: str, values: Sequence[float], kind: str = "double") -> str:
 
 def curve_tables(curves: Sequence[Curve]) -> str:
     """Curves as constant tables of C, all of them in the array `curves`."""
-    lines = []
+    lines, alike = [], dict[int, int]()  # equal cylinders have one table, each from its own angle on
     for i, curve in enumerate(curves):
-        lines += [array(f"breaks_{i}", curve.poly.x), array(f"rows_{i}", curve.poly.c.T.ravel())]
+        if alike.setdefault(id(curve.poly.c), i) == i:
+            lines += [array(f"breaks_{i}", curve.poly.x), array(f"rows_{i}", curve.poly.c.T.ravel())]
+    of = [alike[id(curve.poly.c)] for curve in curves]
     entries = [
         f"    {{{c.state}, {len(c.poly.x) - 1}, {len(c.poly.c)}, {int(c.periodic)}, {number(C99, c.ratio)}, "
-        f"breaks_{i}, rows_{i}}}"
-        for i, c in enumerate(curves)
-    ] or ["    {0, 1, 1, 0, 0.0, start_x, start_x}"]
+        f"{number(C99, c.poly.x[0] - curves[k].poly.x[0])}, breaks_{k}, rows_{k}}}"
+        for k, c in zip(of, curves, strict=True)
+    ] or ["    {0, 1, 1, 0, 0.0, 0.0, start_x, start_x}"]
     head = (
-        "/* curve: state, pieces, coefficients (highest first), periodic, argument per unit of the state */\n"
-        "struct curve { int state, pieces, terms, periodic; double ratio; const double *breaks, *rows; };\n"
+        "/* curve: state, pieces, coefficients (highest first), periodic, argument per unit of the state, its start */\n"
+        "struct curve { int state, pieces, terms, periodic; double ratio, shift; const double *breaks, *rows; };\n"
     )
     text = ",\n".join(entries)
     return "\n".join(lines) + f"\n{head}static const struct curve curves[] = {{\n{text}}};"
