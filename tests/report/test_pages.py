@@ -63,6 +63,16 @@ def test_a_machine_moves_on_the_first_screen_of_a_page_and_of_a_report(browser, 
             tab.close()
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("kind", "cylinders"), [("inline", 6), ("v", 12), ("boxer", 12)])
+def test_reports_of_many_cylinders_stay_small(tmp_path, kind, cylinders):
+    words = ["new", "engine", "many", "--kind", kind, "--cylinders", str(cylinders), "--bore", "86 mm"]
+    case, report = tmp_path / "many.toml", tmp_path / "many.html"
+    assert CliRunner().invoke(mechsym, [*words, "--stroke", "86 mm", "--out", str(case)]).exit_code == 0
+    done = CliRunner().invoke(mechsym, ["report", str(case), "--out", str(report)])
+    assert done.exit_code in (0, 1) and len(report.read_bytes()) <= 1_200_000
+
+
 @pytest.mark.parametrize("line", [*SOME, *(pytest.param(one, marks=pytest.mark.heavy) for one in EVERY)])
 def test_a_page_is_readable_on_a_phone_and_shows_no_key(browser, tmp_path, line):
     words = line.split()

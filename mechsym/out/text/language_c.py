@@ -85,7 +85,7 @@ def curve_tables(curves: Sequence[Curve]) -> str:
         for k, c in zip(of, curves, strict=True)
     ] or ["    {0, 1, 1, 0, 0.0, 0.0, start_x, start_x}"]
     head = (
-        "/* curve: state, pieces, coefficients (highest first), periodic, argument per unit of the state, its start */\n"
+        "/* curve: state, pieces, coefficients (highest first), periodic, argument per unit of the state, start */\n"
         "struct curve { int state, pieces, terms, periodic; double ratio, shift; const double *breaks, *rows; };\n"
     )
     text = ",\n".join(entries)
