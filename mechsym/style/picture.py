@@ -39,8 +39,8 @@ _RC: dict[Any, Any] = {
     "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
 }
 _NO_METADATA = dict.fromkeys(("Creator", "Date", "Format", "Type"))
-# places to a thousandth of a point: a cursor reads four digits of them
-_PATH, _LONG, _GAP = re.compile(r' d="[^"]*"'), re.compile(r"-?\d+\.\d{4,}"), re.compile(r"\s*([A-Za-z])\s+")
+# places to a hundredth of a point, a tenth of what a drawn line is simplified by
+_PATH, _LONG, _GAP = re.compile(r' d="[^"]*"'), re.compile(r"-?\d+\.\d{3,}"), re.compile(r"\s*([A-Za-z])\s+")
 _ID, _USED = re.compile(r' id="([^"]+)"'), re.compile(r'(url\(#|href="#)([^")]+)')
 
 
@@ -77,7 +77,7 @@ def svg(figure: "Figure", name: str = "") -> str:
 
 
 def _shorter(path: re.Match[str]) -> str:
-    places = _LONG.sub(lambda number: f"{float(number[0]):.3f}".rstrip("0").rstrip("."), path[0][4:-1])
+    places = _LONG.sub(lambda number: f"{float(number[0]):.2f}".rstrip("0").rstrip("."), path[0][4:-1])
     return ' d="' + _GAP.sub(r"\1", places).strip() + '"'
 
 
