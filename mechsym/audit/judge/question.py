@@ -225,7 +225,9 @@ def peak(values: Values) -> float:
 
 
 def max_rel_error(asked: Bench, tree: Node) -> float:
-    r"""Largest relative error, :math:`\max |P - E| / \max(|E|, 0.1 \max|E|)`.
+    r"""Largest relative error of a print P beside what is derived, E.
+
+    .. math:: \max \frac{|P - E|}{\max(|E|,\; 0.1 \max|E|)}
 
     Returns error: infinite where the formula has no value although the quantity has one [-].
     """
