@@ -98,9 +98,13 @@ def _no_joints(case: Case, data: object) -> str | None:
 
 def _anew(words: str) -> Idle:
     """A reason where rules size the parts anew; parts that a case gives are checked under all of its loads."""
-    return lambda case, data: (
-        words if roles_of(case.mechanism).rules and "part_crosshead" not in case.sections else None
-    )
+    return lambda case, data: words if _rules(case) and "part_crosshead" not in case.sections else None
+
+
+def _rules(case: Case) -> str:
+    """By which parts are sized; without a closed cycle `size` tells loads only."""
+    closed = "cycle" in case.sections and kind_of(case.need("cycle")).closed
+    return roles_of(case.mechanism).rules if closed else ""
 
 
 def _chosen(case: Case, data: object) -> str | None:
@@ -119,7 +123,7 @@ def _fine(case: Case, data: Any) -> str | None:
 
 
 def _weighed(case: Case, data: object) -> str | None:
-    anew = roles_of(case.mechanism).rules == "slider crank" and "part_crosshead" not in case.sections
+    anew = _rules(case) == "slider crank" and "part_crosshead" not in case.sections
     return "sized parts weigh what they weigh" if anew else None
 
 
@@ -146,7 +150,8 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Idle], ...] = (
     ("friction", (), ("cycle",), _no_joints),
     ("rings", (), ("cycle",), _no_joints),
     ("closing", (), ("cycle",), _said("it shares out forces whose sum acts here")),
-    ("chamber", ("back_pressure",), ("forces", "simulate"), _opposed),
+    ("chamber", ("back_pressure",), ("forces", "simulate", "size"), _opposed),
+    ("simulation", ("turns",), ("forces",), _said("a turn at constant speed")),
     ("shaking", ("limit",), ("forces",), _said("it only judges")),
     ("friction", (), ("size",), _said("parts are sized without friction of the joints")),
     ("operation", ("speed",), ("size",), _anew("sized at the speeds of [speeds]")),
@@ -162,7 +167,6 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Idle], ...] = (
     ("part_gears", ("shift",), ("size",), _chosen),
     ("part_crank", ("pin", "web_width"), ("size",), _chosen),
     ("part_masses", ("crankshaft",), ("size",), _chosen),
-    ("startup", ("twist_limit",), ("simulate",), _said("the twist is told, and beside it the limit")),
 )
 
 
@@ -178,6 +182,8 @@ _GAS = "of the mechanism only what moves the pistons, and what moves with them, 
 def unread(case: Case, tab: str) -> dict[str, str]:
     """Parameters that stand alone and enter nothing that a tab shows, each with the reason."""
     asked = {"forces": (_held, _HELD), "cycle": (_of_gas, _GAS), "simulate": (_free, _ALL)}.get(tab)
+    if tab == "size" and not _rules(case) and "part_crosshead" not in case.sections:
+        asked = _held, _HELD  # loads at the speed of operation
     offered = numbers(case, "parameters") if "parameters" in case.sections else []
     if asked is None or not offered:
         return {}

@@ -370,8 +370,11 @@ def _step(task: TraceTask, here: ClosestMotion, free: np.ndarray, damping: float
     rows = np.vstack([columns, math.sqrt(damping) * np.eye(len(free))])
     target = np.append(here.rest.ravel(), np.zeros(len(free)))
     step = np.zeros(here.slopes.shape[1])
-    step[free] = np.linalg.lstsq(rows, target, rcond=None)[0] / width
-    theta = np.maximum(here.theta + step[:k] * model.size, model.low)
+    with np.errstate(over="ignore"):  # what hardly moves the trace would have to go without end
+        step[free] = np.linalg.lstsq(rows, target, rcond=None)[0] / width
+        theta = np.maximum(here.theta + step[:k] * model.size, model.low)
+    if not (np.isfinite(step).all() and np.isfinite(theta).all()):
+        return None
     step[:k] = (theta - here.theta) / model.size
     states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
     return _motion(task, states, theta)

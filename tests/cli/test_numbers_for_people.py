@@ -62,7 +62,8 @@ def read(page):
 def round_off(text):
     """Digit strings that no one measured; the usual tolerance, 1e-10, may be told."""
     tiny = [n for n in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?e-\d+", text) if 0 < abs(float(n)) < 1e-10]
-    return tiny + re.findall(r"\d\.\d{12,}", text)
+    long = re.findall(r"\d+\.\d{12,}", text)
+    return tiny + [n for n in long if len(n.replace(".", "").lstrip("0")) > 12]
 
 
 def test_digits_of_round_off_are_seen(tmp_path):
