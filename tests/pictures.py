@@ -77,7 +77,8 @@ def unitless(figure):
     for axis in figure.axes:
         if not (axis.get_visible() and axis.axison) or axis.get_label() == "<colorbar>":
             continue
-        for one in (axis.xaxis, axis.yaxis):
+        # around a pole angles carry their degrees, and the label below is the radius's
+        for one in (axis.xaxis,) if axis.name == "polar" else (axis.xaxis, axis.yaxis):
             label = one.get_label_text()
             numbers = [t.get_text() for t in one.get_ticklabels() if t.get_visible() and re.search(r"\d", t.get_text())]
             if (label and "[" not in label) or (not label and numbers and numbers != one_words(axis, one)):
@@ -87,8 +88,9 @@ def unitless(figure):
 
 def one_words(axis, one):
     """Names along an axis, which need no unit: ticks that were given as texts."""
-    formatter = one.get_major_formatter()
-    return [t.get_text() for t in one.get_ticklabels()] if type(formatter).__name__ == "FixedFormatter" else []
+    given = type(one.get_major_locator()).__name__ == "FixedLocator"
+    words = type(one.get_major_formatter()).__name__ in ("FixedFormatter", "FuncFormatter")
+    return [t.get_text() for t in one.get_ticklabels()] if given and words else []
 
 
 def ids(page):

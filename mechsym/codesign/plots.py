@@ -209,12 +209,13 @@ def spread(result: CoDesignResult) -> Figure:
     base = 100 * float(result.verified.programme_ripple.max())
     rows = sorted(result.spread.alone.items(), key=lambda row: max(row[1]))
     for y, (_, (low, high)) in enumerate(rows):
-        for value, color in ((low, ORANGE), (high, BLUE)):
-            right.plot([base, 100 * value], [y, y], color=color, linewidth=7, solid_capstyle="butt", alpha=0.6)
+        for value, color, side, name in ((low, ORANGE, 0.17, "lower value"), (high, BLUE, -0.17, "higher value")):
+            right.barh(y + side, 100 * value - base, 0.3, base, color=color, label=name if y == 0 else None)
     right.set_yticks(
         range(len(rows)), [f"{key_words(name)} ± {200 * result.spread.errors[name]:g} %" for name, _ in rows]
     )
     right.set(xlabel="largest speed ripple [%]")
+    legend(right)
     return figure
 
 
