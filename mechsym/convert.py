@@ -156,7 +156,15 @@ def _node(node: sp.Basic, known: Mapping[sp.Basic, ca.SX]) -> ca.SX:
         return _piecewise(node, known)
     arguments = [known[a] for a in _parts(node)]
     if isinstance(node, sp.Pow):
-        return _power(node, arguments)
+        base, exponent = arguments
+        if node.exp == sp.Rational(1, 2):
+            return ca.sqrt(base)
+        if node.exp == -sp.Rational(1, 2):
+            return 1 / ca.sqrt(base)
+        if node.exp.is_Integer and abs(int(node.exp)) <= 4:
+            product = reduce(lambda a, b: a * b, [base] * abs(int(node.exp)))
+            return product if node.exp.is_positive else 1 / product
+        return ca.exp(exponent) if node.base == sp.E else base**exponent
     if name in _UNARY and len(arguments) == 1:
         return _UNARY[name](arguments[0])
     if name in _RECIPROCAL:
@@ -170,18 +178,6 @@ def _node(node: sp.Basic, known: Mapping[sp.Basic, ca.SX]) -> ca.SX:
     if node.is_Symbol or isinstance(node, (sp.core.function.AppliedUndef, sp.Derivative)):
         raise BadInput(f"the letter {node} is not among the inputs; add it to inputs=(..)")
     raise BadInput(f"{name} in {str(node)[:80]} has no CasADi counterpart; known are {', '.join(supported())}")
-
-
-def _power(node: sp.Pow, arguments: list[ca.SX]) -> ca.SX:
-    base, exponent = arguments
-    if node.exp == sp.Rational(1, 2):
-        return ca.sqrt(base)
-    if node.exp == -sp.Rational(1, 2):
-        return 1 / ca.sqrt(base)
-    if node.exp.is_Integer and abs(int(node.exp)) <= 4:
-        product = reduce(lambda a, b: a * b, [base] * abs(int(node.exp)))
-        return product if node.exp.is_positive else 1 / product
-    return ca.exp(exponent) if node.base == sp.E else base**exponent
 
 
 def _piecewise(node: sp.Piecewise, known: Mapping[sp.Basic, ca.SX]) -> ca.SX:

@@ -62,7 +62,11 @@ def grouped(rows: Sequence[tuple[str, str]]) -> dict[str, Rows]:
 
 def _told(found: Json | list[Json], units: Units) -> Rows:
     if isinstance(found, list):
-        return _checks(found, units)
+        # rows of a sizing or an audit: what, and its value beside its limit; what does not hold stands first
+        if not all(isinstance(row, Mapping) and row.keys() >= _NAMES for row in found):
+            return _rows("", list(found), units)
+        order = sorted(found, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
+        return [(f"{key_words(r['component'])}: {r['quantity']}", _beside(r)) for r in order]
     rows = [
         (word, f"{d['quantity']} = {figure(d['value'])}, usual is {d['usual']}: {d['why']}")
         for word, key in (("doubt", "doubts"), ("accepted", "accepted"))
@@ -140,14 +144,6 @@ def _spans(found: Json, units: Units) -> Rows:
 
 def _after(unit: str | None) -> str:
     return "" if unit in (None, "", "-") else f" {pretty(unit or '')}"
-
-
-def _checks(found: Sequence[Json], units: Units) -> Rows:
-    """Rows of a sizing or an audit: what, and its value beside its limit; what does not hold stands first."""
-    if not all(isinstance(row, Mapping) and row.keys() >= _NAMES for row in found):
-        return _rows("", list(found), units)
-    order = sorted(found, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
-    return [(f"{key_words(r['component'])}: {r['quantity']}", _beside(r)) for r in order]
 
 
 def _beside(row: Json) -> str:

@@ -60,7 +60,15 @@ def prove(
     if name != GUIDES:
         mechanisms.parameters_class(name)  # refuses what is none
     case = only_of(case_of(case_name or usual_case(name), pairs(overrides)), "prove")
-    subjects, words = subjects_of(name, case, _ranges(given))
+    from mechsym.quantities.ranges import read_range
+
+    ranges = {}
+    for key, text in pairs(given, "--range").items():
+        found = read_range(text, "--range", key=key)
+        if found.kind != "even" or found.unit or not found.values[0] <= found.values[1]:
+            raise BadInput(f"--range {key}={text}: two ascending SI numbers with two dots between, such as phid=0..20")
+        ranges[key] = (found.values[0], found.values[1])
+    subjects, words = subjects_of(name, case, ranges)
     with progress(samples * len(subjects), f"samples of {name}") as bar:
         proven = rounding(name, subjects, samples, words, bar.update)
     emit(tell(proven), lambda: _text(proven))
@@ -99,18 +107,6 @@ def _motion_text(found: "ProvenMotion") -> str:
     trusted = (f"trusted: {one}" for one in found.trusted)
     how = f"{found.steps} steps at {found.bits} bits; {found.digits:.3g} digits were forecast"
     return "\n".join([found.statement, "", table(rows, list(rows[0])), how, "", *trusted])
-
-
-def _ranges(texts: tuple[str, ...]) -> dict[str, tuple[float, float]]:
-    from mechsym.quantities.ranges import read_range
-
-    ranges = {}
-    for key, text in pairs(texts, "--range").items():
-        found = read_range(text, "--range", key=key)
-        if found.kind != "even" or found.unit or not found.values[0] <= found.values[1]:
-            raise BadInput(f"--range {key}={text}: two ascending SI numbers with two dots between, such as phid=0..20")
-        ranges[key] = (found.values[0], found.values[1])
-    return ranges
 
 
 def _text(found: "ProvenRounding") -> str:

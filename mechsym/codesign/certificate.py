@@ -264,7 +264,11 @@ def floor(design: CoDesign, bound: Bound, ripple: np.ndarray) -> Floor:
     rollers = sum(added_inertia(track, phi) for track in design.tracks)
     total = points[0].inertia(phi) + design.flywheel + rollers
     kept = float(np.nanmax(np.append(ripple, design.task.ripple)))
-    terms = Terms(rollers=float(np.ptp(rollers)), ambient=float(np.ptp(_ambient(design, phi))))
+    hardware = ((track.hardware, track.z(phi)) for track in design.tracks)
+    terms = Terms(
+        rollers=float(np.ptp(rollers)),
+        ambient=float(np.ptp(np.asarray(sum(affine_energy(h.spring, z)[0] for h, z in hardware)))),
+    )
     q = swing_per_inertia(kept)
     found = list(proofs(points, bound.phi, q, terms, MOST))
     kind = _in_balls(design, bound, q, terms, found) if design.task.losses is None else _LOSSY
@@ -300,12 +304,6 @@ def rollers_inertia(design: CoDesign) -> float:
     """Mean inertia that the rollers of a design add to the shaft [kg*m^2]."""
     phi = np.arange(_FINE) * design.task.points[0].period / _FINE
     return float(np.mean(sum(added_inertia(track, phi) for track in design.tracks)))
-
-
-def _ambient(design: CoDesign, phi: np.ndarray) -> np.ndarray:
-    """Energy of the springs at no excess pressure [J]: what the pressure outside adds."""
-    hardware = ((track.hardware, track.z(phi)) for track in design.tracks)
-    return np.asarray(sum(affine_energy(h.spring, z)[0] for h, z in hardware))
 
 
 def _assumes(design: CoDesign, ripple: float, terms: Terms) -> tuple[str, ...]:

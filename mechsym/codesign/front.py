@@ -77,7 +77,16 @@ def ripple_map(found: CoDesign, loads: Sequence[Point], omega: RadPerSecond[Arra
     def ripple(p0: np.ndarray) -> np.ndarray:
         return _ripples(wanted + fixed + p0[:, None] * by_p0, total, speeds, torques, period)
 
-    p0 = _golden(ripple, _SCHEDULE_FAR[0] * guess, _SCHEDULE_FAR[1] * guess)
+    # where many functions of one number each are smallest
+    a, b = (_SCHEDULE_FAR[0] * guess).copy(), (_SCHEDULE_FAR[1] * guess).copy()
+    c, d = b - _GOLDEN * (b - a), a + _GOLDEN * (b - a)
+    fc, fd = ripple(c), ripple(d)
+    for _ in range(_STEPS):
+        left = fc < fd
+        a, b = np.where(left, a, c), np.where(left, d, b)
+        c, d = np.where(left, b - _GOLDEN * (b - a), d), np.where(left, c, a + _GOLDEN * (b - a))
+        fc, fd = np.where(left, ripple(c), fd), np.where(left, fc, ripple(d))
+    p0 = (a + b) / 2
     shape = (omega.size, load.size)
     return RippleMap(omega=omega, load=load, p0=p0.reshape(shape), ripple=ripple(p0).reshape(shape))
 
@@ -100,19 +109,6 @@ def _ripples(
     u = np.sqrt(np.maximum(squares, 1e-12))
     lowest, weak = squares.min(axis=1), np.ptp(u, axis=1) * np.mean(1 / u, axis=1)
     return np.where(lowest <= 0, _SCHEDULE_STOPPED - lowest, weak)
-
-
-def _golden(function: Callable[[np.ndarray], np.ndarray], low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Where many functions of one number each are smallest."""
-    a, b = low.copy(), high.copy()
-    c, d = b - _GOLDEN * (b - a), a + _GOLDEN * (b - a)
-    fc, fd = function(c), function(d)
-    for _ in range(_STEPS):
-        left = fc < fd
-        a, b = np.where(left, a, c), np.where(left, d, b)
-        c, d = np.where(left, b - _GOLDEN * (b - a), d), np.where(left, c, a + _GOLDEN * (b - a))
-        fc, fd = np.where(left, function(c), fd), np.where(left, fc, function(d))
-    return (a + b) / 2
 
 
 _EVEN = 720

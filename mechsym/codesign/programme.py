@@ -200,17 +200,15 @@ def _motions(
                 lost = unknowns.taken(task, point, samples, found, pressures, warm[k], given, gathered)
                 missing, taken = missing + lost.work, lost.torque
             else:
-                missing += sum(_energy(task, g, k, e) for g, e in zip(found, errors, strict=True))
+                missing += sum(
+                    task.hardware.charged(e * g.p0[k], **g.values).symbolic().energy(g.path.z)
+                    for g, e in zip(found, errors, strict=True)
+                )
             made = motion_rows(point, k, samples, missing, total, ripple, taken)
             gathered.add(made.unknowns, made.start)
             gathered.group(zip(made.rows, made.low, made.high, strict=True))
             ripples.append(made.ripple)
     return ca.vertcat(*ripples)
-
-
-def _energy(task: CoDesignTask, guide: GuideSymbols, k: int, error: float) -> ca.SX:
-    """Energy of a spring at a point [J], with its pressure off by a factor."""
-    return task.hardware.charged(error * guide.p0[k], **guide.values).symbolic().energy(guide.path.z)
 
 
 def _result(task: CoDesignTask, made: ReadyProgramme, solved: Solved, wall: float) -> CoDesign:

@@ -184,7 +184,16 @@ def _scatter(machine: Running, k: int, share: float) -> Scenario:
     if start is None:
         return not_running(name, about, k)
     factors = 1 + share * np.random.default_rng(20).standard_normal(20)
-    run = _turn_by_turn(machine, start[0], factors)
+    speed = start[0]
+    legs: list[TimeRun] = []
+    for factor in factors:
+        torque = _scaled(machine.torque, float(factor))
+        leg = running.run(dataclasses.replace(machine, torque=torque), speed, machine.point.period / (2 * np.pi))
+        legs.append(leg)
+        speed = float(leg.omega[-1])
+        if leg.stalled:
+            break
+    run = running.joined(legs)
     return told(
         name, about, k, start[1], run, lambda r: f"ripple over all turns {per_cent(np.ptp(r.omega) / start[1])}"
     )
@@ -206,18 +215,6 @@ def _vented(machine: Running, k: int) -> Scenario:
 
 def _heavier(load: ConstantLoad | PropellerLoad, factor: float) -> ConstantLoad | PropellerLoad:
     return dataclasses.replace(load, torque=factor * (load.torque or 0.0))
-
-
-def _turn_by_turn(machine: Running, speed: float, factors: Sequence[float] | np.ndarray) -> TimeRun:
-    legs: list[TimeRun] = []
-    for factor in factors:
-        torque = _scaled(machine.torque, float(factor))
-        leg = running.run(dataclasses.replace(machine, torque=torque), speed, machine.point.period / (2 * np.pi))
-        legs.append(leg)
-        speed = float(leg.omega[-1])
-        if leg.stalled:
-            break
-    return running.joined(legs)
 
 
 def _scaled(torque: Function, factor: float) -> Function:

@@ -22,7 +22,12 @@ def draw(m: Declaration) -> None:
     """Name where pins are, and draw what the declaration leaves undrawn."""
     m.pins = {pin.name: m.point_names((pin.first,))[0] for pin in m.link_joints if pin.kind == "pin"}
     slides = (one for one in m.link_joints if one.kind in ("slider", "slot"))
-    mark = _mark(m)
+    # size of a mark: a fifteenth of the root mean square of the lengths of all links [m]
+    held = [p for joint in m.link_joints for p in (joint.first, joint.second)]
+    held += [p for p in m.watched.values() if isinstance(p, LinkPoint)]
+    points = {(p.u, p.v) for p in held} | {tuple(link.centre) for link in m.links}
+    square = sum((x**2 for point in points for x in point), Integer(0))
+    mark = sqrt(square * Rational(1, len(points))) / 15 if square != 0 else Integer(0)
     m.pins |= {one.name: [*chain(*m.point_names(_across(one, mark)))] for one in slides if mark != 0}
     drawn = bool(m.shapes)
     for point in m.watched.values():
@@ -47,15 +52,6 @@ def _face(m: Declaration, line: LinkLine, length: object, mark: Expr) -> None:
     places = [(line.u + s * cos(line.tilt), line.v + s * sin(line.tilt)) for s in ends]
     if ends[0] != ends[1]:
         m.draw_line(*(line.link.at(*place) for place in places), role="frame" if line.link is m.frame else "planet")
-
-
-def _mark(m: Declaration) -> Expr:
-    """Size of a mark: a fifteenth of the root mean square of the lengths of all links [m]."""
-    held = [p for joint in m.link_joints for p in (joint.first, joint.second)]
-    held += [p for p in m.watched.values() if isinstance(p, LinkPoint)]
-    points = {(p.u, p.v) for p in held} | {tuple(link.centre) for link in m.links}
-    square = sum((x**2 for point in points for x in point), Integer(0))
-    return sqrt(square * Rational(1, len(points))) / 15 if square != 0 else Integer(0)
 
 
 def _link(m: Declaration, link: Link) -> None:

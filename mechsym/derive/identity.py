@@ -57,7 +57,13 @@ def vanishes(expression: Expr, terms: int = MAX_TERMS) -> bool:
         return False
     token = _most.set(terms)
     try:
-        return _reduces_to_zero(expression)
+        expression = _circular(expression)
+        letters: dict[Expr, Dummy] = {}
+        polynomial = _without_roots(expression, letters)
+        numerator = sympy.fraction(sympy.together(polynomial))[0]
+        for _ in range(len(letters) + 1):
+            numerator = sympy.fraction(sympy.together(_lower_roots(_opened(numerator), letters)))[0]
+        return _lower_cosines(_opened(numerator)) == 0
     except _TooLong:
         return False
     finally:
@@ -66,16 +72,6 @@ def vanishes(expression: Expr, terms: int = MAX_TERMS) -> bool:
 
 class _TooLong(Exception):
     """An expression that has too many terms when its brackets are opened."""
-
-
-def _reduces_to_zero(expression: Expr) -> bool:
-    expression = _circular(expression)
-    letters: dict[Expr, Dummy] = {}
-    polynomial = _without_roots(expression, letters)
-    numerator = sympy.fraction(sympy.together(polynomial))[0]
-    for _ in range(len(letters) + 1):
-        numerator = sympy.fraction(sympy.together(_lower_roots(_opened(numerator), letters)))[0]
-    return _lower_cosines(_opened(numerator)) == 0
 
 
 def _opened(expression: Expr) -> Expr:

@@ -50,7 +50,14 @@ def equations(m: SpatialDeclaration) -> Equations:
     if not m.q:
         refuse(f"{m.name} has no coordinate; declare one: phi = m.coordinates('phi')", m.where[m.name])
     m.by_expression = dict(m.constraints)
-    _require_inertia(m)
+    for link in m.space_links:
+        w, _ = m.tree.rates(link.part)
+        if link.flat and (w[0] != 0 or w[1] != 0):
+            refuse(
+                f"the inertia of {link.name} is about z, and it turns about more; give three numbers or six", link.where
+            )
+    if not any(link.mass != 0 or link.inertia != (NONE, NONE, NONE) for link in m.space_links):
+        refuse(f"nothing in {m.name} has a mass; give a link a mass or an inertia", m.where[m.name])
     require_reactions(m, ())
     rows = _rows(m)
     slopes = {name: row.slopes(m.tree) for name, row in rows.items()}
@@ -69,13 +76,19 @@ def equations(m: SpatialDeclaration) -> Equations:
     kinematics: dict[str, Expr] = {s.name: s for s in m.kinematic_outputs}
     if len(m.q) == 1:
         kinematics |= _inertia(m, mass[0][0])
+    total = O
+    for part in m.tree.parts:
+        if part.mass != 0 and m.gravity != NONE:
+            at = vec.add(vec.scaled(part.mass, part.origin), vec.times(part.world, part.moment))
+            total -= vec.dot(m.gravity, at)
+    springs = [_HALF * s.value * s.along**2 for s in m.springs]
     result = Equations(
         mechanism=m,
         mass_matrix=tuple(map(tuple, mass)),
         bias=tuple(m.tree.generalized({p: m.tree.inertial(p, False) for p in m.tree.parts}, m.q, "b")),
         generalized_force=tuple(force),
         kinetic_energy=_HALF * m.tree.energy(),
-        potential_energy=_potential(m),
+        potential_energy=m.tape.named(sum([total, *springs, *m.stores], Integer(0))),
         reactions=reactions,
         kinematics=kinematics,
         momentum=_momentum(m),
@@ -102,17 +115,6 @@ def _rows(m: SpatialDeclaration) -> dict[str, ClosureRow]:
     return found
 
 
-def _require_inertia(m: SpatialDeclaration) -> None:
-    for link in m.space_links:
-        w, _ = m.tree.rates(link.part)
-        if link.flat and (w[0] != 0 or w[1] != 0):
-            refuse(
-                f"the inertia of {link.name} is about z, and it turns about more; give three numbers or six", link.where
-            )
-    if not any(link.mass != 0 or link.inertia != (NONE, NONE, NONE) for link in m.space_links):
-        refuse(f"nothing in {m.name} has a mass; give a link a mass or an inertia", m.where[m.name])
-
-
 def _inertia(m: SpatialDeclaration, value: Expr) -> dict[str, Expr]:
     """The inertia that the only coordinate feels, and its slope."""
     q, per = m.q[0], m.units[m.q[0].name]
@@ -136,16 +138,6 @@ def _weight(m: SpatialDeclaration, part: TreeBody) -> Wrench:
         return NONE, NONE
     g = m.tape.vector(f"g_{part.name}", vec.back(part.world, m.gravity))
     return vec.cross(part.moment, g), vec.scaled(part.mass, g)
-
-
-def _potential(m: SpatialDeclaration) -> Expr:
-    total = O
-    for part in m.tree.parts:
-        if part.mass != 0 and m.gravity != NONE:
-            at = vec.add(vec.scaled(part.mass, part.origin), vec.times(part.world, part.moment))
-            total -= vec.dot(m.gravity, at)
-    springs = [_HALF * s.value * s.along**2 for s in m.springs]
-    return m.tape.named(sum([total, *springs, *m.stores], Integer(0)))
 
 
 def _momentum(m: SpatialDeclaration) -> dict[str, Expr]:

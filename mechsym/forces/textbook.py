@@ -134,7 +134,13 @@ def errors(turn: Turn, approximate: Chain) -> dict[str, Pure]:
     Returns errors: for N, Z, T, M and the loads of crank pin and main bearing: largest difference over the largest
     exact value.
     """
-    return _shares(_approximate(turn, approximate), _exact(turn, 0.0))
+    # the crank's own unbalance pulls the main bearing outwards, against Z
+    pull = slider_crank(turn).u_c * turn.omega**2
+    loads = {
+        "crank_pin": np.hypot(approximate.Z, approximate.T),
+        "main_bearing": np.hypot(approximate.Z - pull, approximate.T),
+    }
+    return _shares({n: getattr(approximate, n) for n in "NZTM"} | loads, _exact(turn, 0.0))
 
 
 def weight_shares(turn: Turn) -> dict[str, Pure]:
@@ -167,13 +173,6 @@ def _exact(turn: Turn, g: float) -> dict[str, np.ndarray]:
         "crank_pin": np.hypot(pin.x, pin.y),
         "main_bearing": np.hypot(*next(iter(carried.bearings.values()))),
     }
-
-
-def _approximate(turn: Turn, chain: Chain) -> dict[str, np.ndarray]:
-    # the crank's own unbalance pulls the main bearing outwards, against Z
-    pull = slider_crank(turn).u_c * turn.omega**2
-    loads = {"crank_pin": np.hypot(chain.Z, chain.T), "main_bearing": np.hypot(chain.Z - pull, chain.T)}
-    return {n: getattr(chain, n) for n in "NZTM"} | loads
 
 
 def _shares(approximate: dict[str, np.ndarray], exact: dict[str, np.ndarray]) -> dict[str, float]:

@@ -84,7 +84,12 @@ def design_kernel(
     if spring.state:
         raise BadInput("the limits of many guides at once take springs whose force follows from the closing alone")
     given: dict[str, Record] = {"spring": spring, "guide": choices, "rollers": rollers, "limits": limits}
-    known = _numbers_of(given)
+    known = {
+        f"{section}.{f.name}": getattr(values, f.name)
+        for section, values in given.items()
+        for f in dataclasses.fields(values)
+        if isinstance(getattr(values, f.name), float) and f"{section}.{f.name}" != "guide.shaft_ratio"
+    }
     for name in free:
         if name not in known:
             raise BadInput(f"{name} cannot be free in a map of guides; {suggest(name, known)}")
@@ -117,15 +122,6 @@ def design_kernel(
         angles=parts.angles,
         lanes=lanes,
     )
-
-
-def _numbers_of(given: dict[str, Record]) -> dict[str, float]:
-    return {
-        f"{section}.{f.name}": getattr(values, f.name)
-        for section, values in given.items()
-        for f in dataclasses.fields(values)
-        if isinstance(getattr(values, f.name), float) and f"{section}.{f.name}" != "guide.shaft_ratio"
-    }
 
 
 def _in_blocks(

@@ -205,7 +205,16 @@ def verdict(
             continue
         share, most = _top(limit, setting, *(closed if limit.by_closing else (along, theta)))
         if math.isfinite(share):  # the contact pressure of an undercut profile is said by the undercut
-            checks.append(_check(limit, share, most, setting, ends))
+            margin = 1 - share
+            value = share * most if most > 0 else float(limit.value(ends, setting))
+            checks.append(
+                LimitCheck(
+                    name=limit.name,
+                    text=limit.told(value, most, setting, ends),
+                    kept=margin >= -_ROUNDING,
+                    margin=None if limit.signed and share <= 0 else margin,
+                )
+            )
             used[key] = share
     return Verdict(
         feasible=all(c.kept for c in checks),
@@ -292,17 +301,6 @@ def _closure_check(gap: float, rho0: float) -> LimitCheck:
             name="closure", text="the path closes within a billionth of its radius", kept=True, margin=margin
         )
     return LimitCheck(name="closure", text=text, kept=False, margin=margin)
-
-
-def _check(limit: GuideLimit, share: float, most: float, setting: Scalar, at: Station) -> LimitCheck:
-    margin = 1 - share
-    value = share * most if most > 0 else float(limit.value(at, setting))
-    return LimitCheck(
-        name=limit.name,
-        text=limit.told(value, most, setting, at),
-        kept=margin >= -_ROUNDING,
-        margin=None if limit.signed and share <= 0 else margin,
-    )
 
 
 def _reason(checks: Sequence[LimitCheck]) -> str:

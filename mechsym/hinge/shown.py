@@ -108,26 +108,22 @@ def _dimensions(design: Design, guide: Verdict) -> list[Card]:
     ]  # fmt: skip
 
 
-def _speeds_words(design: Design) -> str:
-    """What the picture of the speeds shows: the largest ripples with the hinge and without."""
+def pictures(design: Design) -> tuple[Picture, ...]:
+    """The figures that there is something to draw for."""
+    gas, phi = design.machine.gas, np.linspace(0, design.hinge.period, 1441)
+    ends, swing = (f(design.hinge.torque(phi)) for f in (np.min, np.max)), float(np.ptp(design.hinge.work(phi)))
+    # what the picture of the speeds shows: the largest ripples with the hinge and without
     told = []
     for how, hinged in (("with the hinge", True), ("without", False)):
         runs = [t for t in design.trials if (t.name not in ("without", "flywheel")) == hinged]
         known = [(t.speed_ripple, t.about) for t in runs if t.speed_ripple is not None]
         told += [f"{how} it ripples by {ripple_text(ripple)} at most ({about})" for ripple, about in sorted(known)[-1:]]
-    return ", ".join(["Crank speed over the design speed", *told]).replace(", ", ": ", 1) + "."
-
-
-def pictures(design: Design) -> tuple[Picture, ...]:
-    """The figures that there is something to draw for."""
-    gas, phi = design.machine.gas, np.linspace(0, design.hinge.period, 1441)
-    ends, swing = (f(design.hinge.torque(phi)) for f in (np.min, np.max)), float(np.ptp(design.hinge.work(phi)))
     found = [
         Picture(name="torque", draw=lambda: plots.torque(design),
                 see=f"Hinge torque on the crank, {' to '.join(quantity_text(v, 'N*m', 4) for v in ends)}, with its "
                 f"parts, and below its work, which swings by {quantity_text(swing, 'J', 4)} and comes back."),
         Picture(name="speeds", draw=lambda: plots.speeds(design),
-                see=_speeds_words(design)),
+                see=", ".join(["Crank speed over the design speed", *told]).replace(", ", ": ", 1) + "."),
     ]  # fmt: skip
     if gas is not None:
         see = f"Cylinder pressure, at most {quantity_text(gas.pressure.p_max, 'Pa', 4)}, over the crank angle with the "

@@ -98,24 +98,20 @@ def ranges_of(mechanism: str, case: Case) -> Ranges:
 def extremes_of(case: Case) -> Extremes:
     """Speeds, forces and torques that a case reaches: over a turn, or in its run where it has no speed of operation."""
     if "operation" not in case.sections:
-        return _of_run(case)
+        # the extremes of a run in time: what the shaft is driven by is all that acts on it
+        problem = problem_of(case)
+        result = simulate(problem, Settings(check="none"))
+        speeds = np.array([result.columns[name] for name in velocities(problem.mechanism)])
+        values = [v for part in problem.parts if isinstance(part.value, Steps) for v in part.value.values]
+        acceleration = float(np.abs(np.diff(speeds) / np.diff(result.t)).max())
+        force = min(0.0, *values), max(0.0, *values)
+        return (float(speeds.min()), float(speeds.max())), acceleration, force, max(0.0, *np.abs(values).tolist())
     engine = machine(case)
     torque = float(np.abs(shaft_torque(engine, "drive", _TURN)).max())
     forces = np.concatenate([np.zeros(1), *(f.value(_TURN) for f in acting(engine))])
     (q,) = engine.mechanism.coordinates
     inertia = float(evaluate(engine.mechanism, "dynamics", **{q: _TURN})["mass_matrix"].min())
     return (0.0, _FASTER * engine.omega), torque / inertia, (float(forces.min()), float(forces.max())), torque
-
-
-def _of_run(case: Case) -> Extremes:
-    """The extremes of a run in time: what the shaft is driven by is all that acts on it."""
-    problem = problem_of(case)
-    result = simulate(problem, Settings(check="none"))
-    speeds = np.array([result.columns[name] for name in velocities(problem.mechanism)])
-    values = [v for part in problem.parts if isinstance(part.value, Steps) for v in part.value.values]
-    acceleration = float(np.abs(np.diff(speeds) / np.diff(result.t)).max())
-    force = min(0.0, *values), max(0.0, *values)
-    return (float(speeds.min()), float(speeds.max())), acceleration, force, max(0.0, *np.abs(values).tolist())
 
 
 @result

@@ -117,7 +117,13 @@ def redundant_force(
     stiffness = 1 / rule.k_c + s**2 / rule.k_a + c**2 / rule.k_b
     right = rule.radius_error + X_a * s / rule.k_a + X_b * c / rule.k_b
     points = [(0.0, rule.gap_c), _point(X_a, s, rule.gap_a), _point(X_b, c, rule.gap_b)]
-    b, G = _ascending(points)
+    pairs = list(points)
+    for i, j in ((0, 1), (1, 2), (0, 1)):
+        (b_i, G_i), (b_j, G_j) = pairs[i], pairs[j]
+        swap = b_i > b_j
+        pairs[i] = (ca.fmin(b_i, b_j), ca.if_else(swap, G_j, G_i))
+        pairs[j] = (ca.fmax(b_i, b_j), ca.if_else(swap, G_i, G_j))
+    b, G = ([b for b, _ in pairs], [G for _, G in pairs])
     candidates = [(right + sum(G[k:]) - sum(G[:k])) / stiffness for k in range(4)]
     return _median([*b, *candidates])
 
@@ -125,16 +131,6 @@ def redundant_force(
 def _point(X: Scalar, sine: ca.SX, gap: float) -> tuple[Scalar, Scalar]:
     flat = ca.fabs(sine) < _FLAT
     return ca.if_else(flat, 0.0, X / ca.if_else(flat, 1.0, sine)), gap * ca.fabs(sine)
-
-
-def _ascending(points: list[tuple[ca.SX, ca.SX]]) -> tuple[list[ca.SX], list[ca.SX]]:
-    pairs = list(points)
-    for i, j in ((0, 1), (1, 2), (0, 1)):
-        (b_i, G_i), (b_j, G_j) = pairs[i], pairs[j]
-        swap = b_i > b_j
-        pairs[i] = (ca.fmin(b_i, b_j), ca.if_else(swap, G_j, G_i))
-        pairs[j] = (ca.fmax(b_i, b_j), ca.if_else(swap, G_i, G_j))
-    return [b for b, _ in pairs], [G for _, G in pairs]
 
 
 def _median(values: list[ca.SX]) -> ca.SX:

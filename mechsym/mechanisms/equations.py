@@ -40,10 +40,7 @@ def equations(name: str) -> MechanismEquations:
     'l = l_{1} + l_{2}'
     """
     found = listing(plan_of(name).theory)["equations"]
-    rows = tuple({"title": row["title"], "latex": _upright(row["latex"])} for row in found)
+    # names of several letters are words and stand upright; a single letter is a quantity
+    upright = [_WORD.sub(lambda word: rf"\mathrm{{{word[0]}}}", row["latex"]) for row in found]
+    rows = tuple({"title": row["title"], "latex": text} for row, text in zip(found, upright, strict=True))
     return MechanismEquations(name=name, rows=rows)
-
-
-def _upright(latex: str) -> str:
-    """Names of several letters are words and stand upright; a single letter is a quantity."""
-    return _WORD.sub(lambda word: rf"\mathrm{{{word[0]}}}", latex)

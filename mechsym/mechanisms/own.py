@@ -274,14 +274,10 @@ def letters_class(name: str, fields: Mapping[str, Field], requires: Sequence[Map
 def require(record: type[Record], letters: Mapping[str, float]) -> None:
     """Refuse numbers of a record that a declaration refuses: where an expression is not above another."""
     for required in vars(record)["requires"]:
-        _require(required, letters)
-
-
-def _require(required: Mapping[str, str], letters: Mapping[str, float]) -> None:
-    value, least = (amount(required[side], letters) for side in ("value", "above"))
-    if not value > least:
-        size, bound = (re.sub(r"Abs\((\w+)\)", r"|\1|", required[side]) for side in ("value", "above"))
-        than = f"{least:g} {required['unit']}" if bound == "0" else f"{bound} = {least:g} {required['unit']}"
-        raise BadInput(
-            f"{required['what']}: {size} = {value:g} {required['unit']}, needs more than {than}; {required['way']}"
-        )
+        value, least = (amount(required[side], letters) for side in ("value", "above"))
+        if not value > least:
+            size, bound = (re.sub(r"Abs\((\w+)\)", r"|\1|", required[side]) for side in ("value", "above"))
+            than = f"{least:g} {required['unit']}" if bound == "0" else f"{bound} = {least:g} {required['unit']}"
+            raise BadInput(
+                f"{required['what']}: {size} = {value:g} {required['unit']}, needs more than {than}; {required['way']}"
+            )

@@ -201,7 +201,11 @@ def casadi_function(
     values = getattr(module, function)(**{n: symbols.get(n, parameters.get(n)) for n in arguments})
     results = dict(zip(outputs, (ca.SX(v) for v in values), strict=True))
     if function == "dynamics":
-        results = _matrices(results, module.COORDINATES)
+        q = module.COORDINATES
+        mass = ca.vertcat(*(ca.horzcat(*(results[f"mass_{a}_{b}"] for b in q)) for a in q))
+        bias = ca.vertcat(*(results[f"bias_{a}"] for a in q))
+        force = ca.vertcat(*(results[f"force_{a}"] for a in q))
+        results = {"mass_matrix": mass, "bias": bias, "generalized_force": force}
     if function == "constraints":
         results = _constraint_matrices(results, module.COORDINATES)
     free = [p for p in parameters.values() if isinstance(p, ca.SX)]
@@ -210,13 +214,6 @@ def casadi_function(
     # a dependent coordinate may be asked for as an output
     options = {"allow_duplicate_io_names": True} if set(names) & set(results) else {}
     return ca.Function(function, inputs, list(results.values()), names, list(results), options)
-
-
-def _matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict[str, ca.SX]:
-    mass = ca.vertcat(*(ca.horzcat(*(results[f"mass_{a}_{b}"] for b in q)) for a in q))
-    bias = ca.vertcat(*(results[f"bias_{a}"] for a in q))
-    force = ca.vertcat(*(results[f"force_{a}"] for a in q))
-    return {"mass_matrix": mass, "bias": bias, "generalized_force": force}
 
 
 def _constraint_matrices(results: Mapping[str, ca.SX], q: Sequence[str]) -> dict[str, ca.SX]:

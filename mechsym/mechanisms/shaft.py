@@ -53,10 +53,14 @@ def matrices(name: str, parameters: Record) -> ShaftMatrices:
     mechanism, shaft = mechanisms.build(name, parameters), elastic(name, parameters)
     if shaft is None:
         raise BadInput(f"{name} has no elastic shaft; declare it with m.shaft(..)")
+    dynamics, n = mechanism.functions["dynamics"], len(mechanism.coordinates)
+    angles = ca.DM(np.linspace(0.0, 2 * np.pi, _POINTS, endpoint=False)).T
+    given = [angles] * n + [ca.DM.zeros(1, _POINTS)] * (dynamics.n_in() - n)
+    mass = np.asarray(dynamics.call(given)[0])
     return ShaftMatrices(
         coordinates=mechanism.coordinates,
         inertia=np.diag(shaft.discs),
-        inertia_mean=_mean_mass(mechanism),
+        inertia_mean=mass.reshape(n, _POINTS, n).mean(axis=1),
         stiffness=chain(shaft.k),
         damping=chain(shaft.c),
     )
@@ -70,14 +74,6 @@ def chain(values: tuple[float, ...]) -> np.ndarray:
     """
     differences = np.diff(np.eye(len(values) + 1), axis=0)
     return differences.T @ np.diag(values) @ differences
-
-
-def _mean_mass(mechanism: Mechanism) -> np.ndarray:
-    dynamics, n = mechanism.functions["dynamics"], len(mechanism.coordinates)
-    angles = ca.DM(np.linspace(0.0, 2 * np.pi, _POINTS, endpoint=False)).T
-    given = [angles] * n + [ca.DM.zeros(1, _POINTS)] * (dynamics.n_in() - n)
-    mass = np.asarray(dynamics.call(given)[0])
-    return mass.reshape(n, _POINTS, n).mean(axis=1)
 
 
 def with_inertia(mechanism: Mechanism, inertia: Inertia) -> Mechanism:

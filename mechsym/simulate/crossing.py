@@ -169,10 +169,7 @@ def _through(branch: _Branch, q: np.ndarray, way: float, reach: float) -> Crossi
         turned.reverse()
     if not all(branch.advance(-step) for _ in range(max(count - int(_NEAR), 0))):
         return None
-    return _fitted(branch, meet, reach * way)
-
-
-def _fitted(branch: _Branch, meet: float, width: float) -> Crossing | None:
+    width = reach * way
     x = np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
     poses = [branch.closed(branch.foretold(meet + width * at)) for at in x]
     if any(q is None for q in poses):

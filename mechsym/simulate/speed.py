@@ -59,7 +59,13 @@ def _greatest(values: Callable[[np.ndarray], np.ndarray], t: np.ndarray, rows: n
     for _ in range(_LOOKS):
         t, brackets = t[: rows.shape[1]], []
         for k, row in enumerate(rows):
-            gain = _gains(t, row)
+            # what a parabola through each sample and its neighbours adds to it; 0 where that sample is no peak
+            h, d = np.diff(t), np.diff(row) / np.diff(t)
+            bend = np.diff(d) / (h[1:] + h[:-1])
+            slope = (d[:-1] * h[1:] + d[1:] * h[:-1]) / (h[1:] + h[:-1])
+            even = np.abs(h[1:] - h[:-1]) < 0.5 * (h[1:] + h[:-1])  # not across the gap between two brackets
+            peak = (d[:-1] >= 0) & (d[1:] <= 0) & (bend < 0) & even
+            gain = np.where(peak, slope**2 / (-4 * np.where(peak, bend, -1.0)), 0.0)
             may = np.flatnonzero((gain > 0) & (row[1:-1] + gain >= greatest[k])) + 1
             if gain[may - 1].max(initial=0.0) <= _SURE * np.abs(row).max():
                 greatest[k] = max(greatest[k], (row[may] + gain[may - 1]).max(initial=-np.inf))
@@ -71,16 +77,6 @@ def _greatest(values: Callable[[np.ndarray], np.ndarray], t: np.ndarray, rows: n
         rows = values(t)
         greatest = np.maximum(greatest, rows.max(axis=1))
     return greatest
-
-
-def _gains(t: np.ndarray, row: np.ndarray) -> np.ndarray:
-    """What a parabola through each sample and its neighbours adds to it; 0 where that sample is no peak."""
-    h, d = np.diff(t), np.diff(row) / np.diff(t)
-    bend = np.diff(d) / (h[1:] + h[:-1])
-    slope = (d[:-1] * h[1:] + d[1:] * h[:-1]) / (h[1:] + h[:-1])
-    even = np.abs(h[1:] - h[:-1]) < 0.5 * (h[1:] + h[:-1])  # not across the gap between two brackets
-    peak = (d[:-1] >= 0) & (d[1:] <= 0) & (bend < 0) & even
-    return np.where(peak, slope**2 / (-4 * np.where(peak, bend, -1.0)), 0.0)
 
 
 def before_last_period(q: np.ndarray, period: float) -> int | None:

@@ -132,7 +132,14 @@ def size(forces: SliderForces, wants: Wants, stock: Stock) -> SliderParts:
     material = {key: stock.material(getattr(wants, key)) for key in ("piston", "cylinder", "shaft")}
     steel = stock.material(wants.crankshaft)
     piston = replace(size_piston(forces, wants, material["piston"], forces.l), rod_length=forces.l)
-    piston = replace(piston, rod=_rod_diameter(forces, wants, steel, forces.l))
+    d = 6e-3
+    peak, strength = np.abs(forces.rod).max(), steel.yield_strength or steel.ultimate
+    while (
+        _rod_factor(d, forces, steel).min() < wants.rod
+        or rod_buckling_load(d, forces.l, steel.youngs_modulus, strength) < wants.rod * peak
+    ):
+        d = round_up(d + 1e-5)
+    piston = replace(piston, rod=d)
     cylinder = size_cylinder(forces, wants, material["cylinder"], piston.height)
     rod_seat, main_seat = _seats(forces)
     rods = _ranked(stock, wants, rod_seat, (0.02, 0.06))
@@ -222,17 +229,6 @@ def _rod_factor(d: float, loads: CylinderLoads, material: Material) -> np.ndarra
     amplitude, mean = stress_cycle(loads.rod / (np.pi * d**2 / 4))
     S_e = _AXIAL * endurance_limit(material.ultimate, d, "machined")
     return goodman_factor(amplitude, np.abs(mean), S_e, material.ultimate)
-
-
-def _rod_diameter(loads: CylinderLoads, wants: Wants, material: Material, length: float) -> float:
-    d = 6e-3
-    peak, strength = np.abs(loads.rod).max(), material.yield_strength or material.ultimate
-    while (
-        _rod_factor(d, loads, material).min() < wants.rod
-        or rod_buckling_load(d, length, material.youngs_modulus, strength) < wants.rod * peak
-    ):
-        d = round_up(d + 1e-5)
-    return d
 
 
 def _check_rod(d: float, loads: CylinderLoads, wants: Wants, material: Material, length: float) -> list[Check]:

@@ -47,21 +47,19 @@ def families(found: Sequence[Case]) -> list[list[int]]:
     """Cases that one map may hold: all but numbers of the engine and the speed are equal."""
     families: dict[object, list[int]] = {}
     for i, case in enumerate(found):
-        families.setdefault(_form(case), []).append(i)
+        from mechsym.cycle.friction import MechanismFriction
+
+        friction, cycle = case.sections.get("friction_pressure"), case.need("cycle")
+        # the law is fitted around the speed of operation, so another speed is another engine
+        fitted = case.need("operation").speed if isinstance(friction, MechanismFriction) else None
+        records = [case.sections.get(name) for name in _SECTIONS]
+        if fitted is not None:
+            records += [case.sections.get("friction"), case.sections.get("rings")]
+        alone = fitted is not None or getattr(cycle, "method", None) == "nunes2017_printed"
+        families.setdefault(
+            (case.mechanism, fitted, tuple(_text(record, numbers=alone) for record in records)), []
+        ).append(i)
     return list(families.values())
-
-
-def _form(case: Case) -> tuple[object, ...]:
-    from mechsym.cycle.friction import MechanismFriction
-
-    friction, cycle = case.sections.get("friction_pressure"), case.need("cycle")
-    # the law is fitted around the speed of operation, so another speed is another engine
-    fitted = case.need("operation").speed if isinstance(friction, MechanismFriction) else None
-    records = [case.sections.get(name) for name in _SECTIONS]
-    if fitted is not None:
-        records += [case.sections.get("friction"), case.sections.get("rings")]
-    alone = fitted is not None or getattr(cycle, "method", None) == "nunes2017_printed"
-    return case.mechanism, fitted, tuple(_text(record, numbers=alone) for record in records)
 
 
 def _text(record: Record | None, numbers: bool) -> str:
@@ -167,7 +165,13 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
         # one block of lanes: what runs beside a point is the same on any machine
         return Route(analysis=analysis, run=_simulated, together=_LANES, seconds=0.03)
     if analysis == "hinge":
-        return _hinges(show)
+        if show:
+            hinges.check_keys(show)
+            if hinges.runs(show):
+                return Route(analysis="hinge", run=_each(hinges.designed(show)), together=1, seconds=0.5)
+        return Route(
+            analysis="hinge", run=lambda found: hinges.judged(found, show), together=hinges.BLOCK, seconds=0.002
+        )
     if analysis == "guides":
         run = _each(lambda case: {})
         return Route(analysis=analysis, run=run, together=hinges.MANY, seconds=0.0001, at=hinges.guides)
@@ -177,14 +181,6 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
     if kind_of(case.need("cycle")).closed:
         return Route(analysis=analysis, run=_maps, together=_CYCLES, seconds=0.002)
     return Route(analysis=analysis, run=_each(single), together=1, seconds=0.01)
-
-
-def _hinges(show: tuple[str, ...]) -> Route:
-    if show:
-        hinges.check_keys(show)
-        if hinges.runs(show):
-            return Route(analysis="hinge", run=_each(hinges.designed(show)), together=1, seconds=0.5)
-    return Route(analysis="hinge", run=lambda found: hinges.judged(found, show), together=hinges.BLOCK, seconds=0.002)
 
 
 def _each(one: Callable[[Case], object]) -> Callable[[Sequence[Case]], list[Outcome]]:

@@ -214,7 +214,9 @@ def _slip(fitted: Fitted, form: Formula, quantity: str) -> Row | None:
     row = _asked_once(to_python(form.tree), theory, quantity, own)
     if row["verdict"] in PASSED:
         return row | {"verdict": "agrees"}
-    if row["verdict"] == "misprint" and _is_local(row):
+    # a step on the way to a quantity lacks a term or a factor: that is no slip
+    step = re.search(r"repaired by (?:left out|put back|lost|missing|term|degrees)", row["note"])
+    if row["verdict"] == "misprint" and not step:
         return _renamed(row, fitted) | {"letters": {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}}
     return None
 
@@ -227,11 +229,6 @@ def _renamed(row: Row, fitted: Fitted) -> Row:
     pattern = re.compile(rf"\b(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})\b")
     texts = {k: pattern.sub(lambda m: names[m[0]], row[k]) for k in ("correction", "note") if row[k]}
     return row | texts
-
-
-def _is_local(row: Row) -> bool:
-    # a step on the way to a quantity lacks a term or a factor: that is no slip
-    return not re.search(r"repaired by (?:left out|put back|lost|missing|term|degrees)", row["note"])
 
 
 _SLOPE = re.compile(

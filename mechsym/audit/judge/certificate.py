@@ -68,7 +68,17 @@ def _part(own: Script, tree: Node, authors: bool) -> CoqTerm:
         raise BadInput("cases have no certificate")
     left = _part(own, tree.left, authors)
     if isinstance(tree.op, ast.Pow):
-        return _power(own, left, _part(own, tree.right, authors))
+        base = left
+        power = _part(own, tree.right, authors)
+        exponent = Fraction(int(power.value.p), int(power.value.q)) if power.value.is_Rational else None
+        if not is_half(exponent):
+            return _real_power(own, base, power)
+        if exponent.denominator == 2:
+            base = _function(own, "sqrt", base)
+        whole = Fraction(exponent.numerator)
+        if whole < 0:
+            not_zero(own, base.value)
+        return CoqTerm(text=power_text(base.text, whole, str), value=base.value ** int(whole))
     right = _part(own, tree.right, authors)
     text = f"({left.text} {_SIGNS[type(tree.op)]} {right.text})"
     if isinstance(tree.op, ast.Add):
@@ -135,18 +145,6 @@ def _raw(own: Script, tree: Node, authors: bool) -> str:
     if isinstance(tree.op, ast.Pow):
         return power_text(left, value_of(tree.right), lambda: _raw(own, tree.right, authors))
     return f"({left} {_SIGNS[type(tree.op)]} {_raw(own, tree.right, authors)})"
-
-
-def _power(own: Script, base: CoqTerm, power: CoqTerm) -> CoqTerm:
-    exponent = Fraction(int(power.value.p), int(power.value.q)) if power.value.is_Rational else None
-    if not is_half(exponent):
-        return _real_power(own, base, power)
-    if exponent.denominator == 2:
-        base = _function(own, "sqrt", base)
-    whole = Fraction(exponent.numerator)
-    if whole < 0:
-        not_zero(own, base.value)
-    return CoqTerm(text=power_text(base.text, whole, str), value=base.value ** int(whole))
 
 
 def _real_power(own: Script, base: CoqTerm, power: CoqTerm) -> CoqTerm:

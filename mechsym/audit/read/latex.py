@@ -282,7 +282,16 @@ def _function(cursor: Cursor, function: str) -> Node:
         if ast.dump(power) == ast.dump(negative(number(1))):
             function, power = f"a{function}", None
     if function in _SEVERAL:
-        return _several(cursor, function)
+        opening = cursor.take("(" if cursor.peek() != "\\{" else "")
+        arguments = [_sum(cursor)]
+        while cursor.peek() == ",":
+            cursor.take()
+            arguments.append(_sum(cursor))
+        cursor.take(_CLOSING[opening])
+        several = meaning(function, arguments)
+        if several is None:
+            raise BadInput(f"LaTeX: {function} takes two arguments {place(cursor)}; write {function}(a, b)")
+        return several
     if cursor.peek() in _CLOSING:
         argument = _group(cursor)
         if cursor.peek() == "^" and power is None:
@@ -292,20 +301,6 @@ def _function(cursor: Cursor, function: str) -> Node:
         argument = _run(cursor, function)
     tree = call(function, argument)
     return tree if power is None else binary(ast.Pow, tree, power)
-
-
-def _several(cursor: Cursor, function: str) -> Node:
-    # atan2(y, x), min(a, b)
-    opening = cursor.take("(" if cursor.peek() != "\\{" else "")
-    arguments = [_sum(cursor)]
-    while cursor.peek() == ",":
-        cursor.take()
-        arguments.append(_sum(cursor))
-    cursor.take(_CLOSING[opening])
-    several = meaning(function, arguments)
-    if several is None:
-        raise BadInput(f"LaTeX: {function} takes two arguments {place(cursor)}; write {function}(a, b)")
-    return several
 
 
 def _run(cursor: Cursor, function: str) -> Node:

@@ -70,13 +70,19 @@ def read_text_whole(text: str) -> Text:
     shown = displayed(text)
     written = nomenclature(text)
     words = _words(written, shown)
-    indexed = _indexed(text)
+    pairs: dict[str, set[tuple[str, str]]] = {}
+    for match in _INDEXED.finditer(text):
+        pairs.setdefault(match[1], set()).add((match[2].strip("{}"), match[3].strip("{}")))
+    indexed = frozenset(
+        base for base, both in pairs.items() if len(both) > 1 and all(abs(int(i) - int(j)) in (1, 3) for i, j in both)
+    )
     named: dict[str, Named] = {}
     for symbol, about in written.items():
         if plain := _plain(symbol, words):
             named.setdefault(plain, about)
     starts = [m.start() for m in _SECTION.finditer(text)]
-    lines = _line_starts(text)
+    lines = [0]
+    lines += [m.end() for m in re.finditer("\n", text)]
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
     said = []
     for equation, inline in everything:
@@ -85,12 +91,6 @@ def read_text_whole(text: str) -> Text:
         if one.sides or not inline:
             said.append(one)
     return Text(said=said, named=named, prose=text)
-
-
-def _line_starts(text: str) -> list[int]:
-    starts = [0]
-    starts += [m.end() for m in re.finditer("\n", text)]
-    return starts
 
 
 def _inline(text: str) -> Iterator[Displayed]:
@@ -112,16 +112,6 @@ def _words(written: Mapping[str, Named], shown: Sequence[Displayed]) -> list[str
         if re.fullmatch(r"[A-Za-z]{2,5}", left) and not set(left) <= singles and left[0] != "d":
             words.add(left)
     return sorted(words - {"sin", "cos", "tan", "exp", "log", "ln", "tg"}, key=len, reverse=True)
-
-
-def _indexed(text: str) -> frozenset[str]:
-    # Q_2^3 is a name where such a letter never stands without its upper index
-    pairs: dict[str, set[tuple[str, str]]] = {}
-    for match in _INDEXED.finditer(text):
-        pairs.setdefault(match[1], set()).add((match[2].strip("{}"), match[3].strip("{}")))
-    return frozenset(
-        base for base, both in pairs.items() if len(both) > 1 and all(abs(int(i) - int(j)) in (1, 3) for i, j in both)
-    )
 
 
 def _plain(symbol: str, words: Sequence[str]) -> str:

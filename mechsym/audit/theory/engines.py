@@ -176,7 +176,14 @@ Letters = Mapping[str, Symbol]
 def engine_parts(values: Mapping[str, float], data: str) -> Theory:
     """Sizes of the parts of the opposed-piston engine, each solved from its balance."""
     s = {k: Symbol(k, positive=True) for k in _PARTS}
-    expressions = {**_cylinder(s), **_crankshaft(s), **_mesh(s)}
+    omega = 2 * pi * s["N"] / 60
+    # the carrier turns by omega, the planet by -omega
+    speed = s["d_pinion"] / 2 * (omega - -omega)
+    # Hertz, a line load w on a curvature of radius rho: a = sqrt(4 w rho c/pi), p_0 = 2 w/(pi a)
+    w, rho = Symbol("line_load", positive=True), Symbol("rho", positive=True)
+    softness = sum((1 - s[f"nu_{m}"] ** 2) / s[f"E_{m}"] for m in ("pinion", "gear"))
+    pressure = 2 * w / (pi * sqrt(4 * w * rho * softness / pi))
+    expressions = {**_cylinder(s), **_crankshaft(s), **{"mesh_speed": speed, "Z_E": pressure / sqrt(w / rho)}}
     units = {k: "m" for k in expressions if k != "Z_E"} | _UNITS  # Z_E has the root of a unit
     return expressed("engine_parts", _PARTS, expressions, units, data)
 
@@ -218,17 +225,6 @@ def _crankshaft(s: Letters) -> dict[str, Expr]:
         "web_stress": moment * t / 2 / web + load / (w * t),
         "shaft_diameter": _positive(s["sigma_S"] - s["Tq_max"] * _d / 2 / polar),
     }
-
-
-def _mesh(s: Letters) -> dict[str, Expr]:
-    omega = 2 * pi * s["N"] / 60
-    # the carrier turns by omega, the planet by -omega
-    speed = s["d_pinion"] / 2 * (omega - -omega)
-    # Hertz, a line load w on a curvature of radius rho: a = sqrt(4 w rho c/pi), p_0 = 2 w/(pi a)
-    w, rho = Symbol("line_load", positive=True), Symbol("rho", positive=True)
-    softness = sum((1 - s[f"nu_{m}"] ** 2) / s[f"E_{m}"] for m in ("pinion", "gear"))
-    pressure = 2 * w / (pi * sqrt(4 * w * rho * softness / pi))
-    return {"mesh_speed": speed, "Z_E": pressure / sqrt(w / rho)}
 
 
 def _positive(balance: Expr) -> Expr:

@@ -85,7 +85,13 @@ def measured_cycles(
     bottom = level * math.exp(float(log_pressure(cylinder, _BDC, shape)[0][0]))
     scale = _scale(diagram, phi, raw.mean(axis=0) - offsets.mean(), bottom)
     cycles = scale * (raw - offsets[:, None])
-    _refuse_negative(diagram.file, cycles)
+    # noise may push single samples of a throttled engine below zero, the mean cycle not
+    lowest = float(cycles.mean(axis=0).min())
+    if lowest <= 0:
+        raise BadInput(
+            f"{diagram.file}: the absolute pressure of the mean cycle falls to {lowest / 1e5:.3g} bar; "
+            "choose another pegging or dead centre (inlet, polytropic; alignment, fit_from, fit_to)"
+        )
     return MeasuredCycles(
         file=diagram.file,
         period=period,
@@ -111,16 +117,6 @@ def around_compression(
     rad before TDC; values: in the order of phi.
     """
     return in_one_piece(phi, values, period, start=-math.pi - 0.5)
-
-
-def _refuse_negative(file: str, cycles: np.ndarray) -> None:
-    # noise may push single samples of a throttled engine below zero, the mean cycle not
-    lowest = float(cycles.mean(axis=0).min())
-    if lowest <= 0:
-        raise BadInput(
-            f"{file}: the absolute pressure of the mean cycle falls to {lowest / 1e5:.3g} bar; "
-            "choose another pegging or dead centre (inlet, polytropic; alignment, fit_from, fit_to)"
-        )
 
 
 def _pegging_line(diagram: Diagram, joint: JointFit) -> tuple[ChargeShape, float]:

@@ -26,6 +26,11 @@ def roles(p: CrankTrainParameters) -> PartRoles:
     pins = [bearing for i in cylinders for bearing in _pins(p, i)]
     mains = [_main(p, k) for k in sorted(set(p.throw))]
     tops = [top - shift for top, shift in zip(dead_centre(p), local_shift(p), strict=True)]
+    # torque of the weight of all throws, by the angle of the shaft [N*m]
+    rows = zip(*(each(p, name) for name in ("u0", "u_phase", "sense")), strict=True)
+    terms = [
+        f"({-p.g * u * sense!r})*cos(({sense!r})*(phi + ({phase!r})) + ({p.axis_tilt!r}))" for u, phase, sense in rows
+    ]
     return PartRoles(
         faces=tuple(
             FaceRole(
@@ -39,7 +44,7 @@ def roles(p: CrankTrainParameters) -> PartRoles:
             )
             for i in cylinders
         ),
-        rotors=(RotorRole(name="flywheel", angle="phi", load="M", inertia="I_f", weight=_weight(p)),),
+        rotors=(RotorRole(name="flywheel", angle="phi", load="M", inertia="I_f", weight=" + ".join(terms)),),
         guides=tuple(
             GuideRole(
                 name=f"side_force_{i}", reaction=f"side_force_{i}", travel=f"x_{i}", at="guides", way=_ways(p, i)[1]
@@ -104,15 +109,6 @@ def _main(p: CrankTrainParameters, k: int) -> BearingRole:
         z=each(p, "z")[k - 1],
         reactions=(f"main_bearing_force_x_{k}", f"main_bearing_force_y_{k}"),
     )
-
-
-def _weight(p: CrankTrainParameters) -> str:
-    """Torque of the weight of all throws, by the angle of the shaft [N*m]."""
-    rows = zip(*(each(p, name) for name in ("u0", "u_phase", "sense")), strict=True)
-    terms = [
-        f"({-p.g * u * sense!r})*cos(({sense!r})*(phi + ({phase!r})) + ({p.axis_tilt!r}))" for u, phase, sense in rows
-    ]
-    return " + ".join(terms)
 
 
 def _alone(p: CrankTrainParameters) -> tuple[str, Record]:

@@ -25,12 +25,6 @@ def figures() -> dict[str, Figure]:
     """All figures with curves, `figure_5` to `figure_11`, and `speeds`: the printed claim beside all runs."""
     result = study.run(study.EXACT, study.FINEST[1], study.FINEST[0])
     columns = {**result.columns, **study.piston()}
-    drawn = {"figure_5": _torque()}
-    drawn |= {f"figure_{n}": _both_spans(n, result.t, columns[key], label) for n, key, label in _FIGURES}
-    return drawn | {"speeds": _speeds()}
-
-
-def _torque() -> Figure:
     drive = load(study.CASE).need("drive")
     figure, axes = panels(10, 3, 1, 2)
     for axis, end in zip(axes, (10.0, 100.0), strict=True):
@@ -38,7 +32,9 @@ def _torque() -> Figure:
         axis.set(xlabel="t [s]", xlim=(0, end))
     axes[0].set_ylabel("torque [N m]")
     axes[0].set_title("Fig. 5", loc="left")
-    return figure
+    drawn = {"figure_5": figure}
+    drawn |= {f"figure_{n}": _both_spans(n, result.t, columns[key], label) for n, key, label in _FIGURES}
+    return drawn | {"speeds": _speeds()}
 
 
 def _both_spans(number: str, t: np.ndarray, y: np.ndarray, label: str) -> Figure:

@@ -133,7 +133,11 @@ _FRICTION = "friction.friction_mean_pressure"
 
 def studied_rows(engine: Sequence[Row]) -> list[Row]:
     """Rows of sections 6 and 6.1, each from one or two sweeps; `engine` has those of chapter 3, corrected too."""
-    rows = [*_performance(), *_losses(), _balance(), _rod(), _impact(), _load(engine), *_gears()]
+    own, rival = (
+        swept(f"{name}-losses")["shaking.counterweight.rms_after"] for name in ("hypocycloid", "slider-crank")
+    )
+    left = own[-1] / rival[-1]
+    rows = [*_performance(), *_losses(), _row("balance", left, left < 1), _rod(), _impact(), _load(engine), *_gears()]
     return [*rows, *_bore(), _compression(), _boost()]
 
 
@@ -169,14 +173,6 @@ def _losses() -> list[Row]:
     }
     changes = ", ".join(f"{value:+.1f} % at {rpm} rpm" for rpm, value in change.items())
     return [_row("losses", change[rpm], change[rpm] < 0, rpm=rpm, changes=changes) for rpm in (4000, 8000)]
-
-
-def _balance() -> Row:
-    own, rival = (
-        swept(f"{name}-losses")["shaking.counterweight.rms_after"] for name in ("hypocycloid", "slider-crank")
-    )
-    left = own[-1] / rival[-1]
-    return _row("balance", left, left < 1)
 
 
 def _rod() -> Row:

@@ -18,10 +18,6 @@ _LINES = ((BLUE, "-"), (RED, "--"), (GREEN, "-."))
 def figures() -> dict[str, Figure]:
     """All figures with curves."""
     both = engines()
-    return {"figure_3": _forces(both), "figure_4": _torques(both), "figure_5": _guides(), "figure_6": _fit(both)}
-
-
-def _forces(both: Engines) -> Figure:
     figure, (axis,) = panels(7.2, 4.2)
     for engine, (color, line), name in zip(both.machines, _LINES, ("1: 89 rpm", "2: 142 rpm"), strict=False):
         axis.plot(_DEG, gas_of(engine).force(_PHI) / 1e3, color=color, linestyle=line, label=name)
@@ -29,7 +25,7 @@ def _forces(both: Engines) -> Figure:
     axis.set_title("Fig. 3, stated cycle")
     legend(axis)
     turn_axis(axis)
-    return figure
+    return {"figure_3": figure, "figure_4": _torques(both), "figure_5": _guides(), "figure_6": _fit(both)}
 
 
 def _torques(both: Engines) -> Figure:

@@ -221,7 +221,14 @@ def _guide_rows(both: Engines) -> list[Row]:
     off = {label: departure(g) for label, g in cut.items()}
     worst = {letter: max(off[letter + n] for n in "123") for letter in "abcd"}
     pressed = [off[a + x] > off[a + y] for a in "abcd" for x, y in ("12", "23")]
-    taller = _rounder_when_taller(both)
+    # for both speeds and the three pressures: is the guide for H = 1 m rounder than that for 0.4 m, at one rho0
+    taller = []
+    for wanted in both.hinges:
+        part = balance(wanted, "whole_cycle")
+        for p0 in _PRESSURES:
+            springs = (replace(with_setting(both.cut.spring, p0), H=H) for H in _HEIGHTS)
+            short, tall = (departure(guide.cut(part, spring, both.cut.parameters)) for spring in springs)
+            taller.append(tall < short)
     stretch = [longest_stretch(g) for g in cut.values()]
     departures = ", ".join(f"{letter} {100 * value:.0f} %" for letter, value in worst.items())
     return [
@@ -230,18 +237,6 @@ def _guide_rows(both: Engines) -> list[Row]:
         _row("taller", float(np.mean(taller)), all(taller)),
         _row("stretch", 1e3 * max(stretch), NOT_COMPUTABLE, longer=sum(z > 0 for z in stretch)),
     ]
-
-
-def _rounder_when_taller(both: Engines) -> list[bool]:
-    """For both speeds and the three pressures: is the guide for H = 1 m rounder than that for 0.4 m, at one rho0."""
-    lines = []
-    for wanted in both.hinges:
-        part = balance(wanted, "whole_cycle")
-        for p0 in _PRESSURES:
-            springs = (replace(with_setting(both.cut.spring, p0), H=H) for H in _HEIGHTS)
-            short, tall = (departure(guide.cut(part, spring, both.cut.parameters)) for spring in springs)
-            lines.append(tall < short)
-    return lines
 
 
 def _retuning_rows(both: Engines) -> list[Row]:
