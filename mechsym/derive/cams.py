@@ -12,6 +12,7 @@ or, of a flat face, from the distance p of its line in the direction :math:`\chi
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ import scipy
 import sympy
 from sympy import Abs, Expr, Integer, Mod, Piecewise, Rational, Symbol, acos, asin, atan2, cos, pi, sin, sqrt
 
+from mechsym.derive.drawing import DrawnCam
 from mechsym.derive.linkage import Pair
 from mechsym.derive.printer import Lookup
 from mechsym.derive.rates import output, output_dynamic
@@ -57,6 +59,8 @@ class Cam:
 class _Follower:
     """How a follower moves with its lift."""
 
+    place: Pair  # its contact, of a flat face, else its centre [m]
+    lines: Callable[[Expr], tuple[tuple[Pair, ...], ...]]  # that draw it, at a gap, from its roller on [m]
     curvature: Expr  # of the cam [1/m]
     pressure_angle: Expr  # between the normal and the way of the follower [rad]
     lever: Expr  # of the normal force on the lift [-] or [m]
@@ -107,8 +111,10 @@ class Cams(Unilateral):
         if restitution is not None:
             gap = self.coordinates(self.free_name(f"gap_{name}"), unit)
             self._stop(name, gap, unit, restitution, None, None)
+            self.cams_drawn.append(DrawnCam(*radii, turned, seen.place, seen.lines(gap)))
             self._role("cam", name=name, **facts)
             return Cam(name=name, lift=s + gap)
+        self.cams_drawn.append(DrawnCam(*radii, turned, seen.place, seen.lines(Integer(0))))
         thrust = self.free_name(f"thrust_{name}")
         gap = self.joints(self.free_name(f"sn_{name}"), f"{name} on its follower", "N*m" if swings else "N", thrust)
         output_dynamic(self, f"force_{name}", self.reaction_of[gap] / seen.lever, "N")
@@ -245,7 +251,8 @@ class Cams(Unilateral):
                 self._needs(
                     value, above, "m", f"arm and centres of the cam {name}", f"{what} its base circle; correct them"
                 )
-            angle = acos((arm**2 + apart**2 - pitch**2) / (2 * arm * apart)) + s
+            low = acos((arm**2 + apart**2 - pitch**2) / (2 * arm * apart))
+            angle = low + s
             C: Pair = apart - arm * cos(angle), arm * sin(angle)
             C_s: Pair = arm * sin(angle), arm * cos(angle)
             C_ss: Pair = arm * cos(angle), -arm * sin(angle)
@@ -261,15 +268,35 @@ class Cams(Unilateral):
         speed = self.let(f"path_{name}", sqrt(V[0] ** 2 + V[1] ** 2), "m")
         bent = self.let(f"pitch_curvature_{name}", (V[1] * A[0] - V[0] * A[1]) / speed**3, "1/m")
         along, across = V[0] * C_s[0] + V[1] * C_s[1], V[0] * C_s[1] - V[1] * C_s[0]
+
+        def lines(gap: Expr) -> tuple[tuple[Pair, ...], ...]:
+            if isinstance(way, tuple):
+                return (((apart - arm * cos(angle + gap), arm * sin(angle + gap)), (apart, Integer(0))),)
+            return (((C[0], C[1] + gap), (C[0], C[1] + gap + 2 * base)),)
+
         return _Follower(
-            curvature=bent / (1 - roller * bent), pressure_angle=atan2(along, across), lever=across / speed
+            place=C,
+            lines=lines,
+            curvature=bent / (1 - roller * bent),
+            pressure_angle=atan2(along, across),
+            lever=across / speed,
         )
 
     def _flat(self, name: str, base: Expr, motion: tuple[Symbol, Symbol, Symbol], pivot: object) -> _Follower:
         """A flat face across the way of its follower, or one that swings about a pivot on x."""
         s, slope, bend = motion
         if not isinstance(pivot, tuple):
-            return _Follower(curvature=1 / (base + s + bend), pressure_angle=Integer(0), lever=Integer(1))
+            zero, foot = Integer(0), base + s
+            return _Follower(
+                place=(slope, foot),
+                lines=lambda gap: (
+                    ((-base, foot + gap), (base, foot + gap)),
+                    ((zero, foot + gap), (zero, foot + gap + 2 * base)),
+                ),
+                curvature=1 / (foot + bend),
+                pressure_angle=Integer(0),
+                lever=Integer(1),
+            )
         apart = self._above(pivot[0], "m", f"{name}_centres", f"centres of the cam {name}")
         face = self._sized(pivot[1], "m", f"{name}_face", f"face of the cam {name}")
         self._needs(
@@ -280,7 +307,21 @@ class Cams(Unilateral):
         turned = 1 + slope
         radius = distance + apart * (cos(angle) * bend - sin(angle) * slope**2 * turned) / turned**3
         lever = apart * cos(angle) / turned
-        return _Follower(curvature=1 / radius, pressure_angle=atan2(face, lever), lever=lever)
+        away = lever * slope  # the contact, from the foot of the cam's centre on the face
+
+        def lines(gap: Expr) -> tuple[tuple[Pair, ...], ...]:
+            c, s = cos(angle + gap), sin(angle + gap)
+            foot = apart + face * s, face * c  # of the pivot on the face
+            end = foot[0] - (apart + base) * c, foot[1] + (apart + base) * s
+            return (((apart, Integer(0)), foot, end),)
+
+        return _Follower(
+            place=(distance * sin(angle) + away * cos(angle), distance * cos(angle) - away * sin(angle)),
+            lines=lines,
+            curvature=1 / radius,
+            pressure_angle=atan2(face, lever),
+            lever=lever,
+        )
 
 
 def _pieces(law: str, x: Expr) -> list[tuple[Expr, Expr]]:

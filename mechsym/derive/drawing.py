@@ -4,15 +4,27 @@ draw_*   lines, circles and boxes at points of links; the derived code places th
 sketch   shapes by formulas, stored as text; pistons and cylinders are as wide as the bore of the case
 """
 
+from typing import NamedTuple
+
 from sympy import Expr
 
 from mechsym.derive.letters import Letters
-from mechsym.derive.linkage import point_of
+from mechsym.derive.linkage import Pair, point_of
 from mechsym.derive.refuse import refuse
 from mechsym.files import Json
 
-PAINTED = ("frame", "flywheel", "piston", "planet", "rod", "crank", "joint", "trace")
+PAINTED = ("frame", "flywheel", "cam", "piston", "planet", "rod", "crank", "roller", "joint", "trace")
 SKETCHED = ("line", "circle", "box", "piston", "cylinder", "slider_crank")
+
+
+class DrawnCam(NamedTuple):
+    """A cam about the origin and its follower, as drawings need them."""
+
+    base: Expr  # radius of its base circle [m]
+    roller: Expr  # radius; 0 without one [m]
+    turned: Expr  # [rad]
+    place: Pair  # of its contact, or of the roller's centre there [m]
+    lines: tuple[tuple[Pair, ...], ...]  # of the follower [m]
 
 
 class Drawing(Letters):
@@ -23,6 +35,7 @@ class Drawing(Letters):
         self.pins: dict[str, list[str]] = {}  # names of their places, of a slide also of one across it
         self.shape_points: dict[str, Expr] = {}
         self.sketches: list[Json] = []
+        self.cams_drawn: list[DrawnCam] = []
 
     def point_names(self, points: tuple[object, ...]) -> list[list[str]]:
         """Names under which the derived code places points: pairs (x, y) [m] or points of links."""

@@ -1,6 +1,7 @@
 """The drawing of a mechanism that draws nothing itself: links through their joints, marks of the ground, slides, gears.
 
 line, circle    as declared by hand (drawing.py), placed by the derived code
+cam             the contact, or the centre of the roller of `radius`, and a point ahead that turns with the cam
 rail            the frame beside a slide, as far as it moves; points: the slide, and one ahead of it
 trace           the path of a watched point
 """
@@ -34,6 +35,7 @@ def draw(m: Declaration) -> None:
         m._shape("trace", "trace", (point,))
     if drawn:
         return
+    draw_cams(m)
     for joint in m.link_joints if mark != 0 else ():
         _DRAWN[joint.kind](m, joint, mark)
     for link in m.links:
@@ -44,6 +46,19 @@ def draw(m: Declaration) -> None:
     for _, _, line, length in m.faces:
         if isinstance(line, LinkLine) and (length is not None or line.link is m.frame):
             _face(m, line, length, mark)
+
+
+def draw_cams(m: Declaration) -> None:
+    """Cams by where their contact runs as they turn, and their followers."""
+    for cam in m.cams_drawn:
+        ahead = cam.base * cos(cam.turned), cam.base * sin(cam.turned)
+        radius = {"radius": cam.roller} if cam.roller != 0 else {}
+        m._shape("cam", "cam", (cam.place, ahead), **radius)
+        for line in cam.lines:
+            m.draw_line(*line, role="piston")
+        if cam.roller != 0:
+            m.draw_circle(cam.lines[0][0], cam.roller, role="roller")
+        m.draw_circle((Integer(0), Integer(0)), cam.base / 12)
 
 
 def _face(m: Declaration, line: LinkLine, length: object, mark: Expr) -> None:

@@ -5,6 +5,7 @@ towards the head, y across, the shaft at the origin. Whoever shows them, matplot
 colours; the roles say what belongs together.
 """
 
+import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
 
 _PATHS, _WAY = ("rail", "trace"), 97  # kinds that follow a point, and over how many angles of a turn
+_PROFILE, _SMALL = 240, 1e-3  # corners of a cam; an angle of the crank that shows how fast the cam turns [rad]
 _PIN = 0.018  # radius of the pin of a link, by the width of all of them
 
 __all__ = ["Circle", "Line", "Point", "Shapes", "declared", "drawn", "extent_of", "shapes"]
@@ -70,7 +72,7 @@ def declared(
     if "drawing" not in mechanism.functions or (poses is None and len(mechanism.coordinates) != 1):
         return None
     function, joints = mechanism.functions["drawing"], _joints(said["shapes"])
-    shaped = [shape for shape in said["shapes"] if shape["kind"] not in _PATHS]
+    shaped = [shape for shape in said["shapes"] if shape["kind"] not in (*_PATHS, "cam")]
 
     def places(angle: float) -> Mapping[str, float]:
         return dict(
@@ -80,14 +82,17 @@ def declared(
     def shapes(angle: float) -> Shapes:
         at = places(angle)
         pins = (Circle(role="joint", centre=(at[x], at[y]), radius=radius, space=_inner(at, (x,))) for x, y in joints)
-        return (*still, *(_shape(shape, at) for shape in shaped), *pins, *axes)
+        turning = (profile(at) for profile in profiles)
+        return (*still, *turning, *(_shape(shape, at) for shape in shaped), *pins, *axes)
 
     start = places(0.0)
     if len({(start[x], start[y]) for shape in said["shapes"] for x, y in shape["points"]}) < 2:
         return None  # a point has no extent
     axes = _axes([_inner(start, (x,))[0] for s in said["shapes"] if "space" in s for x, _ in s["points"]])
-    way = [places(angle) for angle in np.linspace(0.0, 2 * math.pi, _WAY)] if len(shaped) < len(said["shapes"]) else []
+    followed = any(shape["kind"] in _PATHS for shape in said["shapes"])
+    way = [places(angle) for angle in np.linspace(0.0, 2 * math.pi, _WAY)] if followed else []
     still = [line for shape in said["shapes"] if shape["kind"] in _PATHS for line in _path(shape, way)]
+    profiles = [_profile(shape, places) for shape in said["shapes"] if shape["kind"] == "cam"]
     radius = _PIN * max((math.dist((start[a], start[b]), (start[c], start[d])) for a, b in joints for c, d in joints),
                         default=0.0)  # fmt: skip
     return shapes
@@ -104,6 +109,30 @@ def _path(said: Json, way: Sequence[Mapping[str, float]]) -> list[Line]:
     ends = points[0] + np.outer([s.min() - 2.5, s.max() + 2.5], along)
     sides = (ends + side * np.array([-along[1], along[0]]) for side in (1, -1))
     return [Line(role=said["role"], points=tuple(map(tuple, side.tolist()))) for side in sides]
+
+
+def _profile(said: Json, places: Callable[[float], Mapping[str, float]]) -> Callable[[Mapping[str, float]], Line]:
+    """A cam by its places: what its contact, or its roller from outside, runs along as it is seen by the cam."""
+    (contact, ahead), radius = said["points"], said.get("radius")
+
+    def turned(at: Mapping[str, float]) -> complex:
+        along = complex(*(at[name] for name in ahead))
+        return along / abs(along)
+
+    step = abs(cmath.phase(turned(places(_SMALL)) / turned(places(0.0)))) / _SMALL  # of the cam, by the crank's
+    way = [places(angle) for angle in np.linspace(0.0, 2 * math.pi / step, _PROFILE, endpoint=False)]
+    by_cam = np.array([complex(*(at[name] for name in contact)) / turned(at) for at in way])
+    if radius is not None:
+        slope = np.fft.ifft(1j * np.fft.fftfreq(_PROFILE, 1 / _PROFILE) * np.fft.fft(by_cam))
+        inwards = 1j * slope / abs(slope)
+        by_cam += way[0][radius] * inwards * np.sign(-(inwards * by_cam.conj()).real.sum())
+
+    def profile(at: Mapping[str, float]) -> Line:
+        corners = by_cam * turned(at)
+        points = tuple((float(p.real), float(p.imag)) for p in [*corners, corners[0]])
+        return Line(role=said["role"], points=points)
+
+    return profile
 
 
 def _joints(found: Sequence[Json]) -> list[tuple[str, str]]:

@@ -20,6 +20,7 @@ STYLES: dict[str, tuple[str, float, str]] = {
     "gas": (GAS, 0.5, GAS),
     "frame": (QUIET, 1.4, "none"),
     "flywheel": (QUIET, 1.2, WHEEL),
+    "cam": (INK, 1.4, WHEEL),
     "piston": (INK, 1.4, PISTON),
     "planet": (GREEN, 2.0, "none"),
     "rod": (BLUE, 3.0, "none"),

@@ -12,7 +12,9 @@ from numpy.polynomial import chebyshev
 from mechsym.derive import derive
 from mechsym.derive.emit import module_text
 from mechsym.derive.files import chosen
+from mechsym.derive.listing import listing as listing_of
 from mechsym.errors import BadInput
+from mechsym.mechanisms.drawing import declared
 from mechsym.mechanisms.record import bind_module
 from mechsym.periodic.rises import RISES
 
@@ -21,7 +23,10 @@ _NODES = 17
 
 def built(m):
     """A mechanism with the default values of its letters."""
-    equations = derive(m)
+    return bound(m, derive(m))
+
+
+def bound(m, equations):
     text = module_text(equations, "test", "0")
     module = importlib.util.module_from_spec(importlib.machinery.ModuleSpec("built", None))
     exec(text, module.__dict__)
@@ -184,3 +189,22 @@ def test_a_bad_profile_is_told_with_its_line(tmp_path, rows, words):
         of_rows(tmp_path)
     assert words in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("kind", ["knife", "roller", "flat"])
+@pytest.mark.parametrize("make", [cams.slide, cams.swing])
+def test_a_cam_is_drawn_with_its_follower_on_it(make, kind):
+    m = make(kind=kind)
+    equations = derive(m)
+    drawn = declared(bound(m, equations), listing_of(equations))
+    for angle in np.linspace(0.1, 6.2, 11):
+        shapes = drawn(float(angle))
+        (corners,) = (np.array(s.points) for s in shapes if s.role == "cam")
+        *_, (x, y), (u, v) = next(s for s in shapes if s.role == "piston").points
+        if kind == "flat":  # the whole cam lies on one side of the face and reaches it
+            side = ((corners - [x, y]) @ [y - v, u - x]) / math.hypot(u - x, v - y)
+            gap = min(side.max(), -side.min(), key=abs)
+        else:
+            x, y = next(s for s in shapes if s.role == "piston").points[0]
+            gap = np.hypot(*(corners - [x, y]).T).min() - (0.008 if kind == "roller" else 0.0)
+        assert abs(gap) < 5e-4, angle
