@@ -33,20 +33,27 @@ _PEERS = {"plain flywheel": RED, "cam with coil springs": ORANGE, "noncircular g
 
 def works(result: CoDesignResult) -> Figure:
     """The works that the points want, by their own pressures: nearly one curve; what one shape leaves."""
-    figure, (left, right) = _panels(2, "Works that the points want, and what one shape leaves of them")
+    several = len(result.design.task.points) > 1
+    what = ", and what one shape leaves of them" if several else ""
+    figure, (left, *others) = _panels(1 + several, f"Works that the points want{what}")
     bound, best = result.bound, result.bound.best[0]
     period = result.design.task.points[0].period
-    angle = bound.phi * [over_angle(axis, period) for axis in (left, right)][0]
+    angle = bound.phi * [over_angle(axis, period) for axis in (left, *others)][0]
     factor, unit = axis_unit("kg*m^2", bound.wanted)
     for k, point in enumerate(result.design.task.points):
         color, name = SERIES[k % len(SERIES)], _speed(point.omega)
         left.plot(angle, factor * bound.wanted[k], color=color, linewidth=1, label=name)
-        right.plot(angle, factor * (bound.wanted[k] - best.shares[k] @ best.shapes), color=color, linewidth=1)
+        for right in others:
+            right.plot(angle, factor * (bound.wanted[k] - best.shares[k] @ best.shapes), color=color, linewidth=1)
     left.set_ylabel(f"wanted work by speed squared [{unit}]")
     legend(left)
-    right.set_ylabel(f"left by one shape [{unit}]")
-    heading(right, unit_words(f"swing {quantity_text(best.swing, 'kg*m^2', 3)}"))
+    for right in others:
+        right.set_ylabel(f"left by one shape [{unit}]")
+        heading(right, unit_words(f"swing {quantity_text(best.swing, 'kg*m^2', 3)}"))
     return figure
+
+
+_WIDE = 100.0  # a flywheel above it is compared with others by decades [kg*m^2]
 
 
 def front(result: CoDesignResult) -> Figure:
@@ -78,8 +85,11 @@ def front(result: CoDesignResult) -> Figure:
     own = float(np.mean(result.design.task.points[0].inertia(np.linspace(0, 2 * np.pi, 181))))
     floor = factor * np.maximum(100 * swings / ripples - own, 1e-3)
     axis.plot(ripples, floor, ":", color=GREY, label="estimate (massless)")
-    axis.set_yscale("symlog", linthresh=10 * factor)
-    axis.set_ylim(0, max(axis.get_ylim()[1], 2 * factor * result.bare))
+    if result.bare > _WIDE:
+        axis.set_yscale("symlog", linthresh=_WIDE / 10 * factor)
+        axis.set_ylim(0, max(axis.get_ylim()[1], 2 * factor * result.bare))
+    else:
+        axis.set_ylim(0, 1.1 * axis.get_ylim()[1])
     axis.set(xlabel="speed ripple [%]", ylabel=f"added flywheel [{unit}]")
     legend(axis)
     return figure
@@ -94,10 +104,10 @@ def guides(result: CoDesignResult) -> Figure:
     polar, force = figure.add_subplot(1, 2, 1, projection="polar"), figure.add_subplot(1, 2, 2)
     angle, heads = over_angle(force, result.design.task.points[0].period), []
     for s, (track, contact) in enumerate(zip(result.design.tracks, result.verified.contacts, strict=True)):
-        phi, path = fine_path(track, result.design.task.points[0].period)
-        ratio = track.hardware.shaft_ratio
+        period = result.design.task.points[0].period
+        phi, path = fine_path(track, period)
         rho = factor * np.append(path.rho, path.rho[0])
-        polar.plot(np.append(phi, phi[0] + 2 * np.pi) * ratio, rho, color=SERIES[s])
+        polar.plot(np.append(phi, phi[0] + period) * track.hardware.shaft_ratio, rho, color=SERIES[s])
         heads.append(f"{quantity_text(contact.rho_min, 'm', 4)} to {quantity_text(contact.rho_max, 'm', 4)}")
         name = f"guide {s + 1}" if len(result.design.tracks) > 1 else "closing z"
         force.plot(phi * angle, closing * path.z, color=SERIES[s], label=name)
@@ -149,6 +159,7 @@ def losses(result: CoDesignResult) -> Figure:
             axis.bar(places, values, bottom=below, color=color, label=kind, width=0.6)
         below = below + values
     axis.set_xticks(places, names)
+    axis.set_xlim(min(-0.5, len(names) / 2 - 2.0), max(len(names) - 0.5, len(names) / 2 + 1.0))
     axis.set(xlabel=f"speed [{rpm}], mean indicated pressure", ylabel="losses of the hinge, of the load's torque [%]")
     legend(axis)
     return figure

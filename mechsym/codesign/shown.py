@@ -52,18 +52,21 @@ def _pictures(found: CoDesignResult) -> tuple[Picture, ...]:
     pressures = _span([float(p) for track in design.tracks for p in track.p0], "Pa")
     wanted, left = (quantity_text(v, "kg*m^2", 4) for v in (np.ptp(bound.wanted, axis=1).max(), bound.best[0].swing))
     added, bare = (quantity_text(v, "kg*m^2", 4) for v in (design.flywheel, found.bare))
+    works = "Works that the points want, by the square of their speeds, which swing by up to " + wanted
+    if len(torques) > 1:
+        works = f"Left: {works[0].lower()}{works[1:]}. Right: what the best single shape leaves, a swing of {left}"
     rows = [
-        ("points", plots.points, "Ripple by the programme, over the angle and by a run in time, at most "
-         f"{_percent(ripple)} at {len(torques)} points, and the pressures to set, {pressures}."),
         ("guides", plots.guides, f"Paths of the roller centres to scale, {_span(radii, 'm')} from the shaft; the "
          f"springs close by {_span(closings, 'm')}."),
         ("front", plots.front, f"Flywheel over the ripple: {added} is added with the hinge and {bare} without. The "
          "dotted line is an estimate that knows no guide: massless rollers, weak ripple."),
-        ("works", plots.works, "Left: works that the points want, by the square of their speeds, which swing by up "
-         f"to {wanted}. Right: what the best single shape leaves, a swing of {left}."),
+        ("works", plots.works, f"{works}."),
         ("losses", plots.losses, f"Friction and heat take {_percent(min(shares))} to {_percent(max(shares))} of the "
          "load's torque."),
     ]  # fmt: skip
+    if len(torques) > 1:
+        see = f"Ripple by the programme, over the angle and by a run in time, at most {_percent(ripple)} at "
+        rows.insert(0, ("points", plots.points, f"{see}{len(torques)} points, and the pressures to set, {pressures}."))
     if any(s.run is not None for s in found.scenarios):
         see = "Speed by the mean before, over turns, at the slowest and the fastest point. In a turn without "
         see += "combustion the gas goes back along the compression line and the load brakes on."

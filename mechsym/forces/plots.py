@@ -44,22 +44,27 @@ _NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of wh
 
 def chain(forces: Forces) -> "Figure":
     """Piston, crank pin, guides (or teeth) and torque over the cycle; rods as two masses broken, beside the exact."""
-    figure, axes = panels(9, 9, 4, 1, "Forces and torque over the crank angle", sharex=True)
     table = forces.columns
     phi = np.radians(table["phi_deg"])
-    angle = over_angle(axes[3], float(phi[-1] + phi[1]))
     teeth: dict[str, np.ndarray] = {n: table[n] for n in ("tooth_force", "tooth_force_radial") if n in table}
-    _curves(axes[0], phi * angle, forces.turn.inputs or {"no gas force": np.zeros_like(phi)}, "gas force")
     rods = {name: rod for name, (rod, _) in lumped(forces).items()}
     exact, name = _borne_most(forces)
-    _curves(axes[1], phi * angle, exact | rods, name)
-    guides = forces.loads.guides or {"no guide named": np.zeros_like(phi)}
-    _curves(axes[2], phi * angle, teeth or guides, "teeth" if teeth else "side force")
+    rows: list[tuple[str, Mapping[str, np.ndarray]]] = [
+        ("gas force" if forces.turn.gas is not None else "force from outside", forces.turn.inputs),
+        (name, exact | rods),
+        ("teeth" if teeth else "side force", teeth or forces.loads.guides),
+    ]
+    acting = [(name, curves) for name, curves in rows if any(np.any(values) for values in curves.values())]
+    count = len(acting) + 1
+    figure, axes = panels(9, 2.25 * count, count, 1, "Forces and torque over the crank angle", sharex=True)
+    angle = over_angle(axes[-1], float(phi[-1] + phi[1]))
+    for axis, (name, curves) in zip(axes, acting, strict=False):
+        _curves(axis, phi * angle, curves, name)
     factor, unit = axis_unit("N*m", forces.turn.torque)
-    axes[3].plot(phi * angle, forces.turn.torque * factor, color=SERIES[0])
-    axes[3].axhline(forces.turn.torque.mean() * factor, color=QUIET, lw=1, ls="--", label="mean")
-    axes[3].set_ylabel(f"torque [{unit}]")
-    legend(axes[3])
+    axes[-1].plot(phi * angle, forces.turn.torque * factor, color=SERIES[0])
+    axes[-1].axhline(forces.turn.torque.mean() * factor, color=QUIET, lw=1, ls="--", label="mean")
+    axes[-1].set_ylabel(f"torque [{unit}]")
+    legend(axes[-1])
     return figure
 
 
@@ -69,7 +74,7 @@ def _borne_most(result: Forces) -> tuple[dict[str, np.ndarray], str]:
         return {"radial, outwards": radial(pins[0]), "tangential": tangential(pins[0])}, _label(pins[0].name)
     forces = [(n, v) for n, v in result.turn.reactions.items() if result.columns.units.get(n) == "N"]
     largest = sorted(forces, key=lambda one: -float(np.abs(one[1]).max()))[:4]
-    return dict(largest) or {"no joint force": np.zeros_like(result.turn.phi)}, "joint forces"
+    return dict(largest), "joint forces"
 
 
 def lumped(forces: Forces) -> dict[str, tuple[np.ndarray, np.ndarray]]:

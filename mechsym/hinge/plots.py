@@ -293,6 +293,9 @@ def retuning(design: Design) -> "Figure":
     return figure
 
 
+_STEADY = 1e-3  # of ripple [%]: less is round-off
+
+
 def loads(rows: Sequence[AtLoad]) -> "Figure":
     """Ripple of a guide over the load, with the spring as designed and set anew, and that setting.
 
@@ -310,7 +313,7 @@ def loads(rows: Sequence[AtLoad]) -> "Figure":
         stopped = [share for share, s in zip(shares, found, strict=True) if s.speed_ripple is None]
         left.plot(stopped, [1.0] * len(stopped), "x", color=color, transform=left.get_xaxis_transform(), clip_on=False)
     left.set(xlabel="load over that of the design [%]", ylabel="speed ripple [%]")
-    left.set_ylim(bottom=0)
+    left.set_ylim(0, max(left.get_ylim()[1], _STEADY))
     style.legend(left)
     right.plot(shares, [row.ratio for row in ordered], "o-", color=style.BLUE, markersize=4)
     right.axhline(1.0, color=style.GREY, linewidth=0.8)

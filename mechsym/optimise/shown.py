@@ -38,9 +38,12 @@ def trace_picture(path: Path, found: Identified) -> Path:
     figure, axes = panels(9, 3.6, 1, 2, "Measured speeds and the model through them, and what is left over")
     factor, unit = axis_unit(found.unit, *found.measured.values())
     for (name, measured), color in zip(found.measured.items(), (BLUE, RED, INK), strict=False):
-        axes[0].plot(found.t, measured * factor, ".", ms=2, color=color, alpha=0.4, label=f"{name} measured")
-        axes[0].plot(found.t, found.fitted[name] * factor, color=color, lw=0.8, label=f"{name} fitted")
-        axes[1].plot(found.t, (measured - found.fitted[name]) * factor, ".", ms=2, color=color, label=name)
+        of = name.removesuffix("d") + " " if len(found.measured) > 1 else ""
+        axes[0].plot(found.t, measured * factor, ".", ms=2, color=color, alpha=0.4, label=f"{of}measured")
+        axes[0].plot(found.t, found.fitted[name] * factor, color=color, lw=0.8, label=f"{of}fitted")
+        axes[1].plot(
+            found.t, (measured - found.fitted[name]) * factor, ".", ms=2, color=color, label=of.strip() or None
+        )
     largest = max(float(abs(values).max()) for values in found.measured.values())
     if found.noise < SMALLEST * largest:  # round-off is no picture
         axes[1].clear()

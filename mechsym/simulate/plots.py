@@ -31,6 +31,7 @@ _PLANNED = ("turns", "t_end")  # ends that a run was made for
 
 
 _KINDS = {"hit": RED, "touch": RED, "rest": VIOLET, "release": GREEN, "stick": BLUE, "slip": ORANGE, "turn": TEAL}
+_FINE = 2000  # times of a motion with events, which is quicker than its table
 _MOST = 4  # coordinates that are drawn above the events
 
 
@@ -38,11 +39,15 @@ def met(result: Result) -> "Figure":
     """Coordinates over time, and below them what each stop, contact and friction did when."""
     places = [n for n in result.columns if f"{n}d" in result.columns][:_MOST]
     names = list(dict.fromkeys(e.name for e in result.happened.events))
+    t, columns = result.t, result.columns
+    if result.dense is not None:
+        t = np.linspace(t[0], t[-1], _FINE)
+        columns = result.dense(t)
     height = 1.3 * len(places) + 0.9 + 0.25 * len(names)
     figure, axes = panels(9.0, height, len(places) + 1, 1, "Motion and events over time", sharex=True)
     for axis, name in zip(axes, places, strict=False):
-        factor, unit = axis_unit(result.units[name], result.columns[name])
-        envelope(axis, result.t, result.columns[name] * factor, BLUE)
+        factor, unit = axis_unit(result.units[name], columns[name])
+        envelope(axis, t, columns[name] * factor, BLUE)
         axis.set_ylabel(f"{name.replace('_', ' ')} [{unit}]")
     last = axes[-1]
     for kind, color in _KINDS.items():

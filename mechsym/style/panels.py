@@ -3,6 +3,7 @@
 Labels keep clear of each other, and curves that are equal are named once.
 """
 
+import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 
 SMALL = 8  # points of text beside the axes' own
+_LETTER, _HANDLE = 0.62, 3.8  # widths in a legend of a letter, and of what stands before a name, of that
 _FLATTEST = 0.4  # height of a panel to scale by its width, or the other way round
 
 
@@ -91,7 +93,9 @@ def legend(axis: "Axes", width: Annotated[float, "inch"] = 0.0) -> None:
     spec = axis.get_subplotspec()
     whole = axis.figure.bbox.width / axis.figure.dpi
     wide = width or (whole / (spec.get_gridspec().ncols if spec is not None else 1) - 0.8)
-    columns = _columns([len(name) for name in names], 72 * wide)
+    most = int((72 * wide / SMALL - _HANDLE) / _LETTER)
+    names = [textwrap.fill(name, most) for name in names]
+    columns = _columns([max(map(len, name.split("\n"))) for name in names], 72 * wide)
     lifted = 16 / 72 if axis.get_title("left") or axis.get_title() else 0.0
     place = axis.transAxes + ScaledTranslation(0, lifted, axis.figure.dpi_scale_trans)
     axis.legend(
@@ -106,7 +110,7 @@ def _columns(letters: list[int], wide: float) -> int:
         rows, longer = divmod(len(letters), columns)  # the first columns have one row more
         starts = [k * rows + min(k, longer) for k in range(columns + 1)]
         widest = [max(letters[a:b]) for a, b in pairwise(starts)]
-        if sum(0.62 * SMALL * n + 3.8 * SMALL for n in widest) <= wide:
+        if sum(_LETTER * SMALL * n + _HANDLE * SMALL for n in widest) <= wide:
             return columns
     return 1
 

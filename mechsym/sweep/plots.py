@@ -30,13 +30,13 @@ _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
 
 def _shown(result: Sweep) -> dict[str, np.ndarray]:
-    """The results that a picture has panels for; none for a single point, or gaps only."""
+    """The results that a picture has panels for; none for one point or two, or gaps only."""
     # main results, without those that stay the same or are round-off; all when none is left
     found = main_results(result)
     sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
     lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
     chosen = found if result.show or not lively else lively
-    return dict(list(chosen.items())[:_MOST]) if len(result.points) > 1 else {}
+    return dict(list(chosen.items())[:_MOST]) if len(result.points) > 2 else {}
 
 
 def picture(result: Sweep) -> Figure | None:
