@@ -147,8 +147,8 @@ def _dependent(m: Declaration, name: str, unit: str, link: Link) -> Symbol:
 def finish(m: Declaration) -> None:
     """Place what is left, close the remaining joints by constraint, and count the freedoms."""
     if not m.links:
-        if not m.shapes:
-            figures.draw_cams(m)
+        if m.shapes:
+            m.cams_drawn.clear()
         return
     settle(m)
     _require_held(m)

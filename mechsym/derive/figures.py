@@ -34,8 +34,8 @@ def draw(m: Declaration) -> None:
     for point in m.watched.values():
         m._shape("trace", "trace", (point,))
     if drawn:
+        m.cams_drawn.clear()
         return
-    draw_cams(m)
     for joint in m.link_joints if mark != 0 else ():
         _DRAWN[joint.kind](m, joint, mark)
     for link in m.links:

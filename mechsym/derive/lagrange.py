@@ -16,6 +16,7 @@ from sympy import Expr, Integer, Rational, Symbol
 
 from mechsym.derive.closing import finish
 from mechsym.derive.declare import Body, Declaration
+from mechsym.derive.figures import draw_cams
 from mechsym.derive.rates import acceleration, curvature, velocities, velocity
 from mechsym.derive.refuse import refuse, require_declaration
 from mechsym.derive.roles import require_reactions
@@ -126,7 +127,7 @@ def derive(m: Declaration) -> Equations:
     terms = (mass[i][j] * u[i] * u[j] for i in range(len(u)) for j in range(len(u)))
     weight = [-b.mass * g * p for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
     springs = [Rational(1, 2) * s.value * s.along**2 for s in m.springs]
-    return Equations(
+    found = Equations(
         mechanism=m,
         mass_matrix=tuple(map(tuple, mass)),
         bias=tuple(sum((_body_bias(m, body, v) for body in m.bodies), Integer(0)) for v in m.q),
@@ -138,6 +139,8 @@ def derive(m: Declaration) -> Equations:
         momentum=_momentum(m),
         **_held(m),
     )
+    draw_cams(m)  # last: what it names stands behind what moves
+    return found
 
 
 def _held(m: Declaration) -> dict[str, Any]:

@@ -53,7 +53,9 @@ def _cards(forces: Forces) -> tuple[Card, ...]:
             about = "largest" if where in name else f"largest, {where}"
             cards.append(Card(name=name, value=quantity_text(float(fitting[most]), units[most], 4), about=about))
     torque, of = forces.turn.torque, "of one piston, " if half(forces) else ""
-    mean, low, high = (quantity_text(float(v), units["torque"], 4) for v in (torque.mean(), torque.min(), torque.max()))
+    ends = torque.mean(), torque.min(), torque.max()
+    least = 1e-12 * max(map(abs, ends))  # below it a mean is round-off
+    mean, low, high = (quantity_text(float(v) if abs(v) > least else 0.0, units["torque"], 4) for v in ends)
     cards.append(Card(name="torque at the shaft", value=mean, about=f"{of}{low} to {high}"))
     if forces.losses is not None:
         share = forces.losses.mechanical_efficiency

@@ -145,7 +145,7 @@ SPEEDS, ANGLES = "speed_rpm=2000..8000:5", "cycle.ignition={}..-5 deg:6"
 PICTURES = {
     "lines": Plan(case="chmielewski", over=("c1=0..2:5",), overrides=SHORT),
     "lines with gaps": Plan(case="chmielewski", over=("m0=-1,1,1.1,1.2,1.3", "c1=0,1"), overrides=SHORT),
-    "words": Plan(case="chmielewski", over=("simulation.backend=native,scipy-dop853",), overrides=SHORT),
+    "words": Plan(case="chmielewski", over=("simulation.backend=native,scipy-dop853,scipy-rk45",), overrides=SHORT),
     "maps with gaps": Plan(case="nunes-slider-crank", over=(SPEEDS, ANGLES.format(-200))),
     "maps": Plan(case="nunes-slider-crank", over=(SPEEDS, ANGLES.format(-20), "bore=0.08,0.09")),
     "samples": Plan(case="chmielewski", over=("k1=6500+-200", "m0=1..1.2"), samples=20, overrides=SHORT),
@@ -174,7 +174,7 @@ def test_pictures(plan):
 
 
 def test_axes_of_a_sweep_are_in_the_units_that_were_chosen():
-    result = sweep(Plan(case="nunes-slider-crank", over=("speed_rpm=2000,4000",), show=("torque_avg", "p_max_mpa")))
+    result = sweep(Plan(case="nunes-slider-crank", over=("speed_rpm=2000,3000,4000",), show=("torque_avg", "p_max_mpa")))
     try:
         choose("rad/s, kN*m, bar")
         torque, pressure = (axis for axis in plots_sweep.picture(result).axes if axis.get_visible())
@@ -182,7 +182,7 @@ def test_axes_of_a_sweep_are_in_the_units_that_were_chosen():
         choose(None)
     assert [a.get_ylabel() for a in (torque, pressure)] == ["indicated torque [kN m]", "largest pressure [bar]"]
     assert torque.get_xlabel() == "speed [rad/s]"
-    assert torque.lines[0].get_xdata() == pytest.approx(np.array([2000, 4000]) * np.pi / 30)
+    assert torque.lines[0].get_xdata() == pytest.approx(np.array([2000, 3000, 4000]) * np.pi / 30)
     assert torque.lines[0].get_ydata() == pytest.approx(columns(result)["torque_avg"] / 1e3)
     assert pressure.lines[0].get_ydata() == pytest.approx(10 * columns(result)["p_max_mpa"])
 
@@ -204,20 +204,21 @@ def test_words_are_colours():
 
 def test_pictures_of_nothing():
     assert plots_sweep.picture(sweep(Plan(case="chmielewski", over=("c1=1",), overrides=SHORT))) is None
-    assert plots_sweep.picture(sweep(Plan(case="chmielewski", over=("c1=-1,-2",), overrides=SHORT))) is None
+    assert plots_sweep.picture(sweep(Plan(case="chmielewski", over=("c1=-1,-2,-3",), overrides=SHORT))) is None
+    assert plots_sweep.picture(sweep(Plan(case="chmielewski", over=("c1=0,1",), overrides=SHORT))) is None
 
 
 def test_command(tmp_path):
-    arguments = ["chmielewski", "--over", "c1=0,1", *SET]
+    arguments = ["chmielewski", "--over", "c1=0,0.5,1", *SET]
     done = run(*arguments, "--json")
     report = json.loads(done.stdout)
     assert (done.exit_code, done.stderr) == (0, "")
-    assert (report["dims"], report["shape"], report["failed"]) == ({"c1": 2}, [2], [])
-    assert report["axes"] == {"c1": {"unit": "N*m*s/rad", "values": [0.0, 1.0]}}
+    assert (report["dims"], report["shape"], report["failed"]) == ({"c1": 3}, [3], [])
+    assert report["axes"] == {"c1": {"unit": "N*m*s/rad", "values": [0.0, 0.5, 1.0]}}
     assert report["units"]["speed_mean"] == "rad/s"
-    assert len(report["data"]["speed_mean"]) == 2
+    assert len(report["data"]["speed_mean"]) == 3
     text = run(*arguments, "--out", str(tmp_path / "out"))
-    assert "simulate of chmielewski over 2 c1: 0 of 2 failed" in text.output
+    assert "simulate of chmielewski over 3 c1: 0 of 3 failed" in text.output
     written = {line.removeprefix("written: ") for line in text.output.splitlines() if line.startswith("written: ")}
     assert written == {str(f) for f in (tmp_path / "out").iterdir() if f.name != "summary.json"}
     assert {"sweep.csv", "sweep.svg"} <= {Path(f).name for f in written}
@@ -284,7 +285,7 @@ def test_without_netcdf(monkeypatch, tmp_path):
         raise MissingExtra("no xarray")
 
     monkeypatch.setattr("mechsym.sweep.data.dataset", missing)
-    done = run("chmielewski", "--over", "c1=0,1", *SET, "--out", str(tmp_path), "--json")
+    done = run("chmielewski", "--over", "c1=0,0.5,1", *SET, "--out", str(tmp_path), "--json")
     assert (done.exit_code, done.stderr) == (0, "no netCDF file: no xarray\n")
     assert {f.name for f in tmp_path.iterdir()} == {"sweep.csv", "sweep.svg", "sweep.db", "summary.json"}
     assert len(json.loads(done.stdout)["files"]) == 3
