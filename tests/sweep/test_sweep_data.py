@@ -174,7 +174,8 @@ def test_pictures(plan):
 
 
 def test_axes_of_a_sweep_are_in_the_units_that_were_chosen():
-    result = sweep(Plan(case="nunes-slider-crank", over=("speed_rpm=2000,3000,4000",), show=("torque_avg", "p_max_mpa")))
+    plan = Plan(case="nunes-slider-crank", over=("speed_rpm=2000,3000,4000",), show=("torque_avg", "p_max_mpa"))
+    result = sweep(plan)
     try:
         choose("rad/s, kN*m, bar")
         torque, pressure = (axis for axis in plots_sweep.picture(result).axes if axis.get_visible())
