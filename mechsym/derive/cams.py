@@ -69,6 +69,8 @@ class _Follower:
 class Cams(Unilateral):
     """The part of a declaration that knows cams."""
 
+    cams_drawn: list[DrawnCam]  # see `Drawing`
+
     def cam(
         self, name: str, *, turns: Expr | float, profile: object, base: object = None, follower: str = "roller",
         lift: object = None, rise: object = None, dwell: object = 0, fall: object = None, phase: object = 0,
