@@ -1,10 +1,11 @@
 """Mechanisms in space beside Pinocchio and Exudyn, the same machines.
 
-`python -m benchmarks.space [chain, stewart, rssr ..]`, with `pip install pin exudyn`.
+`python -m benchmarks.space [lines, chain, stewart, rssr ..]`, with `pip install pin exudyn`.
 
+lines     of code that each machine takes: ours, Pinocchio's, Exudyn's
 chain     20 links on revolute joints across one another: accelerations of one state
 stewart   accelerations of a Stewart platform on its loops, all thirteen bodies with mass
-rssr      10,000 turns, 1,000 in Exudyn: how far the loop gapes after them, what the energy has lost, the seconds;
+rssr      10,000 turns: how far the loop gapes after them, what the energy has lost, the seconds;
           Pinocchio, which has no integrator, by Runge and Kutta's steps, its constraint stabilised, Exudyn by its
           generalised alpha
 
@@ -12,6 +13,7 @@ Both are called from Python, whose call takes some 0.3 us here and 2 us there; o
 machine has made of the generated functions.
 """
 
+import inspect
 import subprocess
 import sys
 import tempfile
@@ -29,7 +31,7 @@ from mechsym.mechanisms.record import bind, bind_module
 from mechsym.simulate import Problem, Settings, simulate
 
 EXAMPLES = Path(__file__).parents[1] / "examples/space"
-LINKS, TURNS, EXUDYN_TURNS = 20, 10_000, 1_000
+LINKS, TURNS = 20, 10_000
 PLATFORM = dict(R=1.0, r=0.6, half=0.4, gap=0.2, plate_mass=30.0, low=3.0, up=2.0, I=2.0, A=0.1, C=0.005, g=9.81)
 LINKAGE = dict(a=0.1, b=0.5, c=0.32, d=0.35, h=0.2, m2=0.8, m3=0.6, I1=0.02, I2=0.013, J2=3e-4, I3=0.006, g=9.81)
 
@@ -242,7 +244,7 @@ def linkage_energy(mechanism, q, qd):
     return float(np.sum(mechanism.functions["energy"](*(q[n] for n in names), *(qd[n] for n in names))))
 
 
-def exudyn_linkage(turns, step=2e-3):
+def exudyn_linkage(turns, step=1e-3):
     from benchmarks import space_exudyn as peer
 
     mechanism, q, qd = linkage_start()
@@ -265,10 +267,10 @@ def exudyn_linkage(turns, step=2e-3):
     )
 
 
-def pinocchio_linkage(turns, step=2e-3):
+def pinocchio_rssr():
     import pinocchio as pin
 
-    p, model = LINKAGE, pin.Model()
+    p, model, closures = LINKAGE, pin.Model(), pin.StdVec_RigidConstraintModel()
     inertia = lambda m, at, J: pin.Inertia(m, np.array(at), np.diag(J))  # noqa: E731
     crank = model.addJoint(0, pin.JointModelRZ(), pin.SE3.Identity(), "A")
     turn = model.addJoint(crank, pin.JointModelRZ(), pin.SE3(np.eye(3), np.array([p["a"], 0, 0])), "B1")
@@ -284,11 +286,15 @@ def pinocchio_linkage(turns, step=2e-3):
         model.appendBodyToJoint(joint, body, pin.SE3.Identity())
     model.gravity.linear = np.array([0, 0, -p["g"]])
     ends = [pin.SE3(np.eye(3), np.array(at)) for at in ([p["b"], 0, 0], [0, 0, p["c"]])]
-    closure = pin.RigidConstraintModel(pin.ContactType.CONTACT_3D, model, rod, ends[0], rocker, ends[1])
-    closure.m_baumgarte_parameters.Kp, closure.m_baumgarte_parameters.Kd = 1 / step**2 / 25, 2 / step / 5
-    closures, datas = pin.StdVec_RigidConstraintModel(), pin.StdVec_RigidConstraintData()
-    closures.append(closure)
-    datas.append(closure.createData())
+    closures.append(pin.RigidConstraintModel(pin.ContactType.CONTACT_3D, model, rod, ends[0], rocker, ends[1]))
+    return pin, model, closures
+
+
+def pinocchio_linkage(turns, step=2e-3):
+    pin, model, closures = pinocchio_rssr()
+    held, datas = closures[0].m_baumgarte_parameters, pin.StdVec_RigidConstraintData()
+    held.Kp, held.Kd = 1 / step**2 / 25, 2 / step / 5
+    datas.append(closures[0].createData())
     data, settings, none = model.createData(), pin.ProximalSettings(1e-12, 1e-12, 10), np.zeros(4)
     pin.initConstraintDynamics(model, data, closures, datas)
     mechanism, at, rates = linkage_start()
@@ -344,7 +350,26 @@ def exudyn_platform():
     )
 
 
+def count_lines():
+    """What each machine takes to write down, a line each: without what runs it, starts it or reads it."""
+    from benchmarks import space_exudyn as peer
+
+    sys.path.insert(0, str(EXAMPLES))
+    import spatial_linkages
+    import stewart
+
+    for name, functions in (
+        ("chain", (chain, pinocchio_chain)),
+        ("Stewart platform", (stewart.stewart, pinocchio_platform, peer.platform)),
+        ("RSSR", (spatial_linkages.rssr, pinocchio_rssr, peer.linkage)),
+    ):
+        counts = [sum(bool(line.strip()) for line in inspect.getsource(f).splitlines()) for f in functions]
+        print(f"{name}, lines of code: " + ", ".join(map(str, counts)))
+
+
 def main(wanted):
+    if "lines" in wanted:
+        count_lines()
     with tempfile.TemporaryDirectory() as folder:
         if "chain" in wanted:
             run_chain(folder)
@@ -354,8 +379,8 @@ def main(wanted):
     if "rssr" in wanted:
         run_linkage(TURNS)
         pinocchio_linkage(TURNS)
-        exudyn_linkage(EXUDYN_TURNS)
+        exudyn_linkage(TURNS)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:] or ("chain", "stewart", "rssr"))
+    main(sys.argv[1:] or ("lines", "chain", "stewart", "rssr"))

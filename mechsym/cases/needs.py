@@ -217,8 +217,9 @@ def _identify(case: CaseFacts) -> list[str]:
         ]
     if events := _events(case):
         return events
-    if case.held:
-        return [f"{case.mechanism} has loops that close by constraint; identify takes those that close in closed form"]
+    if case.held and case.free != 1:
+        why = f"loops that close by constraint and leave {case.free} coordinates"
+        return [f"{case.mechanism} has {why}; identify takes one, or loops that close in closed form"]
     return _missing(case, "parameters")
 
 

@@ -13,6 +13,7 @@ from mechsym.cases.settings import guesses
 from mechsym.errors import BadInput, suggest
 from mechsym.jobs.machine import constants, drive_on
 from mechsym.mechanisms import parameters_class
+from mechsym.mechanisms.loops import with_letters
 from mechsym.mechanisms.record import Mechanism, bind, velocities
 from mechsym.mechanisms.shaft import with_inertia
 from mechsym.optimise.fit import TracedMotion
@@ -37,7 +38,8 @@ def identify(case: Case, file: str, free: Sequence[str]) -> Identified:
     """
     require(case, "identify")
     known = mechanisms.listing(case.mechanism)
-    speeds = {f"{q}d": f"{unit}/s" for q, unit in known["coordinates"].items()}
+    held = known.get("dependents", ())
+    speeds = {f"{q}d": f"{unit}/s" for q, unit in known["coordinates"].items() if q not in held}
     trace = read_trace(file, speeds, known["inputs"])
     for section in _UNTOLD:
         if section in case.sections and not trace.inputs:
@@ -58,6 +60,11 @@ def _model(case: Case, trace: Trace, free: tuple[str, ...]) -> TracedMotion:
             raise BadInput(f"--free {name}: name each parameter once; {suggest(name, list(units))}")
     symbols = {name: ca.SX.sym(name) for name in known if name in free}
     mechanism = bind(case.mechanism, {**known, **symbols})
+    if mechanism.dependents:
+        held = {name: guesses(case).get(name, guess) for name, guess in mechanism.dependents.items()}
+        near = dataclasses.replace(bind(case.mechanism, known), dependents=held)
+        mechanism = with_letters(mechanism, near, list(symbols.values()))
+        turning = turning[:1]
     if "flywheel" in case.sections:
         mechanism = with_inertia(mechanism, case.need("flywheel").inertia)
     start = np.array([known.get(name, 0.0) for name in free])

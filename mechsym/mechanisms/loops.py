@@ -189,12 +189,8 @@ def reduced(mechanism: Mechanism) -> tuple[Mechanism, int]:
     pose = ca.Function("pose", [phi], [closed(mechanism, guess, tuple(mechanism.dependents))])(phi)
     functions = {"kinematics": _kinematics(mechanism, q, phi, pose)}
     inputs = [ca.SX.sym(i) for i in mechanism.inputs]
-    T, c = motion(mechanism, q, u, tuple(mechanism.dependents))
-    rates, accelerated = ca.mtimes(T, u), ca.mtimes(T, a) + c
-    known = {"q": q, "u": rates, "a": accelerated, "inputs": ca.vertcat(*inputs) if inputs else ca.SX(0, 1)}
-    mass, bias, force = _call(mechanism, "dynamics", known)
-    parts = [ca.mtimes(T.T, ca.mtimes(mass, T)), ca.mtimes(T.T, ca.mtimes(mass, c) + bias), ca.mtimes(T.T, force)]
-    wanted = {"dynamics": ([phi, u, *inputs], parts, ["mass_matrix", "bias", "generalized_force"])}
+    parts, known = _along(mechanism, q, u, a, inputs)
+    wanted = {"dynamics": ([phi, u, *inputs], parts, _DYNAMICS)}
     for group, letters in (("energy", [phi, u]), ("reactions", [phi, u, a, *inputs]), ("momentum", [phi, u, a])):
         if group in mechanism.functions:
             wanted[group] = (letters, _call(mechanism, group, known), mechanism.functions[group].name_out())
@@ -206,6 +202,46 @@ def reduced(mechanism: Mechanism) -> tuple[Mechanism, int]:
             group, letters, list(at_pose.call([*letters, pose])), [x.name() for x in letters], names
         )
     return replace(mechanism, coordinates=(driver,), functions=functions, dependents={}), turns
+
+
+_DYNAMICS = ["mass_matrix", "bias", "generalized_force"]
+
+
+def _along(
+    mechanism: Mechanism, q: ca.SX, u: ca.SX, a: ca.SX, inputs: Sequence[ca.SX]
+) -> tuple[list[ca.SX], dict[str, ca.SX]]:
+    """Mass, bias and force on the first coordinate, and all rates and accelerations by its own."""
+    T, c = motion(mechanism, q, u, tuple(mechanism.dependents))
+    rates, accelerated = ca.mtimes(T, u), ca.mtimes(T, a) + c
+    known = {"q": q, "u": rates, "a": accelerated, "inputs": ca.vertcat(*inputs) if inputs else ca.SX(0, 1)}
+    mass, bias, force = _call(mechanism, "dynamics", known)
+    parts = [ca.mtimes(T.T, ca.mtimes(mass, T)), ca.mtimes(T.T, ca.mtimes(mass, c) + bias), ca.mtimes(T.T, force)]
+    return parts, known
+
+
+def with_letters(mechanism: Mechanism, near: Mechanism, letters: Sequence[ca.SX]) -> Mechanism:
+    """A mechanism whose functions end with letters of parameters, by its first coordinate alone: its dynamics.
+
+    near: the same with numbers, from whose poses over a turn the loops are closed. Raises BadInput: see `reduced`.
+    """
+    driver, *_ = mechanism.coordinates
+    phi, u, *inputs = (ca.SX.sym(name) for name in (driver, f"{driver}d", *mechanism.inputs))
+    functions = {name: _with_free(mechanism.functions[name], letters) for name in ("constraints", "dynamics")}
+    inner = replace(mechanism, functions=functions)
+    q = closed(inner, _guess(near, phi)[0], tuple(mechanism.dependents))
+    parts, _ = _along(inner, q, u, ca.SX(1, 1), inputs)
+    everything = [phi, u, *inputs, *letters]
+    names = [x.name() for x in everything]
+    dynamics = ca.Function("dynamics", everything, parts, names, _DYNAMICS, {"cse": True})
+    return replace(mechanism, coordinates=(driver,), functions={"dynamics": dynamics}, dependents={})
+
+
+def _with_free(function: ca.Function, letters: Sequence[ca.SX]) -> ca.Function:
+    """A function whose last inputs are letters that stay free."""
+    names = function.name_in()[: function.n_in() - len(letters)]
+    own = [ca.SX.sym(name) for name in names]
+    found = function.call([*own, *letters])
+    return ca.Function(function.name(), own, found, names, function.name_out(), {"allow_free": True})
 
 
 def _call(mechanism: Mechanism, group: str, known: Mapping[str, ca.SX]) -> list[ca.SX]:

@@ -81,8 +81,8 @@ def with_inertia(mechanism: Mechanism, inertia: Inertia) -> Mechanism:
     functions = dict(mechanism.functions)
     count = len(mechanism.coordinates)
     for group, first in (("dynamics", "mass_matrix"), ("energy", "kinetic_energy"), ("kinematics", "inertia")):
-        function = functions[group]
-        if first not in function.name_out():
+        function = functions.get(group)
+        if function is None or first not in function.name_out():
             continue
         letters = [ca.SX.sym(function.name_in(i)) for i in range(function.n_in())]
         found = dict(zip(function.name_out(), function.call(letters), strict=True))

@@ -24,6 +24,7 @@ TRIAL = 20_000  # steps that a run is tried with
 _OFF = 2.0  # a forecast may be off by so much; within it the run has its chance
 _STUCK = 5.0  # exponent of a run that hardly comes on any more
 _NEAR = np.concatenate([[0.0], np.geomspace(1e-14, 1e-3, 34)])  # how far off a pose is looked for [rad] or [m]
+POLE, _AT_POLE = "pole", 1e-8  # least eigenvalue of a mass matrix whose diagonal is scaled to 1
 _TIGHTEST = 3e-14  # below that a double-precision step cannot be controlled
 
 
@@ -132,7 +133,7 @@ def result_of(problem: Problem, equations: System, raw: Raw, settings: Settings,
             columns |= beside
             units |= dict.fromkeys(beside, "J")
     heats = tuple(s.name for s in problem.states if s.role == "heat")
-    met = raw.end in {constrained.LOCKED, *(s.name for s in problem.stops)}
+    met = raw.end in {constrained.LOCKED, POLE, *(s.name for s in problem.stops)}
     state = dict(zip(equations.columns[: 2 * n], whole.y[-1].tolist(), strict=False))
     return Result(
         status="failed" if raw.failure else "unchecked",
@@ -151,16 +152,19 @@ def result_of(problem: Problem, equations: System, raw: Raw, settings: Settings,
 
 
 def ended(mechanism: Mechanism, raw: Raw) -> Raw:
-    """A run as it is, or with the event `locked` where it failed at a pose beyond which a loop opens."""
+    """A run as it is, or with the event that it failed at: `locked` where a loop opens beyond, `pole` of angles."""
     if not raw.failure or "dynamics" not in mechanism.functions or mechanism.dependents:
         return raw
     whole = np.isfinite(raw.y).all(axis=1)
     if not whole.any():
         return raw
     last, n = int(np.flatnonzero(whole)[-1]), len(mechanism.coordinates)
-    if not opens(mechanism, raw.y[last, :n], raw.y[last, n : 2 * n]):
+    q, u = np.split(raw.y[last, : 2 * n], 2)
+    locked = opens(mechanism, q, u)
+    if not locked and not at_pole(mechanism, q):
         return raw
-    return replace(raw, t=raw.t[: last + 1], y=raw.y[: last + 1], end=constrained.LOCKED, failure="")
+    end = constrained.LOCKED if locked else POLE
+    return replace(raw, t=raw.t[: last + 1], y=raw.y[: last + 1], end=end, failure="")
 
 
 def posed(mechanism: Mechanism, raw: Raw) -> Raw:
@@ -170,6 +174,18 @@ def posed(mechanism: Mechanism, raw: Raw) -> Raw:
     n = len(mechanism.coordinates)
     energy = mechanism.functions["energy"].call(list(raw.y[-1, : 2 * n]))
     return raw if np.isfinite([float(e) for e in energy]).all() else replace(raw, t=raw.t[:-1], y=raw.y[:-1])
+
+
+def at_pole(mechanism: Mechanism, q: np.ndarray) -> bool:
+    """Whether rates of coordinates differ in nothing that has mass, as those of three angles with two axes alike.
+
+    q: coordinates [rad or m].
+    """
+    dynamics, n = mechanism.functions["dynamics"], len(q)
+    mass = np.asarray(dynamics.call([*q, *[0.0] * (dynamics.n_in() - n)])[0])
+    if n < 2 or not np.isfinite(mass).all() or not (size := np.sqrt(np.diag(mass))).all():
+        return False
+    return bool(np.linalg.eigvalsh(mass / np.outer(size, size))[0] < _AT_POLE)
 
 
 def opens(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> bool:
@@ -239,6 +255,12 @@ def refuse_endless(problem: Problem, first: Result, tried: Result, settings: Set
     exponent = math.log(2) / math.log(whole / half)
     steps = TRIAL / whole**exponent
     if steps > _OFF * settings.max_steps:
+        places = np.array([tried.columns[q][-1] for q in problem.mechanism.coordinates])
+        if not problem.mechanism.dependents and at_pole(problem.mechanism, places):
+            raise BadInput(
+                f"{problem.mechanism.name} is at a pole of its angles near t = {tried.t[-1]:.3g} s, where two of them "
+                "turn about one axis; leave the sequence of the joint out: a quaternion has no pole"
+            )
         reach = whole * (settings.max_steps / TRIAL) ** (1 / exponent)
         asked, most = f"t_end = {problem.t_end:g} s", f"{reach * problem.t_end:.2g} s"
         if problem.turns is not None and by_turns >= by_time:

@@ -13,6 +13,7 @@ from mechsym.quantities.results import Columns
 from mechsym.quantities.units import RadPerSecond
 from mechsym.simulate import Result
 from mechsym.simulate.result import period_means
+from mechsym.simulate.run import POLE
 from mechsym.simulate.speed import Speed
 from mechsym.style import GREY, INK, PAPER, RED, SERIES, axis_unit, envelope, heading, legend, panels, spread
 from mechsym.torsion.startup import FinishedRun, StartUp
@@ -149,6 +150,11 @@ def of_run(run: FinishedRun) -> Iterator[Finding]:
         yield Finding(rank=NOT_MET, words=run.summary.reason or f"the run is {run.result.status}")
     if run.result.end == "stall":
         yield Finding(rank=NOT_MET, words="the shaft stops", value=float(run.result.t[-1]), unit="s")
+    if run.result.end == POLE:
+        words = (
+            "two angles of a ball joint come to turn about one axis; leave its sequence out: a quaternion has no pole"
+        )
+        yield Finding(rank=NOT_MET, words=words, value=float(run.result.t[-1]), unit="s")
     for start in run.start_ups:
         for stay in start.captures:
             at, twist = (quantity_text(v, u, 4) for v, u in ((stay.critical.speed, "rad/s"), (start.twist_peak, "rad")))

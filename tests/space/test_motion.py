@@ -5,9 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from spatial_machines import FILE, NUMBERS
+from sympy.physics import mechanics
 
 from mechsym.derive import Mechanism, derive
 from mechsym.derive.emit import module_text
+from mechsym.derive.methods import declaration_of
 from mechsym.derive.textbook import disagreement
 from mechsym.mechanisms import own
 from mechsym.mechanisms.loops import followed
@@ -192,3 +194,54 @@ def _accelerations(mechanism, q, u, M):
     k = len(J)
     whole = np.block([[mass, J.T], [J, np.zeros((k, k))]])
     return np.linalg.solve(whole, np.concatenate([force - bias, -gamma]).ravel())[: len(q)]
+
+
+def top():
+    """A top on a ball joint whose turn is three angles."""
+    m = Mechanism("top", space=3)
+    angles = m.coordinates("a b c")
+    body = m.link("body", mass="0.8 kg", centre=(0, 0, "0.3 m"), inertia=("0.02 kg*m^2", "0.02 kg*m^2", "0.01 kg*m^2"))
+    m.spherical("S", m.frame.at(0, 0, 0), body.at(0, 0, 0), sequence="zxz", turns=angles)
+    m.weight(0, 0, "-9.81 m/s^2")
+    return m
+
+
+def bound(m):
+    module = _module(Path("top.py"), module_text(derive(m), "top.py", "0" * 16))
+    return bind_module(module, {p: m.ranges[p]["default"] for p in module.PARAMETERS})
+
+
+@pytest.mark.parametrize("spin", [1e-9, 1e-6])
+def test_angles_at_their_pole_end_a_run_with_an_event(spin):
+    found = run(bound(top()), (0.0, np.pi - 1.0, 0.0), (spin, 0.0, 0.0), t_end=3.0)
+    assert (found.end, found.event.name) == ("pole", "pole")
+    assert np.sin(found.event.state["b"]) == pytest.approx(0, abs=1e-3)
+    assert abs(found.energy.residual) < 1e-4
+
+
+def test_away_from_their_pole_they_do_not():
+    assert run(bound(top()), (0.0, np.pi - 1.0, 0.0), (0.5, 0.0, 0.0), t_end=1.0).end == "t_end"
+
+
+def kane():
+    """The same top by Kane's equations of sympy, with the rates about its own axes as speeds."""
+    angles, speeds = mechanics.dynamicsymbols("a b c"), mechanics.dynamicsymbols("u1 u2 u3")
+    N = mechanics.ReferenceFrame("N")
+    B = N.orientnew("B", "Body", angles, "313")
+    w = B.ang_vel_in(N)
+    kinematic = [w.dot(axis) - u for axis, u in zip((B.x, B.y, B.z), speeds, strict=True)]
+    B.set_ang_vel(N, sum((u * axis for axis, u in zip((B.x, B.y, B.z), speeds, strict=True)), 0 * N.x))
+    O = mechanics.Point("O")
+    O.set_vel(N, 0)
+    G = O.locatenew("G", 0.3 * B.z)
+    G.v2pt_theory(O, N, B)
+    body = mechanics.RigidBody("top", G, B, 0.8, (mechanics.inertia(B, 0.02, 0.02, 0.01), G))
+    method = mechanics.KanesMethod(N, angles, speeds, kinematic)
+    method.kanes_equations([body], [(G, -0.8 * 9.81 * N.z)])
+    return method
+
+
+def test_a_model_of_kane_in_space_moves_as_the_declared_one():
+    declared, converted = (acceleration_function(bound(m)) for m in (top(), declaration_of("top", kane(), {})))
+    for state in np.random.default_rng(4).uniform(0.3, 1.2, (10, 6)):
+        assert np.asarray(converted(*state)).ravel() == pytest.approx(np.asarray(declared(*state)).ravel(), rel=1e-12)
