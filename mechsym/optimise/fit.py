@@ -338,7 +338,10 @@ def closest(task: TraceTask, states: np.ndarray, theta: np.ndarray, held: int | 
             return here._replace(status="converged")
         if task.spent:
             return here._replace(status=f"given up after {task.evaluations} evaluations")
-        trial = _step(task, here, free, damping)
+        trial, step = _step(task, here, free, damping, here.rest.ravel())
+        if trial is not None and trial.left >= here.left:
+            # a valley bends: the same step again, with what the trace misses by the bend put into its aim
+            trial, _ = _step(task, here, free, damping, trial.rest.ravel() + here.slopes @ step)
         if trial is not None and trial.left < here.left:
             here, damping = trial, damping / 10
         elif damping > _STIFFEST:
@@ -364,20 +367,23 @@ def pulled(task: TraceTask, here: ClosestMotion, number: int, move: float) -> Cl
     return motion if motion is not None and motion.status == "converged" else None
 
 
-def _step(task: TraceTask, here: ClosestMotion, free: np.ndarray, damping: float) -> ClosestMotion | None:
+def _step(
+    task: TraceTask, here: ClosestMotion, free: np.ndarray, damping: float, aim: np.ndarray
+) -> tuple[ClosestMotion | None, np.ndarray]:
+    """Where a damped step towards a change of the speeds leads, and the step."""
     model, k = task.model, len(task.model.start)
     columns, width = unit_columns(here.slopes[:, free])
     rows = np.vstack([columns, math.sqrt(damping) * np.eye(len(free))])
-    target = np.append(here.rest.ravel(), np.zeros(len(free)))
+    target = np.append(aim, np.zeros(len(free)))
     step = np.zeros(here.slopes.shape[1])
     with np.errstate(over="ignore"):  # what hardly moves the trace would have to go without end
         step[free] = np.linalg.lstsq(rows, target, rcond=None)[0] / width
         theta = np.maximum(here.theta + step[:k] * model.size, model.low)
     if not (np.isfinite(step).all() and np.isfinite(theta).all()):
-        return None
+        return None, step
     step[:k] = (theta - here.theta) / model.size
     states = here.states + (here.follow @ step).reshape(here.states.shape, order="F")
-    return _motion(task, states, theta)
+    return _motion(task, states, theta), step
 
 
 def _motion(task: TraceTask, states: np.ndarray, theta: np.ndarray) -> ClosestMotion | None:

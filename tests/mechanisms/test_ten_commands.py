@@ -22,7 +22,7 @@ TEN = {
     "jansen": (TURN, 2.0, 1.0, "crank_inertia,bar_h_mass"),
     "chebyshev": (SWING.format(q="phi", rise="20 deg"), 0.5, 0.25, "crank_inertia,coupler_mass"),
     "peaucellier": (SWING.format(q="phi", rise="20 deg"), 0.5, 0.5, "crank_inertia,l1_mass"),
-    "scissor": (SWING.format(q="phi", rise="20 deg"), 5.0, 0.6, "a_inertia,top_mass"),
+    "scissor": (SWING.format(q="phi", rise="20 deg"), 20.0, 1.0, "a_inertia,top_mass"),
     "fivebar": (SWING.format(q="a1", rise="20 deg") + 'a2 = "3-4-5"\n', 0.5, 0.4, "one_inertia,left_mass"),
 }
 EACH = [pytest.param(n, marks=[pytest.mark.slow, *([pytest.mark.heavy] if n != "toggle" else [])]) for n in TEN]
