@@ -20,9 +20,9 @@ def missing(path: Path) -> list[Path]:
     return [p for p in (path, *path.parents) if not p.exists()]
 
 
-def remove_empty(made: list[Path]) -> None:
+def remove_empty(files: list[Path]) -> None:
     """Remove folders, the innermost first, as far as they are empty."""
-    for folder in made:
+    for folder in files:
         with contextlib.suppress(OSError):
             folder.rmdir()
 

@@ -167,8 +167,8 @@ def _axis(name: str, unit: str, values: tuple[float, ...]) -> tuple[str, tuple[f
 
 def _head(head: str) -> tuple[str, str]:
     """Name and unit of a column, which stands in brackets or ends the name."""
-    found = _HEAD.match(head)
-    name, unit = (found[1], found[2]) if found else (head, None)
+    matched = _HEAD.match(head)
+    name, unit = (matched[1], matched[2]) if matched else (head, None)
     stem, carried = stem_and_unit(name)
     return (name, unit) if unit else (stem, carried or "-")
 

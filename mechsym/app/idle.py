@@ -34,19 +34,19 @@ from mechsym.quantities.units import Scalar
 
 def idle(case: Case, tab: str) -> Mapping[str, str]:
     """Keys of a case that move nothing in a tab, each with the reason."""
-    found = {f"{s}.{name}": why for s, data in case.sections.items() for name, why in unread_keys(data).items()}
-    found |= {
+    reasons = {f"{s}.{name}": why for s, data in case.sections.items() for name, why in unread_keys(data).items()}
+    reasons |= {
         f"{s}.{name}": f"{key} tells it" for s, data in case.sections.items() for name, key in moved(data).items()
     }
     for section, names, tabs, reason in _RULES:
         data = case.sections.get(section)
         why = None if data is None or (tabs and tab not in tabs) else reason(case, data)
         if why is not None:
-            found |= {f"{section}.{name}": why for name in names or vars(data) if name in vars(data)}
+            reasons |= {f"{section}.{name}": why for name in names or vars(data) if name in vars(data)}
     if "friction" in case.sections and tab == "forces":
         acting = rubbing(case)
-        found |= {f"friction.{n}": _NO_PLACE for n in vars(case.need("friction")) if n not in acting}
-    return found | {f"parameters.{name}": why for name, why in unread(case, tab).items()}
+        reasons |= {f"friction.{n}": _NO_PLACE for n in vars(case.need("friction")) if n not in acting}
+    return reasons | {f"parameters.{name}": why for name, why in unread(case, tab).items()}
 
 
 Idle = Callable[[Case, Any], str | None]  # why a section of a case is not read

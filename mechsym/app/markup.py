@@ -59,40 +59,40 @@ def bars(answer: Answer) -> str:
             f"<div style='font-size:.85rem;margin-bottom:.2rem'>{word}{html.escape(bar.text)}"
             + (f"<div class='mechsym-bar'>{drawn}</div></div>" if bar.margin is not None else "</div>")
         )
-    told = "Limits: a bar is as long as what is used of its limit, full where it is reached."
-    return f"<p class='mechsym-note'>{told}</p>{''.join(parts)}" if parts else ""
+    heading = "Limits: a bar is as long as what is used of its limit, full where it is reached."
+    return f"<p class='mechsym-note'>{heading}</p>{''.join(parts)}" if parts else ""
 
 
-def run_head(found: Run, pinned: Run | None = None) -> str:
+def run_head(run: Run, pinned: Run | None = None) -> str:
     """What has to be known first of what a command said: findings, how it ended, the numbers that stand alone."""
     state = {0: "done", 1: "done: what is asked is not met", 2: "refused: see why", 3: "done, with doubts"}
-    words = f"<p>{html.escape(found.words)}</p>" if found.words else ""
-    said = f"<p class='mechsym-note'>{state.get(found.status, 'failed: it ended before it was done')}</p>"
-    rows, beside = grouped(found.rows).get("", []), grouped(pinned.rows if pinned else ()).get("", [])
-    return findings(found.findings) + said + words + table(rows, beside)
+    words = f"<p>{html.escape(run.words)}</p>" if run.words else ""
+    said = f"<p class='mechsym-note'>{state.get(run.status, 'failed: it ended before it was done')}</p>"
+    rows, beside = grouped(run.rows).get("", []), grouped(pinned.rows if pinned else ()).get("", [])
+    return findings(run.findings) + said + words + table(rows, beside)
 
 
-def run_groups(found: Run, pinned: Run | None = None) -> str:
+def run_groups(run: Run, pinned: Run | None = None) -> str:
     """The page that a command wrote, and its other numbers in groups with a heading each."""
     beside = grouped(pinned.rows if pinned else ())
     parts = [
         f"<section><h3>{html.escape(title)}</h3>{table(rows, beside.get(title, ()))}</section>"
-        for title, rows in grouped(found.rows).items()
+        for title, rows in grouped(run.rows).items()
         if title
     ]
-    told = f"<div class='mechsym-groups'>{''.join(parts)}</div>"
-    if not found.page:
-        return told
-    shown = found.page.replace("</head>", _ALONE)
+    text = f"<div class='mechsym-groups'>{''.join(parts)}</div>"
+    if not run.page:
+        return text
+    shown = run.page.replace("</head>", _ALONE)
     page = f'<iframe class="mechsym-page" title="page of the command" srcdoc="{html.escape(shown)}"'
-    return f'{page} onload="{_TALL}"></iframe><details><summary>all numbers</summary>{told}</details>'
+    return f'{page} onload="{_TALL}"></iframe><details><summary>all numbers</summary>{text}</details>'
 
 
-def findings(found: Sequence[Finding]) -> str:
+def findings(ranked: Sequence[Finding]) -> str:
     """What has to be known first, each in its colour."""
     colours = {"no": "text-red-7", "open": "text-orange-9"}
     return "".join(
-        f"<p class='text-lg {colours.get(f.mark, '')}'>{html.escape(pretty_words(f.line))}</p>" for f in found
+        f"<p class='text-lg {colours.get(f.mark, '')}'>{html.escape(pretty_words(f.line))}</p>" for f in ranked
     )
 
 

@@ -47,17 +47,17 @@ class Panel:
             charts.setdefault(curve.chart, []).append((curve, "dashed"))
         for name in [n for n in self.drawn if n not in charts]:
             self.drawn.pop(name).delete()
-        for name, found in charts.items():
+        for name, options in charts.items():
             if name in self.drawn:
                 self.drawn[name].options.clear()
-                self.drawn[name].options.update(chart(found))
+                self.drawn[name].options.update(chart(options))
                 self.drawn[name].update()
             else:
                 with self.charts:
-                    self.drawn[name] = self.ui.echart(chart(found)).classes("h-64 w-full")
-                self.linked(self.drawn[name], found[0][0])
+                    self.drawn[name] = self.ui.echart(chart(options)).classes("h-64 w-full")
+                self.linked(self.drawn[name], options[0][0])
 
-    def linked(self, made: "Element", curve: Plotted) -> None:
+    def linked(self, element: "Element", curve: Plotted) -> None:
         """Link the cursor of a new chart with the picture."""
 
 
@@ -112,10 +112,10 @@ class HingePanel(Panel):
         """Keep what is shown beside what comes."""
         self.pinned = self.answer
 
-    def linked(self, made: "Element", curve: Plotted) -> None:
+    def linked(self, element: "Element", curve: Plotted) -> None:
         """Link the cursor of a new chart with the picture."""
         ratio = self.answer.ratio if self.answer and "guide" in curve.x_name else 1.0
-        self.ui.run_javascript(f"mechsymLink({json.dumps(made.id)}, {json.dumps(ratio)})")
+        self.ui.run_javascript(f"mechsymLink({json.dumps(element.id)}, {json.dumps(ratio)})")
 
 
 class RunPanel(Panel):
@@ -203,11 +203,11 @@ class RunPanel(Panel):
             self.seconds += 1
             self.note.text = f"running for {self.seconds} s"
 
-    def _show(self, found: Run) -> None:
+    def _show(self, run: Run) -> None:
         pinned = self.pinned
-        self.first.set_content(run_head(found, pinned))
-        self.shown.set_content(run_groups(found, pinned))
-        self.draw(found.curves, pinned.curves if pinned else ())
+        self.first.set_content(run_head(run, pinned))
+        self.shown.set_content(run_groups(run, pinned))
+        self.draw(run.curves, pinned.curves if pinned else ())
 
     def pin(self) -> None:
         """Keep what is shown beside what comes."""

@@ -37,13 +37,13 @@ class Slider:
 
 def sliders(case: Case) -> tuple[Slider, ...]:
     """Every number that stands alone in the text of a case; whatever single slider is moved, the case can be read."""
-    found = []
+    shown = []
     for section, data in case.sections.items():
         for field in numbers(case, section):
             value = float(getattr(data, field.name))
             reach = _REACH * abs(value) or _from_zero(data, field.metadata["unit"])
-            found.append(_slider(case, f"{section}.{field.name}", field, value, reach))
-    return tuple(found)
+            shown.append(_slider(case, f"{section}.{field.name}", field, value, reach))
+    return tuple(shown)
 
 
 def numbers(case: Case, section: str) -> list[Field]:

@@ -37,9 +37,9 @@ KNOWN = {without_unit(name, UNITS[name]): words for name, words in WORDS.items()
 Units = Mapping[str, str]  # of numbers by their paths
 
 
-def told(found: Json | list[Json], units: Units) -> Rows:
+def told(data: Json | list[Json], units: Units) -> Rows:
     """Rows of what a command said; units: of its numbers by path, `speeds.phi.mean`."""
-    rows = _told(found, units)
+    rows = _told(data, units)
     worded = {name: key_words(name, KNOWN) for name, _ in rows}
     often = Counter(worded.values())
     return [(worded[name] if often[worded[name]] == 1 else key_words(name), text) for name, text in rows]
@@ -60,26 +60,26 @@ def grouped(rows: Sequence[tuple[str, str]]) -> dict[str, Rows]:
     return groups
 
 
-def _told(found: Json | list[Json], units: Units) -> Rows:
-    if isinstance(found, list):
+def _told(data: Json | list[Json], units: Units) -> Rows:
+    if isinstance(data, list):
         # rows of a sizing or an audit: what, and its value beside its limit; what does not hold stands first
-        if not all(isinstance(row, Mapping) and row.keys() >= _NAMES for row in found):
-            return _rows("", list(found), units)
-        order = sorted(found, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
+        if not all(isinstance(row, Mapping) and row.keys() >= _NAMES for row in data):
+            return _rows("", list(data), units)
+        order = sorted(data, key=lambda row: (row.get("holds") is not False, row["limit"] is None))
         return [(f"{key_words(r['component'])}: {r['quantity']}", _beside(r)) for r in order]
     rows = [
         (word, f"{d['quantity']} = {figure(d['value'])}, usual is {d['usual']}: {d['why']}")
         for word, key in (("doubt", "doubts"), ("accepted", "accepted"))
-        for d in found.get(key) or ()
+        for d in data.get(key) or ()
     ]
-    spans = isinstance(found.get("min"), Mapping) and isinstance(found.get("max"), Mapping)
+    spans = isinstance(data.get("min"), Mapping) and isinstance(data.get("max"), Mapping)
     hidden = {"doubts", "accepted", "headline", *_SILENT, *(_SPANNED if spans else ())}
-    rest = {k: v for k, v in found.items() if k not in hidden}
+    rest = {k: v for k, v in data.items() if k not in hidden}
     inner = {k: v for k, v in rest.items() if isinstance(v, (Mapping, list))}
     said = {k: v for k, v in inner.items() if isinstance(v, list) and v and isinstance(v[0], str)}
     rows += _rows("", {k: v for k, v in rest.items() if k not in inner}, units) + _rows("", said, units)
     others = {k: v for k, v in inner.items() if k not in said}
-    return rows + (_spans(found, units) if spans else []) + _rows("", others, units)
+    return rows + (_spans(data, units) if spans else []) + _rows("", others, units)
 
 
 def unit_of(path: str, units: Units) -> tuple[str, str]:
@@ -129,10 +129,10 @@ def span(low: float, high: float, unit: str) -> str:
     return f"{figure(a, _DIGITS)} to {figure(b, _DIGITS)}{_after(shown)}"
 
 
-def _spans(found: Json, units: Units) -> Rows:
+def _spans(data: Json, units: Units) -> Rows:
     """Least and largest of each quantity in one row, and where it is largest."""
-    low, high, where = found["min"], found["max"], found.get("angle_of_max_deg") or {}
-    rows, places = [], found.get("reactions") or {}
+    low, high, where = data["min"], data["max"], data.get("angle_of_max_deg") or {}
+    rows, places = [], data.get("reactions") or {}
     for key in (k for k in high if k in low and k != "phi_deg"):
         at = f", largest at {figure(where[key])} deg" if key in where else ""
         group, rest = next(((g, key.removeprefix(s)) for s, g in _RODS.items() if key.startswith(s)), (_TURN, key))
@@ -159,33 +159,33 @@ def _beside(row: Json) -> str:
     )
 
 
-def _rows(prefix: str, found: object, units: Units) -> Rows:
+def _rows(prefix: str, data: object, units: Units) -> Rows:
     """Numbers and texts by dotted name; sentences each in a row, of a long list its length and ends."""
-    if found in (None, "") or (isinstance(found, list) and all(value is None for value in found)):
+    if data in (None, "") or (isinstance(data, list) and all(value is None for value in data)):
         return []  # what this case does not have
-    if isinstance(found, Mapping):
-        if found.keys() in _AS_ONE:
-            return [(prefix, _as_one(found, unit_of(f"{prefix}.value", units)[1]))]
-        if _harmonic(found):
-            found = {"": found}
-        if found and all(map(_harmonic, found.values())):
-            return [(f"{prefix}.{k}".rstrip("."), v) for k, v in _orders(prefix, found, units).items()]
-        found = _settled(prefix, found, units)
-        paths = {f"{prefix}.{key}" if prefix else str(key): value for key, value in found.items()}
+    if isinstance(data, Mapping):
+        if data.keys() in _AS_ONE:
+            return [(prefix, _as_one(data, unit_of(f"{prefix}.value", units)[1]))]
+        if _harmonic(data):
+            data = {"": data}
+        if data and all(map(_harmonic, data.values())):
+            return [(f"{prefix}.{k}".rstrip("."), v) for k, v in _orders(prefix, data, units).items()]
+        data = _settled(prefix, data, units)
+        paths = {f"{prefix}.{key}" if prefix else str(key): value for key, value in data.items()}
         return _apart([(path, row) for path, value in paths.items() for row in _rows(path, value, units)])
-    if not isinstance(found, list):
-        name, unit = unit_of(prefix, units) if _number(found) else (prefix, "")
-        return [(name, _text(found, unit))]
-    if isinstance(found[0], str):
-        return [(prefix, pretty_words(value)) for value in found]
-    if isinstance(found[0], (Mapping, list)):
-        told = [row for i, value in enumerate(found[:_MOST]) for row in _entry(f"{prefix}[{i}]", value, units)]
-        left = len(found) - _MOST
-        return [*told, (prefix, f"and {left} more in the JSON")] if left > 0 else told
+    if not isinstance(data, list):
+        name, unit = unit_of(prefix, units) if _number(data) else (prefix, "")
+        return [(name, _text(data, unit))]
+    if isinstance(data[0], str):
+        return [(prefix, pretty_words(value)) for value in data]
+    if isinstance(data[0], (Mapping, list)):
+        rows = [row for i, value in enumerate(data[:_MOST]) for row in _entry(f"{prefix}[{i}]", value, units)]
+        left = len(data) - _MOST
+        return [*rows, (prefix, f"and {left} more in the JSON")] if left > 0 else rows
     name, unit = unit_of(prefix, units)
-    if name.endswith("residual") and all(map(_number, found)):
-        return [(name, f"{measure(max(map(abs, found)), unit)} at most")]
-    return [(name, _listed(found, unit))]
+    if name.endswith("residual") and all(map(_number, data)):
+        return [(name, f"{measure(max(map(abs, data)), unit)} at most")]
+    return [(name, _listed(data, unit))]
 
 
 def _apart(rows: Sequence[tuple[str, tuple[str, str]]]) -> Rows:
@@ -194,29 +194,29 @@ def _apart(rows: Sequence[tuple[str, tuple[str, str]]]) -> Rows:
     return [(path if named[name] > 1 and path.startswith(f"{name}_") else name, text) for path, (name, text) in rows]
 
 
-def _entry(prefix: str, found: object, units: Units) -> Rows:
+def _entry(prefix: str, entry: object, units: Units) -> Rows:
     """An entry of a list: in one row where it holds plain values only."""
-    rows = _rows(prefix, found, units)
-    flat = isinstance(found, Mapping) and not any(isinstance(v, (Mapping, list)) for v in found.values())
+    rows = _rows(prefix, entry, units)
+    flat = isinstance(entry, Mapping) and not any(isinstance(v, (Mapping, list)) for v in entry.values())
     if not flat or len(rows) < 2:
         return rows
     return [(prefix, "; ".join(f"{key_words(name.rpartition('.')[2], KNOWN)} {value}" for name, value in rows))]
 
 
-def _as_one(found: Mapping[str, Any], unit: str) -> str:
+def _as_one(data: Mapping[str, Any], unit: str) -> str:
     """A value with its confidence, or a limit with what one more of it would give."""
-    if "limit" in found:
-        per = "" if found["unit"] in (None, "-") else f" per {pretty(found['unit'])}"
-        return f"{key_words(found['limit'])}, multiplier {figure(found['multiplier'])}{per}"
-    return f"{_text(found['value'], unit)} \u00b1 {_text(found['confidence'], unit)}"
+    if "limit" in data:
+        per = "" if data["unit"] in (None, "-") else f" per {pretty(data['unit'])}"
+        return f"{key_words(data['limit'])}, multiplier {figure(data['multiplier'])}{per}"
+    return f"{_text(data['value'], unit)} \u00b1 {_text(data['confidence'], unit)}"
 
 
-def _settled(prefix: str, found: Mapping[str, Any], known: Units) -> Json:
+def _settled(prefix: str, data: Mapping[str, Any], known: Units) -> Json:
     """A group whose numbers are 0 where they only round beside the largest of their unit."""
-    units = {k: unit_of(f"{prefix}.{k}", known)[1] for k, v in found.items() if isinstance(v, float)}
-    sizes = {u: max(abs(found[k]) for k in units if units[k] == u) for u in {*units.values()} - {"", "-", "1"}}
-    settled = {k: 0.0 if k in units and abs(v) < _ROUNDING * sizes.get(units[k], 0.0) else v for k, v in found.items()}
-    nothing = abs(found.get("unbalance") or 0.0) < _BARE["kg*m"] and "unbalance" in found
+    units = {k: unit_of(f"{prefix}.{k}", known)[1] for k, v in data.items() if isinstance(v, float)}
+    sizes = {u: max(abs(data[k]) for k in units if units[k] == u) for u in {*units.values()} - {"", "-", "1"}}
+    settled = {k: 0.0 if k in units and abs(v) < _ROUNDING * sizes.get(units[k], 0.0) else v for k, v in data.items()}
+    nothing = abs(data.get("unbalance") or 0.0) < _BARE["kg*m"] and "unbalance" in data
     return {k: v for k, v in settled.items() if not (nothing and k.startswith("angle"))}  # nothing has no direction
 
 
@@ -231,22 +231,22 @@ def _listed(values: Sequence[Any], unit: str) -> str:
     return ", ".join(short) + _after(shown)
 
 
-def _harmonic(found: object) -> bool:
+def _harmonic(value: object) -> bool:
     """Whether something is a harmonic analysis."""
-    return isinstance(found, Mapping) and found.keys() == _HARMONIC and isinstance(found["order"], list)
+    return isinstance(value, Mapping) and value.keys() == _HARMONIC and isinstance(value["order"], list)
 
 
 def _orders(prefix: str, group: Mapping[str, Mapping[str, Any]], units: Units) -> dict[str, str]:
     """Mean and largest orders of each analysis of a group; what is round-off beside the largest of all is left out."""
     size = max((abs(a) for one in group.values() for a in one["amplitude"] if a is not None), default=0.0)
-    told = {}
+    words = {}
     for name, one in group.items():
         unit = unit_of(f"{prefix}.{name}".rstrip(".") + ".amplitude", units)[1]
         seen = [(n, a) for n, a in zip(one["order"], one["amplitude"], strict=True) if a and abs(a) > _ROUNDING * size]
         largest = sorted((p for p in seen if p[0]), key=lambda p: -abs(p[1]))[:_ORDERS]
         parts = [f"mean {measure(a, unit)}" for n, a in seen if not n]
-        told[name] = "; ".join([*parts, *(f"order {n:g}: {measure(a, unit)}" for n, a in largest)]) or "0"
-    return told
+        words[name] = "; ".join([*parts, *(f"order {n:g}: {measure(a, unit)}" for n, a in largest)]) or "0"
+    return words
 
 
 def _number(value: object) -> bool:

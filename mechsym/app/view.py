@@ -168,11 +168,11 @@ class Page:
         self.left.visible = bool(here)
         for key, row in self.rows.items():
             row.visible = key not in still
-        told: dict[str, list[str]] = {}
+        offered: dict[str, list[str]] = {}
         for key in here:
             if key in still:
-                told.setdefault(still[key], []).append(self.knobs[key].label)
-        left_out = "; ".join(f"{', '.join(keys)} ({why})" for why, keys in told.items())
+                offered.setdefault(still[key], []).append(self.knobs[key].label)
+        left_out = "; ".join(f"{', '.join(keys)} ({why})" for why, keys in offered.items())
         self.still.text = f"not here: {left_out}" if left_out else ""
 
     async def move(self, key: str, value: float) -> None:

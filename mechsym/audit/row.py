@@ -89,8 +89,8 @@ def answer_or_why(asked: Asked) -> Row:
 
 def shared(rows: Sequence[Row]) -> list[Row]:
     """The rows of one source: what several formulas count alike is their author's convention."""
-    told = [row["note"].partition(RIGHT_WITH)[2].partition(";")[0].strip() for row in rows]
-    said = [(row["claim"].rpartition(".")[0], words) for row, words in zip(rows, told, strict=True)]
+    notes = [row["note"].partition(RIGHT_WITH)[2].partition(";")[0].strip() for row in rows]
+    said = [(row["claim"].rpartition(".")[0], words) for row, words in zip(rows, notes, strict=True)]
     settled = []
     for row, pair in zip(rows, said, strict=True):
         many = said.count(pair) if pair[1] and row["verdict"] == "untestable" else 0
@@ -141,11 +141,11 @@ def _kept(claim: str, question: Question, decision: Decision) -> tuple[bool, str
     # as absolute powers of lambda, over all loads
     by_load = expansions(question, [g.name for g in groups(question)])
     firsts = [powers(by_load[k], question.formula.tree).first for k in decision.orders]
-    told = [f for f in firsts if f is not None]
+    kept = [f for f in firsts if f is not None]
     order = _ORDER.fullmatch(claim)
-    if order is None or not told or len(told) < len(firsts):
+    if order is None or not kept or len(kept) < len(firsts):
         return False, "there is no small lambda" if not decision.orders else "the leading term is wrong"
-    return min(told) > int(order[1]), f"the first power that differs is lam^{min(told)}"
+    return min(kept) > int(order[1]), f"the first power that differs is lam^{min(kept)}"
 
 
 def formula_row(question: Question, verdict: Decision, printed: str, note: str, effect: str) -> Row:
@@ -161,7 +161,7 @@ def formula_row(question: Question, verdict: Decision, printed: str, note: str, 
         counterexample=_with_units(question, verdict.counterexample),
         other_repairs=[write(question.formula, r.tree) for r in verdict.repairs[1:4]],
     )
-    told = tell(
+    row = tell(
         Compared(
             verdict=verdict.verdict,
             max_rel_error=verdict.max_rel_error,
@@ -176,8 +176,8 @@ def formula_row(question: Question, verdict: Decision, printed: str, note: str, 
         )
     )
     if evidence.counterexample:  # a state keeps the units of its letters
-        told["evidence"]["counterexample"] = evidence.counterexample
-    return told
+        row["evidence"]["counterexample"] = evidence.counterexample
+    return row
 
 
 def _with_units(question: Question, state: Mapping[str, float]) -> Columns:

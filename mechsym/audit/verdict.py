@@ -79,8 +79,8 @@ def _plain(exam: Examination) -> Decision | None:
         turns = "up to whole turns" if met.turned else ""
         limit = f"{to_python(reached.where)} > 0" if reached.where is not None else ""
         where = joined(domain(exam.question), limit)
-        told = joined(turns, f"where {limit}" if limit else "")
-        return _decision(exam, "exact", standing(exam, tree), certificate=proof, domain=where, note=told)
+        reason = joined(turns, f"where {limit}" if limit else "")
+        return _decision(exam, "exact", standing(exam, tree), certificate=proof, domain=where, note=reason)
     if met.expected <= POINTS // 2 or met.agrees or met.vanishes:
         start = replace(standing(exam, tree), orders={})
         return _decision(exam, "untestable", start, note=_without_value(met))
@@ -140,8 +140,8 @@ def _without_value(met: Agreement) -> str:
         return "it agrees at random states and not at the source's data, which lie outside of where those are drawn"
     if met.expected <= POINTS // 2:
         return f"the quantity has no value at {POINTS - met.expected} of {POINTS} states; say where it has with assume"
-    told = f"no value at {met.expected - met.valued} of {met.expected} states"
-    return f"{told}; agrees at the others, so say with assume where it is meant to hold" if met.agrees else told
+    reason = f"no value at {met.expected - met.valued} of {met.expected} states"
+    return f"{reason}; agrees at the others, so say with assume where it is meant to hold" if met.agrees else reason
 
 
 def domain(question: Question) -> str:

@@ -138,18 +138,18 @@ _Told = tuple[str, str, float]  # kind, what it is, value
 
 def by_size(sections: Records, sizes: Proportions, bore: Metre | None) -> tuple[Doubt, ...]:
     """What is out of proportion to the machine. bore: of the piston; None where it is not known."""
-    told = [*_inertias(sections, sizes), *_by_part(sections, sizes), *_fitted(sections)]
+    doubtful = [*_inertias(sections, sizes), *_by_part(sections, sizes), *_fitted(sections)]
     measures = {"stroke": sizes.stroke}
     if "cycle" in sections:  # what a press moves is as heavy as its flywheel carries
         volume = (bore or sizes.stroke) ** 2 * sizes.stroke  # without a bore the stroke stands for it
-        told.append(("mass_density", f"{MOVING} / (bore^2 * stroke)", sizes.mass / volume))
+        doubtful.append(("mass_density", f"{MOVING} / (bore^2 * stroke)", sizes.mass / volume))
     if bore:
         area = math.pi / 4 * bore**2
         measures |= {"bore": bore, "bore^3": bore**3, "piston area": area, "swept volume": area * sizes.stroke}
         measures["that of solid copper"] = 400 * area / sizes.stroke  # a block of the piston's width [W/K]
-        told.append(("stroke_ratio", "stroke / bore", sizes.stroke / bore))
-        told += [*_valves(sections, bore), *_areas(sections, sizes, bore)]
-    return _doubts([*told, *_by_measure(sections, measures)])
+        doubtful.append(("stroke_ratio", "stroke / bore", sizes.stroke / bore))
+        doubtful += [*_valves(sections, bore), *_areas(sections, sizes, bore)]
+    return _doubts([*doubtful, *_by_measure(sections, measures)])
 
 
 @functools.cache
@@ -176,30 +176,30 @@ def by_shaft(shaft: ElasticShaft) -> tuple[Doubt, ...]:
 
     .. math:: \omega = \sqrt{k/I}, \quad \zeta = c / (2\sqrt{k I}), \quad 1/I = 1/I_1 + 1/I_2
     """
-    told: list[_Told] = []
+    doubtful: list[_Told] = []
     sides = list(itertools.accumulate(shaft.discs))
     for one, k, c in zip(sides, shaft.k, shaft.c, strict=False):
         inertia = one * (1 - one / sides[-1])
         if k == 0 or inertia <= 0:  # nothing swings
             continue
-        told.append(("shaft_frequency", "sqrt(stiffness / inertia of both sides), rad/s", math.sqrt(k / inertia)))
-        told.append(("shaft_damping", "damping / (2 sqrt(stiffness * inertia))", c / (2 * math.sqrt(k * inertia))))
-    return _doubts(told)
+        doubtful.append(("shaft_frequency", "sqrt(stiffness / inertia of both sides), rad/s", math.sqrt(k / inertia)))
+        doubtful.append(("shaft_damping", "damping / (2 sqrt(stiffness * inertia))", c / (2 * math.sqrt(k * inertia))))
+    return _doubts(doubtful)
 
 
 def by_unit(sections: Records, names: tuple[str, ...]) -> tuple[Doubt, ...]:
     """What is beyond the largest machines, in sections of letters that may mean anything."""
-    found = {}
+    groups = {}
     for section in names:
         for field in _fields(sections.get(section)):
             value = getattr(sections[section], field.name)
             values = [v for v in (value if isinstance(value, tuple) else (value,)) if isinstance(v, float)]
-            found[f"{section}.{field.name}"] = (max(values, key=abs, default=0.0), field.metadata.get("unit", ""))
-    return letters(found)
+            groups[f"{section}.{field.name}"] = (max(values, key=abs, default=0.0), field.metadata.get("unit", ""))
+    return letters(groups)
 
 
-def _doubts(told: Iterable[_Told]) -> tuple[Doubt, ...]:
-    return tuple(d for code, name, value in told if value for d in proportion(code, name, value))
+def _doubts(doubtful: Iterable[_Told]) -> tuple[Doubt, ...]:
+    return tuple(d for code, name, value in doubtful if value for d in proportion(code, name, value))
 
 
 def _fields(record: object) -> tuple[Field, ...]:

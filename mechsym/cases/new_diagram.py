@@ -62,8 +62,8 @@ def diagram_case(
         scale_from=_SCALES[scale],
     )  # fmt: skip
     lines = (re.match(r"^(.*?\S) {2,}(# .*)$", line) for line in filled.splitlines())
-    told = zip(lines, filled.splitlines(), strict=True)
-    return "\n".join(f"{found[1]:<29} {found[2]}" if found else line for found, line in told) + "\n"
+    pairs = zip(lines, filled.splitlines(), strict=True)
+    return "\n".join(f"{matched[1]:<29} {matched[2]}" if matched else line for matched, line in pairs) + "\n"
 
 
 _SCALES = {

@@ -277,13 +277,13 @@ def judged(kind: str, bore: Metre, stroke: Metre) -> tuple[Doubt, ...]:
     """
     narrow, wide, short, long = _BUILT.get(kind, _FOUR_STROKE)
     why = f"engines of kind {kind} are built in other sizes: a slip of the unit, or another --kind?"
-    found = []
+    doubts = []
     if not narrow <= bore <= wide:
-        found.append(Doubt(code="bore", quantity="--bore", value=bore, usual=f"{narrow:g} to {wide:g} m", why=why))
+        doubts.append(Doubt(code="bore", quantity="--bore", value=bore, usual=f"{narrow:g} to {wide:g} m", why=why))
     if not short <= stroke / bore <= long:
         about, usual = "--stroke / --bore", f"{short:g} to {long:g}"
-        found.append(Doubt(code="stroke_ratio", quantity=about, value=stroke / bore, usual=usual, why=why))
-    return tuple(found)
+        doubts.append(Doubt(code="stroke_ratio", quantity=about, value=stroke / bore, usual=usual, why=why))
+    return tuple(doubts)
 
 
 # least and largest bore [m], least and largest stroke by bore; a crosshead is for strokes too long for a trunk piston

@@ -30,14 +30,14 @@ _LIMITED = (("p_max_mpa", "peak_pressure", 1e6), ("p_max_bar", "peak_pressure", 
 PISTON_SPEED = next(kind.highest for kind in PROPORTIONS if kind.code == "piston_speed")  # what is refused [m/s]
 
 
-def of_gas(case: Case, found: Gas | None) -> tuple[Doubt, ...]:
+def of_gas(case: Case, gas: Gas | None) -> tuple[Doubt, ...]:
     """Peak pressure, mean pressure and temperature of the gas that drives a machine; none without gas."""
-    if found is None:
+    if gas is None:
         return ()
-    pressure = found.pressure
-    told = {"p_max_bar": pressure.p_max / 1e5, "mep_bar": pressure.mean_indicated / 1e5}
-    told |= {} if pressure.t_max is None else {"t_max_k": pressure.t_max}
-    return results(told) + of_limits(case, told)
+    pressure = gas.pressure
+    figures = {"p_max_bar": pressure.p_max / 1e5, "mep_bar": pressure.mean_indicated / 1e5}
+    figures |= {} if pressure.t_max is None else {"t_max_k": pressure.t_max}
+    return results(figures) + of_limits(case, figures)
 
 
 def of_limits(case: Case, columns: Json) -> tuple[Doubt, ...]:
@@ -80,8 +80,8 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     if not np.isfinite(x).all():  # a loop is open
         return ()
     stroke, area, omega = float(np.ptp(x, axis=1).max()), math.pi / 4 * bore**2, case.need("operation").speed
-    found = proportions(stroke, None, omega, fired(case.sections))
-    found += proportion("stroke_ratio", "stroke of the pistons / bore", stroke / bore)
+    raised = proportions(stroke, None, omega, fired(case.sections))
+    raised += proportion("stroke_ratio", "stroke of the pistons / bore", stroke / bore)
     squares = (dx**2).sum(axis=0)
     columns = np.stack([np.ones(inertia.size), squares], axis=1)
     least, mass = (float(v) for v in np.linalg.lstsq(columns, inertia)[0])
@@ -91,9 +91,9 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     if mass > links and np.ptp(squares) > 0.1 * squares.mean():
         what = "mass that the crank feels with a piston"
         doubts = moving_mass(what, mass - links, area, bore, stroke)
-        found += doubts if doubts and moving_mass(what, mass, area, bore, stroke) else ()
+        raised += doubts if doubts and moving_mass(what, mass, area, bore, stroke) else ()
     work = 1e6 * area * stroke * len(x)  # at ten bar, about full load
-    return found + (proportion("shaft_energy", "work of a turn / energy of the shaft", work / (least * omega**2))
+    return raised + (proportion("shaft_energy", "work of a turn / energy of the shaft", work / (least * omega**2))
                     if least > 0 and omega else ())  # fmt: skip
 
 
@@ -111,98 +111,100 @@ def of_run(
     case: Case, gas: Gas | None, length: Second, fastest: RadPerSecond = 0.0, run: RunNumbers | None = None
 ) -> tuple[Doubt, ...]:
     """Doubts of a run in time. gas: that drives it; length: of the run; fastest: highest speed of the crank."""
-    wanted, found = case.sections.get("simulation"), of_gas(case, gas)
+    wanted, doubts = case.sections.get("simulation"), of_gas(case, gas)
     sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
     if sizes is not None:
         # refused before a run, doubted as the outcome of one
         speed = min(abs(fastest), PISTON_SPEED * math.pi / sizes.stroke)
-        found += piston_speed("highest mean piston speed of the run", sizes.stroke, speed, fired(case.sections))
+        doubts += piston_speed("highest mean piston speed of the run", sizes.stroke, speed, fired(case.sections))
     else:
         letters = asdict(case.need("parameters"))
         listing = plan_of(case.mechanism).listing(None)
         links = by_links(listing, letters, {}, dict.fromkeys(listing["coordinates"], fastest))
-        found += tuple(doubt for doubt in links if doubt.code == "point_speed")
-    found += _motion(case, run) if run is not None else ()
+        doubts += tuple(doubt for doubt in links if doubt.code == "point_speed")
+    doubts += _motion(case, run) if run is not None else ()
     if wanted is None or wanted.window is None or not length > 0:
-        return found
-    return found + proportion("window", "simulation.window / length of the run", wanted.window / length)
+        return doubts
+    return doubts + proportion("window", "simulation.window / length of the run", wanted.window / length)
 
 
 def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
     """Speeds of what slides, sense of rotation, whether the drive drives, and turns between two results."""
     wanted, work = case.sections.get("simulation"), run.energy.work
-    found: tuple[Doubt, ...] = ()
+    doubts: tuple[Doubt, ...] = ()
     for name, speed in run.speeds.items():
         if speed.units["max"] == "m/s":
             fastest = max(abs(speed["min"]), abs(speed["max"]))
-            found += proportion("point_speed", f"highest speed along {name}", fastest)
+            doubts += proportion("point_speed", f"highest speed along {name}", fastest)
     if run.rate != "rad/s":
-        return found
+        return doubts
     if wanted is not None and wanted.output_step:
         fastest = max(abs(run.speed_min), abs(run.speed_max))
         what = "simulation.output_step in turns of the run"
-        found += proportion("aliasing", what, wanted.output_step * fastest / math.tau)
+        doubts += proportion("aliasing", what, wanted.output_step * fastest / math.tau)
     driven = "drive" in work or "cycle" in case.sections  # what swings by itself goes either way
     if driven and (getattr(wanted, "speed_start", None) or 0.0) >= 0:
-        found += proportion("backwards", "mean speed at the end of the run", run.speed_mean)
-    return found + (proportion("drive_work", "work of [drive] in the run", work["drive"]) if "drive" in work else ())
+        doubts += proportion("backwards", "mean speed at the end of the run", run.speed_mean)
+    return doubts + (proportion("drive_work", "work of [drive] in the run", work["drive"]) if "drive" in work else ())
 
 
-def of_forces(case: Case, found: Forces) -> tuple[Doubt, ...]:
+def of_forces(case: Case, forces: Forces) -> tuple[Doubt, ...]:
     """Doubts of the forces of a turn: its gas, and pins, bearings and guides by the largest gas force."""
-    pushes = [float(np.abs(push).max()) for push in found.turn.inputs.values()]
-    vectors = [*((pin.x, pin.y) for pin in found.loads.pins), *found.loads.bearings.values()]
+    pushes = [float(np.abs(push).max()) for push in forces.turn.inputs.values()]
+    vectors = [*((pin.x, pin.y) for pin in forces.loads.pins), *forces.loads.bearings.values()]
     largest = max((float(np.hypot(x, y).max()) for x, y in vectors), default=0.0)
-    largest = max([largest, *(float(np.abs(side).max()) for side in found.loads.guides.values())])
-    doubts = of_gas(case, found.turn.gas) + _driven(case, found)
-    if found.turn.gas is None or not max(pushes, default=0.0) > 0:
+    largest = max([largest, *(float(np.abs(side).max()) for side in forces.loads.guides.values())])
+    doubts = of_gas(case, forces.turn.gas) + _driven(case, forces)
+    if forces.turn.gas is None or not max(pushes, default=0.0) > 0:
         return doubts
-    beyond = _inertia(case, found, max(pushes))
+    beyond = _inertia(case, forces, max(pushes))
     # one slip is told once
     return doubts + (beyond or proportion("force_ratio", "largest bearing force / gas force", largest / max(pushes)))
 
 
-def _inertia(case: Case, found: Forces, push: float) -> tuple[Doubt, ...]:
+def _inertia(case: Case, forces: Forces, push: float) -> tuple[Doubt, ...]:
     r"""Largest inertia of what goes to and fro by the largest gas force.
 
     .. math:: m\,\tfrac S2\,\omega^2 / F
     """
     sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
-    told = any(doubt.code in ("reciprocating_mass", "piston_speed") for doubt in case.doubts)  # one slip is told once
-    if told or sizes is None or not fired(case.sections):
+    doubted = any(
+        doubt.code in ("reciprocating_mass", "piston_speed") for doubt in case.doubts
+    )  # one slip is told once
+    if doubted or sizes is None or not fired(case.sections):
         return ()
     mass = max((part.mass for part in sizes.moving), default=0.0)
-    force = mass * sizes.stroke / 2 * found.turn.omega**2
+    force = mass * sizes.stroke / 2 * forces.turn.omega**2
     return proportion("inertia_force", "inertia of the reciprocating mass / gas force", force / push)
 
 
-def _driven(case: Case, found: Forces) -> tuple[Doubt, ...]:
+def _driven(case: Case, forces: Forces) -> tuple[Doubt, ...]:
     """Whether the gas of a Stirling engine takes work: then its cold piston leads."""
-    travel = {f"F{i}": f"dx_{i}_dphi" for i in range(1, len(found.turn.inputs) + 1)}
+    travel = {f"F{i}": f"dx_{i}_dphi" for i in range(1, len(forces.turn.inputs) + 1)}
     if "cycle" not in case.sections or not kind_of(case.need("cycle")).shared:
         return ()
-    turn = found.turn
+    turn = forces.turn
     work = sum(float(np.mean(turn.inputs[name] * turn.kinematics[dx])) for name, dx in travel.items())
     return proportion("driven", "work of the gas in a turn", work * turn.period)
 
 
-def of_motion(case: Case, found: "DrivenForces") -> tuple[Doubt, ...]:
+def of_motion(case: Case, motion: "DrivenForces") -> tuple[Doubt, ...]:
     """Doubts of a driven motion: how far its words move, results by what moves, speeds of links, torques that bend."""
     from mechsym.forces.driven import WORDS  # splines, which no other case needs
 
-    section, table, listing = case.need("motion"), found.columns, plan_of(case.mechanism).listing(None)
+    section, table, listing = case.need("motion"), motion.columns, plan_of(case.mechanism).listing(None)
     angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]
-    told = [q for q in found.one.driven if getattr(section, q) in WORDS]
-    driven = [q for q in found.one.driven if q in angles]
+    named = [q for q in motion.one.driven if getattr(section, q) in WORDS]
+    driven = [q for q in motion.one.driven if q in angles]
     # what a file moves on and on may turn as often as it likes
-    sways = [q for q in driven if q in told or 2 * abs(table[q][-1] - table[q][0]) < np.ptp(table[q])]
+    sways = [q for q in driven if q in named or 2 * abs(table[q][-1] - table[q][0]) < np.ptp(table[q])]
     rise = max((float(np.ptp(table[q])) for q in sways), default=0.0)
     speeds = {q: float(np.abs(table[f"{q}d"]).max()) for q in angles}
     torques = {q: float(np.abs(table[f"driving_{q}"]).max()) for q in driven}
     step = float(table["t"][1] - table["t"][0])
     turns = step * max(speeds.values(), default=0.0) / math.tau
     doubts = inputs({"motion.rise": rise}) if rise else ()
-    if told:
+    if named:
         doubts += proportion("sampling", "time between two results / motion.duration", step / section.duration)
     doubts += proportion("aliasing", "turns between two results", turns, 0.5)
     links = by_links(listing, asdict(case.need("parameters")), torques, speeds)

@@ -66,8 +66,10 @@ class Speeds:
         if self.highest < self.lowest:
             raise BadInput(f"highest = {self.highest:g} rad/s is below lowest = {self.lowest:g} rad/s")
         if 0 < self.highest - self.lowest < self.step:
-            told = f"step = {self.step:g} rad/s is wider than the range from {self.lowest:g} to {self.highest:g} rad/s"
-            raise BadInput(f"{told}; give a smaller one")
+            problem = (
+                f"step = {self.step:g} rad/s is wider than the range from {self.lowest:g} to {self.highest:g} rad/s"
+            )
+            raise BadInput(f"{problem}; give a smaller one")
 
 
 @record
@@ -114,8 +116,10 @@ def count_loop(case: Case, turns: Pure, t_end: Second, speed: RadPerSecond) -> N
 
 def _count(case: Case, key: str, points: float, way_out: str) -> None:
     if points > MOST:
-        found = simulation_of(case)
-        asked = f"{found.step if key == 'output_step' else getattr(found, key):g}{'' if key == 'turns' else ' s'}"
+        simulation = simulation_of(case)
+        asked = (
+            f"{simulation.step if key == 'output_step' else getattr(simulation, key):g}{'' if key == 'turns' else ' s'}"
+        )
         raise BadInput(
             f"{case.file}: simulation.{key} = {asked} asks for {points:.3g} results; allowed are {MOST}; {way_out}"
         )

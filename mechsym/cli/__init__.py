@@ -124,8 +124,8 @@ def _cases_and_files(ctx: click.Context, param: click.Parameter, typed: str) -> 
 
     from mechsym import cases
 
-    found = [CompletionItem(name) for name in cases.names() if name.startswith(typed)]
-    return found or [CompletionItem(typed, type="file")]
+    items = [CompletionItem(name) for name in cases.names() if name.startswith(typed)]
+    return items or [CompletionItem(typed, type="file")]
 
 
 def _everywhere() -> list[click.Parameter]:

@@ -23,9 +23,9 @@ def app(case_name: str, port: int, checked: bool) -> None:
     from mechsym.app import check, serve
 
     if checked:
-        found = check(case_name, 0)
-        told = f"the workbench of {found['case']} answers: {found['sliders']} sliders, {', '.join(found['tabs'])}"
-        hinge = "" if found["hinge"] is None else f"; hinge: {found['hinge']}"
-        emit(found, lambda: told + hinge)
+        answer = check(case_name, 0)
+        words = f"the workbench of {answer['case']} answers: {answer['sliders']} sliders, {', '.join(answer['tabs'])}"
+        hinge = "" if answer["hinge"] is None else f"; hinge: {answer['hinge']}"
+        emit(answer, lambda: words + hinge)
     else:
         serve(case_name, port, lambda address: click.echo(f"{address}  (Ctrl-C ends it)", err=True))

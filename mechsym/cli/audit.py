@@ -117,8 +117,8 @@ def _whole(paper: Path, against: str | None, out: Path | None, said: dict[str, A
     rows, cover = check_whole(paper)
     if out is not None:
         click.echo(str(write_text(out / "audit.html", page_of(str(paper), rows, cover))), err=True)
-    told = {"rows": rows, "coverage": tell(cover)}
-    emit(told, lambda: "\n".join([summary_of(rows, cover), *listed(rows)]))
+    result = {"rows": rows, "coverage": tell(cover)}
+    emit(result, lambda: "\n".join([summary_of(rows, cover), *listed(rows)]))
     return _status([r for r in rows if r["verdict"] != "untestable"])
 
 
@@ -166,8 +166,8 @@ def _counted(rows: Sequence[Json], paper: Path | None) -> str:
 
     if paper is not None:
         return summary(rows)
-    found = sum(r["verdict"] in FINDINGS for r in rows)
-    return f"{few(len(rows), 'formula')}, {few(found, 'finding')}"
+    count = sum(r["verdict"] in FINDINGS for r in rows)
+    return f"{few(len(rows), 'formula')}, {few(count, 'finding')}"
 
 
 def _own(

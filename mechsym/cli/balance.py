@@ -56,13 +56,13 @@ def balance(
         raise BadInput(f"--shafts = {shafts}: balancer shafts turn 1 to 4 times as fast as the crank; write 1,2")
     turning = tuple(dict.fromkeys(map(int, orders)))
     one = run(case, weights, turning, least, most, parse(apart, "m", "--apart"))
-    told = numbers(case, one)
-    files = write_balance(one, told, out, case.about or listing(case.mechanism)["about"]) if out else []
-    emit(told, lambda: _text(told), files=files)
+    balanced = numbers(case, one)
+    files = write_balance(one, balanced, out, case.about or listing(case.mechanism)["about"]) if out else []
+    emit(balanced, lambda: _text(balanced), files=files)
 
 
-def _text(told: "BalanceOfEngine") -> str:
-    before, after = told.before, told.after
+def _text(balanced: "BalanceOfEngine") -> str:
+    before, after = balanced.before, balanced.after
     rows: list[Json] = []
     left = []
     for kind, unit in (("force", "N"), ("couple", "N*m"), ("roll", "N*m")):
@@ -75,11 +75,11 @@ def _text(told: "BalanceOfEngine") -> str:
         if kind != "roll" and worst is not None and remains[worst]:
             left.append(f"{kind} of order {worst}, {quantity_text(remains[worst], unit, 4)}")
     words = f"largest left: {'; '.join(left)}" if left else "nothing is left that shakes the frame"
-    lines = [f"{told.case}: balance at {told.speed_rpm:.6g} rpm", words, ""]
+    lines = [f"{balanced.case}: balance at {balanced.speed_rpm:.6g} rpm", words, ""]
     if rows:
         lines += [table(rows, ["on the frame", "order", "before", "after"]), ""]
-    lines += [_weight("counterweight", one) for one in told.counterweights]
-    lines += [_weight("balancer shaft", one) for one in told.shafts]
+    lines += [_weight("counterweight", one) for one in balanced.counterweights]
+    lines += [_weight("balancer shaft", one) for one in balanced.shafts]
     if before.main_bearing_max is not None and after.main_bearing_max is not None:
         loads = (quantity_text(value, "N", 4) for value in (before.main_bearing_max, after.main_bearing_max))
         lines.append(f"largest load of a main bearing {' -> '.join(loads)}")

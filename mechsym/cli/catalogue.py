@@ -22,9 +22,9 @@ def mechanisms() -> None:
 
     rows = []
     for name in known.names():
-        found = known.listing(name)
-        letters = {k: list(found[k]) for k in ("coordinates", "parameters", "inputs", "outputs")}
-        rows.append({"name": name, **letters, "source": found["source"], "about": found["about"]})
+        listing = known.listing(name)
+        letters = {k: list(listing[k]) for k in ("coordinates", "parameters", "inputs", "outputs")}
+        rows.append({"name": name, **letters, "source": listing["source"], "about": listing["about"]})
     emit(rows, lambda: table(_cited(rows), ["name", "coordinates", "inputs", "source", "about"]))
 
 
@@ -73,18 +73,18 @@ def native(wanted: bool, clear: bool) -> None:
     from mechsym.native.cache import info
 
     removed = empty() if clear else 0
-    found = dataclasses.asdict(info())
-    emit({**found, "removed": removed}, lambda: _text(found, removed if clear else None))
+    facts = dataclasses.asdict(info())
+    emit({**facts, "removed": removed}, lambda: _text(facts, removed if clear else None))
 
 
-def _text(found: Json, removed: int | None) -> str:
+def _text(listing: Json, removed: int | None) -> str:
     rows = [
-        ("route", found["route"] + (f" ({found['reason']})" if found["reason"] else "")),
-        ("compiler", f"{found['compiler']}: {found['version']}" if found["compiler"] else "none"),
-        *((f"mode {mode}", " ".join(flags)) for mode, flags in found["flags"].items()),
-        ("processor", found["processor"]),
-        ("Python.h", found["python_header"] or "not there; scalar calls go through ctypes"),
-        ("cache", f"{found['cache']}: {found['files']} files, {found['size'] / 1e6:.1f} MB"),
+        ("route", listing["route"] + (f" ({listing['reason']})" if listing["reason"] else "")),
+        ("compiler", f"{listing['compiler']}: {listing['version']}" if listing["compiler"] else "none"),
+        *((f"mode {mode}", " ".join(flags)) for mode, flags in listing["flags"].items()),
+        ("processor", listing["processor"]),
+        ("Python.h", listing["python_header"] or "not there; scalar calls go through ctypes"),
+        ("cache", f"{listing['cache']}: {listing['files']} files, {listing['size'] / 1e6:.1f} MB"),
     ]
     if removed is not None:
         rows.append(("removed", f"{removed} files"))
@@ -118,8 +118,8 @@ def sections(name: str | None, as_schema: bool, of_results: bool) -> None:
         from mechsym.files import to_json
 
         commands = [name] if name else sorted([*RESULTS, *WORDS])
-        told = {one: schema(one) for one in commands} if of_results else {}
-        click.echo(to_json((told[name] if name else told) if of_results else json_schema()))
+        schemas = {one: schema(one) for one in commands} if of_results else {}
+        click.echo(to_json((schemas[name] if name else schemas) if of_results else json_schema()))
         return
     if of_results:
         numbers, columns = rows(name), [*(["command"] if name is None else []), "path", "unit", "about"]

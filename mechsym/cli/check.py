@@ -25,18 +25,18 @@ def check(ctx: click.Context, case: str) -> None:
 
     from mechsym.cases.check import check_file
 
-    found = check_file(case, ctx.meta["mechsym.trust"])
-    whole = not found.problems and not found.skipped
+    checked = check_file(case, ctx.meta["mechsym.trust"])
+    whole = not checked.problems and not checked.skipped
     if whole:
         case_of(case, {})  # its doubts are told as every command tells them
     report: Json = {
-        "problems": [dataclasses.asdict(problem) for problem in found.problems],
-        "commands": dict(found.commands),
-        "skipped": list(found.skipped),
-        **({} if whole else {"doubts": found.doubts}),
+        "problems": [dataclasses.asdict(problem) for problem in checked.problems],
+        "commands": dict(checked.commands),
+        "skipped": list(checked.skipped),
+        **({} if whole else {"doubts": checked.doubts}),
     }
-    emit(report, lambda: _text(report, found.reasons))
-    ctx.exit(2 if found.problems else 0)
+    emit(report, lambda: _text(report, checked.reasons))
+    ctx.exit(2 if checked.problems else 0)
 
 
 def _text(report: Json, reasons: Mapping[str, str]) -> str:

@@ -69,20 +69,20 @@ def codesign(case: Case, out: Path | None, **options: Any) -> None:
         make_folder(out)
     steps = STEPS + len(ripples) + bool(cylinders) + bool(goal) + bool(out) + 2 * options["peers"]
     with progress(steps, f"co-design of {case.name}") as bar:
-        found = design(case, settings, ripples, lambda: bar.update(1))
+        result = design(case, settings, ripples, lambda: bar.update(1))
         if options["peers"]:
-            found = compared(found, lambda: bar.update(1))
-        numbers, files = numbers_of(found), []
-        more = beside(found, cylinders, goal, lambda: bar.update(1))
-        report = tell(numbers) | ({"peers": tell(found.peers)} if found.peers else {})
-        report |= {"doubts": hidden(found.design, found.given)}
+            result = compared(result, lambda: bar.update(1))
+        numbers, files = numbers_of(result), []
+        more = beside(result, cylinders, goal, lambda: bar.update(1))
+        report = tell(numbers) | ({"peers": tell(result.peers)} if result.peers else {})
+        report |= {"doubts": hidden(result.design, result.given)}
         report |= {name: rows for name, rows in tell(more).items() if rows is not None}
         if out is not None:
             from mechsym.codesign.shown import write
 
-            files = write(for_report(case, settings, found), numbers, report, out)
+            files = write(for_report(case, settings, result), numbers, report, out)
             bar.update(1)
-    emit(report, lambda: _text(numbers, found.peers, more), files=files, findings=found.view.findings())
+    emit(report, lambda: _text(numbers, result.peers, more), files=files, findings=result.view.findings())
     if not numbers.feasible:
         sys.exit(1)
 

@@ -192,33 +192,33 @@ def emit(
     has to be known first, of a command that has any; `headline` in JSON.
     """
     context = click.get_current_context()
-    told = value if isinstance(value, Mapping) else plain(value)
-    told = {**told, **beside} if beside else told
+    data = value if isinstance(value, Mapping) else plain(value)
+    data = {**data, **beside} if beside else data
     first = () if findings is None else load("mechsym.page.finding:ranked")(findings)
-    if findings is not None and isinstance(told, Mapping):  # of a list of rows the text tells it
-        told = {**told, "headline": [asdict(one) for one in first]}
-    doubts, accepted = _doubts(told)
+    if findings is not None and isinstance(data, Mapping):  # of a list of rows the text tells it
+        data = {**data, "headline": [asdict(one) for one in first]}
+    doubts, accepted = _doubts(data)
     lines = [f"doubt: {_told(d)}" for d in doubts] + [f"accepted: {_told(d)}" for d in accepted]
-    carries = isinstance(told, Mapping) and not isinstance(told.get("doubts"), Mapping)  # as a printed case does
+    carries = isinstance(data, Mapping) and not isinstance(data.get("doubts"), Mapping)  # as a printed case does
     if carries:
-        told = {**told, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
+        data = {**data, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
     if run := context.meta.get(_RUN):
         folder, read = run
-        of_all = told if carries else {"rows": told, "doubts": doubts, "accepted": accepted}
+        of_all = data if carries else {"rows": data, "doubts": doubts, "accepted": accepted}
         numbers = {key: inner for key, inner in of_all.items() if key not in leave_out}
         write_summary(folder, numbers, context.info_name or "", read)
     publish()  # files that the text names are in place before it is printed
     if lines and not carries:
         click.echo("\n".join(lines), err=True)
         lines = []
-    missed = isinstance(told, Mapping) and told.get("target", {}).get("met") is False
+    missed = isinstance(data, Mapping) and data.get("target", {}).get("met") is False
     context.meta[DOUBTED] = bool(doubts) or missed
     if context.meta.get(_JSON):
         if context.meta.get(WITH_UNITS):
             from mechsym.cli.results import units_by_path
 
-            told = {"value": told, "units": units_by_path(value, context.info_name or "")}
-        click.echo(to_json(told))
+            data = {"value": data, "units": units_by_path(value, context.info_name or "")}
+        click.echo(to_json(data))
         return
     said = text()  # it keeps its first line where that is one of what has to be known first
     head, _, rest = said.partition("\n")
@@ -232,12 +232,12 @@ def _doubts(value: object) -> tuple[tuple[Doubt, ...], tuple[Doubt, ...]]:
     """Doubts of the cases of this command and of its results; a result may bring doubts of its own."""
     loaded = click.get_current_context().meta.get(_CASES, [])
     acceptances = {code: a for case in loaded for code, a in case.acceptances.items()}
-    found = [d for case in loaded for d in case.doubts]
+    doubts = [d for case in loaded for d in case.doubts]
     if loaded:
-        found += [*results(value), *_unread()]
+        doubts += [*results(value), *_unread()]
     own = value.get("doubts", ()) if isinstance(value, Mapping) else ()
-    found += [d if isinstance(d, Doubt) else Doubt(**d) for d in (() if isinstance(own, Mapping) else own)]
-    remaining, accepted = sifted(tuple(dict.fromkeys(found)), acceptances)
+    doubts += [d if isinstance(d, Doubt) else Doubt(**d) for d in (() if isinstance(own, Mapping) else own)]
+    remaining, accepted = sifted(tuple(dict.fromkeys(doubts)), acceptances)
     return _once(remaining), _once(accepted)
 
 
@@ -252,18 +252,18 @@ def _unread() -> list[Doubt]:
     from mechsym.cases.facts import facts_of
 
     meta = click.get_current_context().meta
-    found: list[Doubt] = []
+    doubts: list[Doubt] = []
     for case in {case.path: case for case in meta[_CASES]}.values():
-        found += unused(facts_of(case.mechanism, case.sections), cases.written(case))
-    known = {doubt.quantity for doubt in found}
+        doubts += unused(facts_of(case.mechanism, case.sections), cases.written(case))
+    known = {doubt.quantity for doubt in doubts}
     for case in meta.get(_ABOUT, ()):
         read = set().union(*(other.read for other in meta[_ABOUT] if other.path == case.path))
         for place in (cases.locate(case.path, key, case.overrides) for key in case.overrides):
             why = f"{place.section}.{place.field} was set, and this command does not read it"
             one = doubt(f"[{place.section}]", 1, why)
             if place.section in case.sections.keys() - read and one.quantity not in known:
-                found.append(one)
-    return found
+                doubts.append(one)
+    return doubts
 
 
 def _told(doubt: Doubt) -> str:
@@ -308,14 +308,14 @@ def in_rows(rows: list[Json], keys: tuple[str, ...], unit: str = "unit") -> list
 
     keys: the numbers of a row; None stays None. unit: the key under which a row has its SI unit.
     """
-    found = []
+    lines = []
     for row in rows:
         values = [row.get(key) for key in keys]
         values, name = shown_in(values, row[unit]) if row[unit] else (values, "")
         if name == "-" and all(abs(v) < SMALLEST for v in values if isinstance(v, float)):
             values = [ratio_text(v) if isinstance(v, float) and v else v for v in values]
-        found.append(row | dict(zip(keys, values, strict=True)) | {unit: name})
-    return found
+        lines.append(row | dict(zip(keys, values, strict=True)) | {unit: name})
+    return lines
 
 
 def parse_speeds(text: str, option: str = "--speeds") -> list[RadPerSecond]:

@@ -35,15 +35,15 @@ def compare(case_a: str, case_b: str, speeds: str | None, out: Path | None, over
     from mechsym.jobs.cycle import engine, speed_range
 
     cases = [case_of(name, pairs(overrides)) for name in (case_a, case_b)]
-    for case, told in zip(cases, (speeds is not None, True), strict=True):  # the second runs at the first one's speeds
-        require(case, "compare", SPEEDS if told else "")
+    for case, given in zip(cases, (speeds is not None, True), strict=True):  # the second runs at the first one's speeds
+        require(case, "compare", SPEEDS if given else "")
     omega = np.asarray(parse_speeds(speeds)) if speeds is not None else speed_range(cases[0].need("speeds"))
     for case in cases:
         judge_ends(case, "operation.speed", omega.tolist())
-    found = {case.name: columns(over_speeds(engine(case), omega)) for case in cases}
-    a, b = found.values() if len(found) == 2 else [*found.values()] * 2
+    figures = {case.name: columns(over_speeds(engine(case), omega)) for case in cases}
+    a, b = figures.values() if len(figures) == 2 else [*figures.values()] * 2
     result = side_by_side(a, b, tuple(case.name for case in cases))
-    files = _write(out, found, result) if out else []
+    files = _write(out, figures, result) if out else []
     emit(result, lambda: _text(result), files=files)
 
 
@@ -67,7 +67,7 @@ def _text(result: "EngineComparison") -> str:
     return "\n".join([*lines, table(rows, ["quantity", "at rpm", "a", "b", "unit", "b/a - 1 %"])])
 
 
-def _write(out: Path, found: Json, result: "EngineComparison") -> list[Path]:
+def _write(out: Path, data: Json, result: "EngineComparison") -> list[Path]:
     from mechsym.cycle.plots import performance_picture
     from mechsym.files import to_json, write_quantities, write_text
 
@@ -76,5 +76,5 @@ def _write(out: Path, found: Json, result: "EngineComparison") -> list[Path]:
     return [
         write_quantities(out / "comparison.csv", columns, {"difference": "-"}),
         write_text(out / "comparison.json", to_json(result) + "\n"),
-        performance_picture(out / "comparison.svg", found),
+        performance_picture(out / "comparison.svg", data),
     ]

@@ -125,8 +125,8 @@ def _show_loop(case: Case, cycles: float, out: Path | None) -> None:
     run = run_loop(machine, case.need("operation").speed, cycles)
     result = summary(machine, run)
     files = [write_quantities(out / "loop.csv", series(machine, run))] if out else []
-    told = tell(result)
-    emit(told | {"doubts": of_limits(case, told)}, lambda: _loop(result), files=files)
+    data = tell(result)
+    emit(data | {"doubts": of_limits(case, data)}, lambda: _loop(result), files=files)
     if result.status != "done":
         sys.exit(1)
 
@@ -139,18 +139,18 @@ def _show_figures(case: Case, omega: list[float], over: str | None, out: Path | 
     from mechsym.jobs.gas import source as source_of
 
     units: dict[str, str] = {}
-    found: Any
+    figures: Any
     if over:
-        found, units = _over(case, omega, over)
+        figures, units = _over(case, omega, over)
     else:
         with progress(len(omega), "cycles") as bar:
-            found = cycle(case, np.asarray(omega), bar.update)
-    source = source_of(one_cylinder(case)) if over else found.source
-    files = _write(case, source, found, omega, out) if out else []
+            figures = cycle(case, np.asarray(omega), bar.update)
+    source = source_of(one_cylinder(case)) if over else figures.source
+    files = _write(case, source, figures, omega, out) if out else []
     page, units = source.page if source is not None else ENGINE_PAGE, {**UNITS, **units}
-    beside = {"doubts": () if over else of_cycle(case, found, source_of(case).bound)}
-    first = () if over else found.view.findings()
-    emit(found, lambda: _figures(found, page, units), beside=beside, files=files, findings=first)
+    beside = {"doubts": () if over else of_cycle(case, figures, source_of(case).bound)}
+    first = () if over else figures.view.findings()
+    emit(figures, lambda: _figures(figures, page, units), beside=beside, files=files, findings=first)
 
 
 def _over(case: Case, omega: list[float], over: str) -> tuple[Columns, dict[str, str]]:
@@ -173,30 +173,30 @@ def _over(case: Case, omega: list[float], over: str) -> tuple[Columns, dict[str,
     judge_ends(case, name, values)
     design = {"omega": np.asarray(omega), name: np.asarray(values)}
     with progress(len(values), "cycles") as bar:
-        found = columns(over_design(machine, design, bar.update))
-    told = of_engine(case, {name: design[name]} | found, None)
-    return Columns(told, {**dict.fromkeys(told, ""), **UNITS, **units}), units
+        figures = columns(over_design(machine, design, bar.update))
+    of_design = of_engine(case, {name: design[name]} | figures, None)
+    return Columns(of_design, {**dict.fromkeys(of_design, ""), **UNITS, **units}), units
 
 
-def _write(case: Case, source: "GasSource | None", found: Json, omega: list[float], out: Path) -> list[Path]:
+def _write(case: Case, source: "GasSource | None", data: Json, omega: list[float], out: Path) -> list[Path]:
     from mechsym.cycle.plots import performance_picture
     from mechsym.files import write_quantities
 
-    told = ("fractions", "loads", "losses", "cylinders", "each", "per_cylinder", "pistons")
-    flat = {name: values for name, values in found.items() if name not in told}
-    if found.get("cylinders", 1) > 1:
-        flat |= {f"{name}_per_cylinder": values for name, values in found["per_cylinder"].items()}
-    flat |= {f"fraction_{name}": values for name, values in found["fractions"].items()} | found["loads"]
-    flat |= {f"loss_{name}_w": values for name, values in found.get("losses", {}).items()}
+    left_out = ("fractions", "loads", "losses", "cylinders", "each", "per_cylinder", "pistons")
+    flat = {name: values for name, values in data.items() if name not in left_out}
+    if data.get("cylinders", 1) > 1:
+        flat |= {f"{name}_per_cylinder": values for name, values in data["per_cylinder"].items()}
+    flat |= {f"fraction_{name}": values for name, values in data["fractions"].items()} | data["loads"]
+    flat |= {f"loss_{name}_w": values for name, values in data.get("losses", {}).items()}
     units = {**UNITS, **{f"{name}_per_cylinder": unit for name, unit in UNITS.items()}}
-    units |= dict.fromkeys(found["loads"], UNITS["loads"])
+    units |= dict.fromkeys(data["loads"], UNITS["loads"])
     files = [write_quantities(out / "performance.csv", flat, units)]
-    for name, one in found.get("pistons", {}).items():
-        files.append(write_quantities(out / f"performance-{name}.csv", {"speed_rpm": found["speed_rpm"], **one}, UNITS))
+    for name, one in data.get("pistons", {}).items():
+        files.append(write_quantities(out / f"performance-{name}.csv", {"speed_rpm": data["speed_rpm"], **one}, UNITS))
     if source is not None and (curves := source.curves(np.asarray(omega), case.need("operation").speed)):
         files += [write_quantities(out / "cycle.csv", curves), source.picture(out / "cycle.svg", curves)]
-    if "losses" not in found and len(set(flat["speed_rpm"])) > 1:
-        files.append(performance_picture(out / "performance.svg", {"": found}))
+    if "losses" not in data and len(set(flat["speed_rpm"])) > 1:
+        files.append(performance_picture(out / "performance.svg", {"": data}))
     return files
 
 
@@ -211,16 +211,16 @@ _PISTON = (*BRAKE, *INDICATED[1:], *IN_CYLINDER[1:])
 _NO_FRICTION = "indicated only: the case has no law of friction, so that nothing is known at the shaft"
 
 
-def _figures(found: Json, page: "FiguresPage", units: Mapping[str, str]) -> str:
+def _figures(data: Json, page: "FiguresPage", units: Mapping[str, str]) -> str:
     """Figures over the speeds, or over another value whose name has a dot; nothing is said twice."""
-    count = len(found["speed_rpm"])
+    count = len(data["speed_rpm"])
     every, words = max(1, -(-count // _POINTS)), {**WORDS, **page.words}
-    rubs = bool(np.any(found.get("friction_mep_kpa", 0.0)))
-    unsaid = {name for name in found if not rubs and name in AFTER_FRICTION}
-    if not np.any(found.get("pumping_mep_kpa", 0.0)):
+    rubs = bool(np.any(data.get("friction_mep_kpa", 0.0)))
+    unsaid = {name for name in data if not rubs and name in AFTER_FRICTION}
+    if not np.any(data.get("pumping_mep_kpa", 0.0)):
         unsaid |= {"pumping_mep_kpa", "gross_mep_kpa"}
 
-    def block(title: str, names: Iterable[str], columns: Json = found) -> list[str]:
+    def block(title: str, names: Iterable[str], columns: Json = data) -> list[str]:
         known = [name for name in names if name in columns and name not in unsaid]
         if set(known) <= {"speed_rpm", *over}:
             return []
@@ -229,33 +229,33 @@ def _figures(found: Json, page: "FiguresPage", units: Mapping[str, str]) -> str:
         shown = {head: unit for head, unit in heads.items() if unit != "-"}
         return [*([title] if title else []), table(rows, list(heads), shown), ""]
 
-    over = [name for name in found if "." in name]
+    over = [name for name in data if "." in name]
     lines = []
-    if found.get("per_cylinder") and found["cylinders"] > 1:
-        lines.append(f"engine of {found['cylinders']} {found['each']}s")
+    if data.get("per_cylinder") and data["cylinders"] > 1:
+        lines.append(f"engine of {data['cylinders']} {data['each']}s")
     for title, names in page.tables:
         lines += block(title, [*over, *names])
     beside: dict[str, tuple[tuple[str, ...], Json]] = {
-        f"piston {name}": (_PISTON, one) for name, one in found.get("pistons", {}).items()
+        f"piston {name}": (_PISTON, one) for name, one in data.get("pistons", {}).items()
     }
-    if found.get("per_cylinder") and found["cylinders"] > 1:
-        beside[f"one {found['each']}"] = _ONE, found["per_cylinder"]
+    if data.get("per_cylinder") and data["cylinders"] > 1:
+        beside[f"one {data['each']}"] = _ONE, data["per_cylinder"]
     for title, (names, one) in beside.items():
-        lines += block(title, names, {"speed_rpm": found["speed_rpm"], **one})
-    if found.get("losses"):
-        lines += block("lost [W]: work, and heat past the cycle", found["losses"], found["losses"])
+        lines += block(title, names, {"speed_rpm": data["speed_rpm"], **one})
+    if data.get("losses"):
+        lines += block("lost [W]: work, and heat past the cycle", data["losses"], data["losses"])
     lines.pop()
     if every > 1:
         lines.append(f"{-(-count // every)} of {count} points shown; all with --json or --out")
     if page.peaks and count > 1 and not over:
-        for name in (name for name in _PEAKS if name in found and name not in unsaid):
-            at = int(found[name].argmax())
-            value = quantity_text(float(found[name][at]), units[name])
+        for name in (name for name in _PEAKS if name in data and name not in unsaid):
+            at = int(data[name].argmax())
+            value = quantity_text(float(data[name][at]), units[name])
             words_of = WORDS[name].removeprefix("largest ")
-            lines.append(f"largest {words_of} {value} at {found['speed_rpm'][at]:.0f} rpm")
-    if page.peaks and "delivery_ratio" in found:
+            lines.append(f"largest {words_of} {value} at {data['speed_rpm'][at]:.0f} rpm")
+    if page.peaks and "delivery_ratio" in data:
         lines += ["", *block("turbocharger and scavenging", _SCAVENGED)[:-1]]
-    return "\n".join([*lines, "", *([] if rubs or not page.peaks else [_NO_FRICTION]), page.closing(found)])
+    return "\n".join([*lines, "", *([] if rubs or not page.peaks else [_NO_FRICTION]), page.closing(data)])
 
 
 def _diagram(result: "MeasuredDiagram") -> str:

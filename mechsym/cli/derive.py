@@ -59,33 +59,33 @@ def derive(
         pictures = [str(write_text((out or Path()) / f"{called}.svg", picture)) for called, picture in drawn]
         emit({"written": pictures}, lambda: "", files=pictures)
         return
-    found = _files(files, check, out) if files else {"written": [], "differs": {}, "code": [], "redundant": []}
+    result = _files(files, check, out) if files else {"written": [], "differs": {}, "code": [], "redundant": []}
     if not files or len(files) < len(names):
         built_in = _built_in(tuple(name for name in names if name not in files), check)
-        found |= {k: v | found[k] if isinstance(v, dict) else found[k] + v for k, v in built_in.items()}
-    shown = {"code": found["code"]} if show else {}
-    shown |= {"redundant": found["redundant"]} if found["redundant"] else {}
-    report = {"written": found["written"], "differs": sorted(found["differs"]), **shown}
-    emit(report, lambda: _text(found, check, show), files=[] if check or show else found["written"])
-    if found["differs"]:
+        result |= {k: v | result[k] if isinstance(v, dict) else result[k] + v for k, v in built_in.items()}
+    shown = {"code": result["code"]} if show else {}
+    shown |= {"redundant": result["redundant"]} if result["redundant"] else {}
+    report = {"written": result["written"], "differs": sorted(result["differs"]), **shown}
+    emit(report, lambda: _text(result, check, show), files=[] if check or show else result["written"])
+    if result["differs"]:
         sys.exit(1)
 
 
 def _files(names: list[str], check: bool, out: Path | None) -> Json:
     from mechsym.mechanisms import own
 
-    found: Json = {"written": [], "differs": {}, "code": [], "redundant": []}
+    result: Json = {"written": [], "differs": {}, "code": [], "redundant": []}
     with progress(len(names), "deriving") as bar:
         for name in names:
             if check:
-                found["differs"] |= own.differences(name, out)
+                result["differs"] |= own.differences(name, out)
             else:
                 mechanism = own.load(name)
-                found["code"].append(mechanism.code)
-                found["written"] += [str(p) for p in own.write(mechanism, out)]
-                found["redundant"] += mechanism.listing.get("redundant", [])
+                result["code"].append(mechanism.code)
+                result["written"] += [str(p) for p in own.write(mechanism, out)]
+                result["redundant"] += mechanism.listing.get("redundant", [])
             bar.update(1)
-    return found
+    return result
 
 
 def _built_in(names: tuple[str, ...], check: bool) -> Json:
@@ -108,12 +108,12 @@ def _built_in(names: tuple[str, ...], check: bool) -> Json:
     return {"written": written, "differs": differs, "code": []}
 
 
-def _text(found: Json, check: bool, show: bool) -> str:
-    if found["differs"]:
+def _text(data: Json, check: bool, show: bool) -> str:
+    if data["differs"]:
         way = "the code is not what the derivations give: run `make derive` (or `mechsym derive FILE.py`) and commit"
-        return "\n".join([*found["differs"].values(), way])
+        return "\n".join([*data["differs"].values(), way])
     if check:
         return "the code is what the derivations give"
     if show:
-        return "\n".join(found["code"])
-    return "\n".join(found["redundant"]) if found["written"] else "nothing to write: generated/ is up to date"
+        return "\n".join(data["code"])
+    return "\n".join(data["redundant"]) if data["written"] else "nothing to write: generated/ is up to date"

@@ -45,10 +45,10 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
         return
     mechanism, values, doubts = _read(name, case_name, pairs(overrides))
     known = mechanisms.listing(name, mechanism)
-    found = state(mechanism, values, known["outputs"])
+    result = state(mechanism, values, known["outputs"])
     redundant = known.get("redundant", [])
     beside = {"doubts": doubts, **({"redundant": redundant} if redundant else {})}
-    emit(found, lambda: "\n".join([*_lines(found, known), *redundant]), beside=beside)
+    emit(result, lambda: "\n".join([*_lines(result, known), *redundant]), beside=beside)
 
 
 def _read(
@@ -81,15 +81,15 @@ def _read(
             values[key] = parse(text, units[key], f"--set {key}")
         elif key not in letters:
             raise BadInput(f"--set {key}: {name} has no such letter; letters are {', '.join([*units, *letters])}")
-    told = {**{k: (v, letters[k]) for k, v in parameters.items() if isinstance(v, float)},
+    known = {**{k: (v, letters[k]) for k, v in parameters.items() if isinstance(v, float)},
             **{k: (v, units[k]) for k, v in values.items()}}  # fmt: skip
-    return mechanism, values, doubted(told)
+    return mechanism, values, doubted(known)
 
 
 def _lines(state: "MechanismState", listing: "Listing") -> list[str]:
     """A line for each value, with its unit and, of a reaction, who acts on whom."""
-    found = tell(state)
-    flat = {k: v for k, v in found.items() if k != "outputs"} | found["outputs"]
+    data = tell(state)
+    flat = {k: v for k, v in data.items() if k != "outputs"} | data["outputs"]
     units = {"kinetic_energy": "J", "potential_energy": "J", **state.outputs.units, **listing["outputs"]}
     about = listing.get("reactions", {})
     # an angle or a ratio is round-off beside 1; how small a length or an inertia may be, only its like can tell
@@ -97,7 +97,7 @@ def _lines(state: "MechanismState", listing: "Listing") -> list[str]:
     for key, unit in units.items():
         largest[unit] = max(largest[unit], abs(flat.get(key) or 0.0))
     # what pushes and speeds up by the energies that are there
-    energy, mass = largest["J"], max(abs(m) for row in found["mass_matrix"] for m in row)
+    energy, mass = largest["J"], max(abs(m) for row in data["mass_matrix"] for m in row)
     zeros = {"bias": energy, "generalized_force": energy, "acceleration": energy / mass if mass else 0.0}
     rows = (
         (key, _shown(value, _ROUND_OFF * zeros.get(key, largest.get(units.get(key, ""), 0.0))), units.get(key, ""),

@@ -34,14 +34,14 @@ def flywheel(case: Case, ripple: str, out: Path | None) -> None:
     share = parse(ripple, "-", "--ripple")
     if not 1e-6 <= share < 1:
         raise BadInput(f"--ripple = {ripple}: give a share from 1e-6 to below 1, such as 0.02 or 2%")
-    found = size(case, share)
+    wheel = size(case, share)
     files = []
     if out:
-        columns = {"phi_deg": np.degrees(found.steady.phi), "omega_rad_s": found.steady.omega}
+        columns = {"phi_deg": np.degrees(wheel.steady.phi), "omega_rad_s": wheel.steady.omega}
         files = [write_quantities(out / "flywheel.csv", columns)]
-    result = tell(found)
-    emit(found, lambda: _text(result), files=files, findings=found.findings)
-    if found.inertia is None:
+    result = tell(wheel)
+    emit(wheel, lambda: _text(result), files=files, findings=wheel.findings)
+    if wheel.inertia is None:
         raise click.exceptions.Exit(1)
 
 

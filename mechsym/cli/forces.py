@@ -54,16 +54,16 @@ def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, o
             raise BadInput(f"{unused[0]}: is for a turn at constant speed; leave it, or [motion], out")
         return _motion(case, out)
     case = case if diagram is None else measured(case, diagram)
-    found = run(case, comparison)
-    numbers = told(case, found, parse_speeds(law, "--law") if law else None)
+    result = run(case, comparison)
+    numbers = told(case, result, parse_speeds(law, "--law") if law else None)
     report = tell(numbers)
-    doubts = of_forces(case, found) + (twist.doubts(numbers.vibration) if numbers.vibration else ())
+    doubts = of_forces(case, result) + (twist.doubts(numbers.vibration) if numbers.vibration else ())
     report["doubts"] = doubts
-    findings = ranked([*found.view.findings(), *criticals(numbers.vibration)])
-    report["files"] = files = [] if out is None else [str(file) for file in write(case, found, report, out, findings)]
+    findings = ranked([*result.view.findings(), *criticals(numbers.vibration)])
+    report["files"] = files = [] if out is None else [str(file) for file in write(case, result, report, out, findings)]
     said, beside = {one.words for one in findings}, {"doubts": doubts, "files": files}
-    emit(numbers, lambda: _text(report, found, said), beside=beside, files=files, findings=findings)
-    if found.unbalanced:
+    emit(numbers, lambda: _text(report, result, said), beside=beside, files=files, findings=findings)
+    if result.unbalanced:
         sys.exit(1)
 
 
@@ -72,11 +72,11 @@ def _motion(case: Case, out: Path | None) -> None:
     from mechsym.forces.driven import numbers
     from mechsym.jobs.forces import motion, write_motion
 
-    found = motion(case)
-    told = numbers(found, case.name)
-    files = [] if out is None else [str(file) for file in write_motion(found, tell(told), out)]
-    beside = {"doubts": of_motion(case, found), "files": files}
-    emit(told, lambda: _over_time(told), beside=beside, files=files)
+    driven = motion(case)
+    summary = numbers(driven, case.name)
+    files = [] if out is None else [str(file) for file in write_motion(driven, tell(summary), out)]
+    beside = {"doubts": of_motion(case, driven), "files": files}
+    emit(summary, lambda: _over_time(summary), beside=beside, files=files)
 
 
 def _over_time(report: "DrivenNumbers") -> str:
@@ -94,12 +94,12 @@ def _over_time(report: "DrivenNumbers") -> str:
     return "\n".join(lines)
 
 
-def _text(report: Json, found: "Forces", said: set[str]) -> str:
+def _text(report: Json, result: "Forces", said: set[str]) -> str:
     from mechsym.forces.result import ComparedFriction, ComparedMechanism
     from mechsym.forces.shown import borne
 
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm", ""]
-    rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(found)]
+    rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(result)]
     columns = ["quantity", *(["of"] if any(row["of"] for row in rows) else []), "max", "min", "unit", "on"]
     lines += [table(in_rows(rows, ("max", "min")), columns, named=["quantity"]), "", *_journals(report["journals"])]
     lines.append(f"power residual {ratio_text(report['power_residual'])}")
@@ -113,8 +113,8 @@ def _text(report: Json, found: "Forces", said: set[str]) -> str:
                 )
     for name, errors in (report["two_mass"] or {}).items():
         named = {_LETTERS.get(k, k.replace("_", " ")): v for k, v in errors.items() if v > SMALLEST}
-        told = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in named.items())
-        lines.append(f"rod as two masses, {_SPLITS[name]}: the peak is wrong by {told or 'nothing'}")
+        words = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in named.items())
+        lines.append(f"rod as two masses, {_SPLITS[name]}: the peak is wrong by {words or 'nothing'}")
     lines += _friction(report["friction"], report["friction_law"]) + _overconstrained(report.get(report["mechanism"]))
     lines += [f"balance not reached: {reason}" for reason in report["balance"]["reasons"]]
     if report["comparison"]:
@@ -146,19 +146,19 @@ def _journals(rows: list[Json]) -> list[str]:
         "z": ("main bearing at z", "m"), "load_max": ("largest", "N"), "angle_of_max_deg": ("at", "deg"),
         "load_mean": ("mean", "N"), "specific_load": ("specific", "Pa"), "film_min": ("least film", "m"),
     }  # fmt: skip
-    told = {name: unit for key, (name, unit) in names.items() if rows[0][key] is not None}
-    return [table([{name: row[key] for key, (name, _) in names.items()} for row in rows], [*told], told), ""]
+    columns = {name: unit for key, (name, unit) in names.items() if rows[0][key] is not None}
+    return [table([{name: row[key] for key, (name, _) in names.items()} for row in rows], [*columns], columns), ""]
 
 
-def _friction(found: Json | None, law: Json | None) -> list[str]:
-    if found is None:
+def _friction(data: Json | None, law: Json | None) -> list[str]:
+    if data is None:
         return []
-    if found["note"] is not None:
-        return [f"friction {quantity_text(found['power'], 'W', 4)}: {found['note']}"]
-    places = ", ".join(f"{name.replace('_', ' ')} {quantity_text(v, 'W', 4)}" for name, v in found["places"].items())
-    efficiency = found["mechanical_efficiency"]
+    if data["note"] is not None:
+        return [f"friction {quantity_text(data['power'], 'W', 4)}: {data['note']}"]
+    places = ", ".join(f"{name.replace('_', ' ')} {quantity_text(v, 'W', 4)}" for name, v in data["places"].items())
+    efficiency = data["mechanical_efficiency"]
     share = "" if efficiency is None else f", mechanical efficiency {100 * efficiency:.4g} %"
-    lines = [f"friction {quantity_text(found['power'], 'W', 4)}{share} ({places})"]
+    lines = [f"friction {quantity_text(data['power'], 'W', 4)}{share} ({places})"]
     if law is not None:
         keys = ("constant", "per_peak_pressure", "per_speed", "per_speed_squared")
         lines += [f"[friction_pressure] fitted within {100 * law['misfit']:.2g} %:", 'law = "chen_flynn"']
@@ -166,13 +166,13 @@ def _friction(found: Json | None, law: Json | None) -> list[str]:
     return lines
 
 
-def _overconstrained(found: Json | None) -> list[str]:
-    if found is None:
+def _overconstrained(data: Json | None) -> list[str]:
+    if data is None:
         return []
     return [
-        f"constraints: rank {found['constraint_rank']} of {found['constraint_count']}; guide and pin forces hold for "
-        f"the closing rule {found['closing_rule']}",
-        f"inertia resultant {quantity_text(found['inertia_resultant_min'], 'N')} to "
-        f"{quantity_text(found['inertia_resultant_max'], 'N')}, at most "
-        f"{ratio_text(found['resultant_off_crank_deg'], 2)} deg off the crank",
+        f"constraints: rank {data['constraint_rank']} of {data['constraint_count']}; guide and pin forces hold for "
+        f"the closing rule {data['closing_rule']}",
+        f"inertia resultant {quantity_text(data['inertia_resultant_min'], 'N')} to "
+        f"{quantity_text(data['inertia_resultant_max'], 'N')}, at most "
+        f"{ratio_text(data['resultant_off_crank_deg'], 2)} deg off the crank",
     ]

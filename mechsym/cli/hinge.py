@@ -45,7 +45,7 @@ def hinge(case: Case, diagram: str | None, loads: str | None, out: Path | None) 
     if out is not None:
         make_folder(out)
     with progress(len(LATER) + bool(out), f"hinge of {case.name}") as bar:
-        found = complete(design(case, diagram, shares), lambda: bar.update(1))
+        result = complete(design(case, diagram, shares), lambda: bar.update(1))
         files: list[Path] = []
         if out is not None:
             from mechsym.hinge.shown import write
@@ -53,13 +53,13 @@ def hinge(case: Case, diagram: str | None, loads: str | None, out: Path | None) 
             from mechsym.out.web import LiveRun, with_live
 
             live = LiveRun(name=case.name, about=case.about, ready=partial(ready, case, diagram))
-            files = write(found, out, partial(with_live, runs=[live]))
+            files = write(result, out, partial(with_live, runs=[live]))
             bar.update(1)
-    numbers = HingeNumbers(judged=found)
+    numbers = HingeNumbers(judged=result)
     setting = partial(setting_text, case.need("spring"))
-    doubts = of_gas(case, found.machine.gas)
+    doubts = of_gas(case, result.machine.gas)
     text = partial(_text, numbers, setting)
-    emit(numbers, text, beside={"doubts": doubts}, files=files, findings=found.view.findings())
+    emit(numbers, text, beside={"doubts": doubts}, files=files, findings=result.view.findings())
     if not numbers.guide.feasible:
         sys.exit(1)
 

@@ -36,10 +36,10 @@ def identify(case: Case, trace: str, free: str, out: Path | None) -> None:
     names = [name.strip() for name in free.split(",") if name.strip()]
     if not names:
         raise BadInput("--free names nothing; give for example --free I2,k1,friction.constant")
-    found = find(case, trace, names)
-    files = _write(out, found) if out else []
-    emit(found, lambda: _text(found), files=files)
-    if found.status != "found":
+    identified = find(case, trace, names)
+    files = _write(out, identified) if out else []
+    emit(identified, lambda: _text(identified), files=files)
+    if identified.status != "found":
         raise click.exceptions.Exit(1)
 
 
@@ -52,27 +52,32 @@ def _told_apart(value: float, low: float, high: float) -> list[str]:
     return [text if math.isfinite(v) else "no end" for text, v in zip(texts, (value, low, high), strict=True)]
 
 
-def _text(found: "Identified") -> str:
-    lines = [f"{found.status} ({found.reason}): {found.samples} samples over {found.intervals} intervals"]
-    for e in found.estimates:
+def _text(identified: "Identified") -> str:
+    lines = [
+        f"{identified.status} ({identified.reason}): {identified.samples} samples over {identified.intervals} intervals"
+    ]
+    for e in identified.estimates:
         unit = "" if e.unit == "-" else f" {e.unit}"
         value, low, high = _told_apart(e.value, e.low, e.high)
         alike = "no ends" if math.isinf(e.high - e.low) else "no wider than 1e-8 of it"
         within = f"{low} to {high}{unit}" if low != high else alike
         lines.append(f"{e.name} = {value}{unit}, 95 %: {within}")
     # the record of a simulation leaves round-off only; else the noise, and whether it comes in runs
-    largest = max(float(abs(values).max()) for values in found.measured.values())
-    left = f"{figure(found.noise, 3)} {found.unit} rms, Durbin-Watson {found.durbin_watson:.2f}"
-    if found.noise < SMALLEST * largest:
+    largest = max(float(abs(values).max()) for values in identified.measured.values())
+    left = f"{figure(identified.noise, 3)} {identified.unit} rms, Durbin-Watson {identified.durbin_watson:.2f}"
+    if identified.noise < SMALLEST * largest:
         left = f"0 (below {SMALLEST:.0e}".replace("e-09", "e-9") + " of the largest speed)"
     return "\n".join([*lines, f"left over: {left}"])
 
 
-def _write(out: Path, found: "Identified") -> list[Path]:
+def _write(out: Path, identified: "Identified") -> list[Path]:
     from mechsym.files import write_quantities
     from mechsym.optimise.shown import trace_picture
 
-    columns = {"t": found.t}
-    for name, values in found.measured.items():
-        columns |= {f"{name}_measured [{found.unit}]": values, f"{name}_fitted [{found.unit}]": found.fitted[name]}
-    return [write_quantities(out / "trace.csv", columns), trace_picture(out / "trace.svg", found)]
+    columns = {"t": identified.t}
+    for name, values in identified.measured.items():
+        columns |= {
+            f"{name}_measured [{identified.unit}]": values,
+            f"{name}_fitted [{identified.unit}]": identified.fitted[name],
+        }
+    return [write_quantities(out / "trace.csv", columns), trace_picture(out / "trace.svg", identified)]

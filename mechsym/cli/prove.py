@@ -64,10 +64,10 @@ def prove(
 
     ranges = {}
     for key, text in pairs(given, "--range").items():
-        found = read_range(text, "--range", key=key)
-        if found.kind != "even" or found.unit or not found.values[0] <= found.values[1]:
+        span = read_range(text, "--range", key=key)
+        if span.kind != "even" or span.unit or not span.values[0] <= span.values[1]:
             raise BadInput(f"--range {key}={text}: two ascending SI numbers with two dots between, such as phid=0..20")
-        ranges[key] = (found.values[0], found.values[1])
+        ranges[key] = (span.values[0], span.values[1])
     subjects, words = subjects_of(name, case, ranges)
     with progress(samples * len(subjects), f"samples of {name}") as bar:
         proven = rounding(name, subjects, samples, words, bar.update)
@@ -91,30 +91,30 @@ def _motion(name: str, t_end: str | None, window: str | None, out: Path | None, 
     if ends is not None and len(ends) != 2:
         raise BadInput(f"--window {window}: two times with two dots between, such as 55..93 s")
     with progress(math.ceil(until or simulation_of(case).t_end or 0), f"seconds of {case.name}") as bar:
-        found = motion_of(case, until, out, None if ends is None else (ends[0], ends[1]), bar.update)
-    emit(tell(found), lambda: _motion_text(found))
+        proven = motion_of(case, until, out, None if ends is None else (ends[0], ends[1]), bar.update)
+    emit(tell(proven), lambda: _motion_text(proven))
 
 
-def _motion_text(found: "ProvenMotion") -> str:
+def _motion_text(proven: "ProvenMotion") -> str:
     from mechsym.proof.balls import outward
 
     rows = [
-        {"t": t, "state": name, "from": outward(found.least[name][k], 6, False),
-         "to": outward(found.largest[name][k], 6), "half-width at t": outward(found.half_width[name][k], 2)}
-        for k, t in enumerate(found.t) for name in found.least
-        if k == len(found.t) - 1 or k % max(1, len(found.t) // 10) == 0
+        {"t": t, "state": name, "from": outward(proven.least[name][k], 6, False),
+         "to": outward(proven.largest[name][k], 6), "half-width at t": outward(proven.half_width[name][k], 2)}
+        for k, t in enumerate(proven.t) for name in proven.least
+        if k == len(proven.t) - 1 or k % max(1, len(proven.t) // 10) == 0
     ]  # fmt: skip
-    trusted = (f"trusted: {one}" for one in found.trusted)
-    how = f"{found.steps} steps at {found.bits} bits; {found.digits:.3g} digits were forecast"
-    return "\n".join([found.statement, "", table(rows, list(rows[0])), how, "", *trusted])
+    trusted = (f"trusted: {one}" for one in proven.trusted)
+    how = f"{proven.steps} steps at {proven.bits} bits; {proven.digits:.3g} digits were forecast"
+    return "\n".join([proven.statement, "", table(rows, list(rows[0])), how, "", *trusted])
 
 
-def _text(found: "ProvenRounding") -> str:
+def _text(proven: "ProvenRounding") -> str:
     from mechsym.quantities.results import tell
 
-    rows = in_rows([tell(row) for row in found.outputs], ("absolute", "seen"))
+    rows = in_rows([tell(row) for row in proven.outputs], ("absolute", "seen"))
     columns = ["name", "absolute", "seen", "unit", "relative", "factor", "where"]
-    singular = [f"no bound of {row.name} at {', '.join(row.singular)}" for row in found.outputs if row.singular]
+    singular = [f"no bound of {row.name} at {', '.join(row.singular)}" for row in proven.outputs if row.singular]
     return "\n".join(
-        [found.statement, "", table(rows, columns), *singular, "", *(f"trusted: {one}" for one in found.trusted)]
+        [proven.statement, "", table(rows, columns), *singular, "", *(f"trusted: {one}" for one in proven.trusted)]
     )

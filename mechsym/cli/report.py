@@ -55,27 +55,29 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     titles = {one.stem: one.title for one in sources()} | {"own": "own engine"}
     loaded = [case_of(name, pairs(overrides)) for name in cases]
     with progress(len(loaded) * len(wanted) + 1, "report") as bar:
-        found = []
+        reports = []
         for case in loaded:
-            found.append(case_report(case, tuple(wanted), titles.get(case.source, case.source), lambda: bar.update(1)))
+            reports.append(
+                case_report(case, tuple(wanted), titles.get(case.source, case.source), lambda: bar.update(1))
+            )
         path = file_in(out, "-".join([*(case.name for case in loaded), "report.html"]), ".html", ".htm")
-        text = html(found, date)
+        text = html(reports, date)
         live = [LiveRun(name=case.name, about=case.about, ready=partial(ready, case)) for case in loaded]
         files = [write_text(path, with_live(text, live))]
         if pdf:
             files.append(to_pdf(text, path.with_suffix(".pdf")))
         bar.update(1)
-    doubts = [doubt for one in found for p in one.parts for doubt in doubts_of(p)]
-    emit(numbers(found, files), lambda: _text(found), beside={"doubts": doubts}, files=files)
-    refused, infeasible = (any(getattr(one, kind) for one in found) for kind in ("refused", "infeasible"))
+    doubts = [doubt for one in reports for p in one.parts for doubt in doubts_of(p)]
+    emit(numbers(reports, files), lambda: _text(reports), beside={"doubts": doubts}, files=files)
+    refused, infeasible = (any(getattr(one, kind) for one in reports) for kind in ("refused", "infeasible"))
     ctx.exit(2 if refused else 1 if infeasible else 0)
 
 
-def _text(found: "list[CaseReport]") -> str:
+def _text(reports: "list[CaseReport]") -> str:
     from mechsym.report.parts import answer
 
     lines = []
-    for one in found:
+    for one in reports:
         first = answer(one.case, one.parts)
         lines += [f"{one.case.name} ({one.source})"]
         lines += [f"  {finding.line}" for finding in first.findings]

@@ -38,29 +38,29 @@ def reproduce(ctx: click.Context, source: str | None, write: bool, out: Path | N
 
     if write and source:
         raise BadInput(f"--write records all sources, not {source} alone; leave the name out")
-    chosen, found = sources(source), {}
+    chosen, results = sources(source), {}
     with progress(len(chosen), "sources") as bar:
         for one in chosen:
-            found[one.stem] = one.rows()
+            results[one.stem] = one.rows()
             bar.update(1)
-    flat = [row for one in found.values() for row in one]
+    flat = [row for one in results.values() for row in one]
     files = [record.write(_PACKAGE, flat, (*_NAME, "printed", "verdict", "computed", "tolerance"))] if write else []
     changed = record.differences(_PACKAGE, flat, _NAME, ("printed", "verdict", "computed"))
     if out is not None:
         from mechsym.papers import page
 
-        files += page.write(out, chosen, found, changed)
-    emit(flat, lambda: _text(chosen, found, changed, files))
+        files += page.write(out, chosen, results, changed)
+    emit(flat, lambda: _text(chosen, results, changed, files))
     ctx.exit(1 if changed else 0)
 
 
-def _text(sources: "Sequence[Source]", found: Json, changed: list[str], files: list[Path]) -> str:
+def _text(sources: "Sequence[Source]", data: Json, changed: list[str], files: list[Path]) -> str:
     from mechsym.papers.page import counts, round_off
 
     lines = []
     for source in sources:
         rows, notes = [], []
-        for row in found[source.stem]:
+        for row in data[source.stem]:
             error = row["rel_error"]
             away = None if error is None else "0" if error == 0 or round_off(error) else f"{error:+.1e}"
             rows.append(row | {"rel_error": away, "computed": "0" if round_off(row["computed"]) else row["computed"]})

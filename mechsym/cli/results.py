@@ -64,7 +64,7 @@ def units_by_path(value: object, command: str) -> dict[str, str]:
     """Unit of each number that a command tells by its path, `speeds.phi.mean`; of plain values as they are declared."""
     units = {row["path"]: row["unit"] for row in rows(command)} if command in RESULTS else {}
     words = {leaf.path: leaf.value for leaf in walk(value) if isinstance(leaf.value, str)}
-    told = {}
+    by_path = {}
     for leaf in leaves(value):
         bare = re.sub(r"\[\d+\]", "", leaf.path).lstrip(".")
         front, _, name = leaf.path.rpartition(".")
@@ -74,8 +74,8 @@ def units_by_path(value: object, command: str) -> dict[str, str]:
         elif unit.startswith("in "):  # it stands beside the number
             unit = str(words.get(f"{front}.{unit[3:]}") or "-")
         if unit:
-            told[leaf.path] = unit
-    return told
+            by_path[leaf.path] = unit
+    return by_path
 
 
 @functools.cache
@@ -95,14 +95,14 @@ def schema(command: str) -> Json:
     else:
         names = [name for name in WORDS[command].split() if name != "[]"]
         one = {"type": "object", "properties": {name: {} for name in names}, "required": names}
-    told = {name: {"type": "array", "items": of_class(load(kind))} for name, kind in _BESIDE.items()}
+    classes = {name: {"type": "array", "items": of_class(load(kind))} for name, kind in _BESIDE.items()}
     listed = {"type": "array", "items": one}
     if command in ROWS:
         value: Json = {"anyOf": [one, listed]}
     elif WORDS.get(command, "").startswith("[]"):
         value = listed
     else:
-        value = {**one, "properties": told | dict(one.get("properties", {}))}
+        value = {**one, "properties": classes | dict(one.get("properties", {}))}
     return {"$schema": "http://json-schema.org/draft-07/schema#", "title": f"mechsym {command} --json", **value}
 
 

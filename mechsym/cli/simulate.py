@@ -58,12 +58,12 @@ def simulate(
 
     options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
     given = {k: v for k, v in options.items() if v is not None}
-    found = case_of(case, pairs(overrides) | given)
+    loaded = case_of(case, pairs(overrides) | given)
     if rest:
-        _rest(found)
+        _rest(loaded)
         return
     dampers = () if dampings is None else tuple(ranges.values(dampings, "N*m*s/rad", "--dampings", most=1000))
-    done = run(found, dampers, "none" if no_check else "tolerance")
+    done = run(loaded, dampers, "none" if no_check else "tolerance")
     files = [] if out is None else _write(done, out)
     text = functools.partial(_text, tell(done), done.result.units)
     emit(done, text, beside={"files": files}, files=files, findings=done.view.findings())
@@ -108,13 +108,13 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
     from mechsym.torsion.startup import StartUpNumbers
     from mechsym.torsion.twist import ShaftSection, section_words
 
-    told = {
+    report_rows = {
         "ended": f"{_ENDS.get(report['end'], report['end'])} at {_number(report['t_end'])} s",
         "energy residual": ratio_text(report["energy_residual"]),
         "accuracy": report["reason"] or "not checked at a finer tolerance",
         "steps": f"{report['steps']}, {_number(report['wall_s'])} s by the clock",
     }
-    lines = [f"{name:22}{words}" for name, words in told.items()]
+    lines = [f"{name:22}{words}" for name, words in report_rows.items()]
     if report["event"]:
         lines.append(f"{'event':22}" + ", ".join(f"{k} {_number(v)}" for k, v in report["event"].items()))
     if report["events"]:

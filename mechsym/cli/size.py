@@ -33,22 +33,22 @@ def size(case: Case, as_printed: bool, step: Path | None, out: Path | None) -> N
     from mechsym.jobs.size import check_printed
     from mechsym.jobs.size import size as sized
 
-    found = check_printed(case) if as_printed else sized(case)
+    sizes = check_printed(case) if as_printed else sized(case)
     files = []
     if step is not None:
         from mechsym.out.cad.solids import bodies
         from mechsym.out.cad.step import write
 
-        files.append(write(step, bodies(found)))
-    files += _write(out, found) if out else []
-    emit(found.told, lambda: _text(found), files=files, findings=found.view.findings())
-    if found.failing or not found.converged:
+        files.append(write(step, bodies(sizes)))
+    files += _write(out, sizes) if out else []
+    emit(sizes.told, lambda: _text(sizes), files=files, findings=sizes.view.findings())
+    if sizes.failing or not sizes.converged:
         raise click.exceptions.Exit(1)
 
 
-def _text(found: "Sizing") -> str:
-    sizes = [row for row in found.rows if row["limit"] is None]
-    checks = [row for row in found.rows if row["limit"] is not None]
+def _text(sizing: "Sizing") -> str:
+    sizes = [row for row in sizing.rows if row["limit"] is None]
+    checks = [row for row in sizing.rows if row["limit"] is not None]
     if not checks:
         return "\n".join(["Loads", table(in_rows(sizes, ("value",)), _FIRST, named=["component"])])
     # a margin against nought has no factor
@@ -57,21 +57,21 @@ def _text(found: "Sizing") -> str:
     sizes, marked = in_rows(sizes, ("value",)), in_rows(marked, ("value", "limit"))
     tables = table(sizes, _FIRST, named=["component"]), table(marked, ["", *_SHOWN], named=["component"])
     lines = ["Sizes and figures", tables[0], "", "Checks", tables[1], ""]
-    state = "masses and loads agree" if found.converged else "masses and loads do NOT agree"
-    below = f"{len(found.failing)} of {len(checks)} factors are below the wanted ones"
-    return "\n".join([*lines, f"{below if found.failing else 'every factor holds'}; {state} ({found.rounds} rounds)"])
+    state = "masses and loads agree" if sizing.converged else "masses and loads do NOT agree"
+    below = f"{len(sizing.failing)} of {len(checks)} factors are below the wanted ones"
+    return "\n".join([*lines, f"{below if sizing.failing else 'every factor holds'}; {state} ({sizing.rounds} rounds)"])
 
 
-def _write(out: Path, found: "Sizing") -> list[Path]:
+def _write(out: Path, sizing: "Sizing") -> list[Path]:
     from mechsym.files import to_json, write_csv, write_text
     from mechsym.sizing.drawing import section_view
     from mechsym.sizing.rows import COLUMNS
 
-    columns = {name: [row[name] if row[name] is not None else "" for row in found.rows] for name in COLUMNS}
+    columns = {name: [row[name] if row[name] is not None else "" for row in sizing.rows] for name in COLUMNS}
     files = [
         write_csv(out / "parts.csv", columns),
-        write_text(out / "parts.json", to_json(found.rows) + "\n"),
+        write_text(out / "parts.json", to_json(sizing.rows) + "\n"),
     ]
-    if found.stock is None:
+    if sizing.stock is None:
         return files
-    return [*files, section_view(out / "section.svg", found.parts, found.forces, found.stock)]
+    return [*files, section_view(out / "section.svg", sizing.parts, sizing.forces, sizing.stock)]

@@ -65,49 +65,49 @@ def study(
         judge(one.plan, points)
     seconds = sum(sweeps.forecast(one.plan, n) for one, n in zip(wanted, counts, strict=True))
     kept_or_short(sum(counts), seconds, out)
-    told: list[StudiedSweep] = []
+    studied: list[StudiedSweep] = []
     refused: list[Doubt] = []
     label = f"{len(wanted)} sweeps, about {max(seconds, 1):.0f} s of a processor"
     with contextlib.ExitStack() as last, progress(sum(counts), label) as bar:
         for one in wanted:
             folder = None if out is None else make_folder(out / one.name)
             means = sweeps.Means(jobs=jobs or 0, folder=folder, fresh=fresh)
-            found = sweeps.sweep(one.plan, bar.update, means)
-            if found.interrupted:
+            result = sweeps.sweep(one.plan, bar.update, means)
+            if result.interrupted:
                 last.enter_context(whole())
-            told.append(_told(one, found, folder))
-            refused += gaps(found)
-            if found.interrupted:
+            studied.append(_told(one, result, folder))
+            refused += gaps(result)
+            if result.interrupted:
                 break
         files = []
         if out is not None:
             from mechsym.sweep.plots import said
 
-            text = page("study.html", title=asked.title, about=asked.about, sweeps=told, said=said)
+            text = page("study.html", title=asked.title, about=asked.about, sweeps=studied, said=said)
             files = [str(write_text(out / "report.html", text))]
-        interrupted = told[-1].numbers.interrupted
-        done = StudyNumbers(study=asked.title, sweeps=tuple(told), interrupted=interrupted, files=tuple(files))
-        emit(done, lambda: _text(told), beside={"doubts": refused}, leave_out=("sweeps",), files=files)
-    empty = any(len(one.numbers.failed) == one.points for one in told)
+        interrupted = studied[-1].numbers.interrupted
+        done = StudyNumbers(study=asked.title, sweeps=tuple(studied), interrupted=interrupted, files=tuple(files))
+        emit(done, lambda: _text(studied), beside={"doubts": refused}, leave_out=("sweeps",), files=files)
+    empty = any(len(one.numbers.failed) == one.points for one in studied)
     ctx.exit(INTERRUPTED if interrupted else int(empty))
 
 
-def _told(one: "StudySweep", found: "Sweep", folder: Path | None) -> "StudiedSweep":
+def _told(one: "StudySweep", result: "Sweep", folder: Path | None) -> "StudiedSweep":
     """What a sweep gave, as numbers and as text, its files written."""
     from mechsym.sweep.data import StudiedSweep, numbers
     from mechsym.sweep.plots import caption
 
-    picture = "" if folder is None else picture_of(found, one.name)
-    files = [] if folder is None else write(found, folder, picture)
+    picture = "" if folder is None else picture_of(result, one.name)
+    files = [] if folder is None else write(result, folder, picture)
     return StudiedSweep(
-        name=one.name, about=one.about, over=one.plan.over, tied=one.plan.tied, points=len(found.points),
-        numbers=numbers(found, files), picture=picture, see=caption(found) if picture else "", rows=rows_of(found),
+        name=one.name, about=one.about, over=one.plan.over, tied=one.plan.tied, points=len(result.points),
+        numbers=numbers(result, files), picture=picture, see=caption(result) if picture else "", rows=rows_of(result),
     )  # fmt: skip
 
 
-def _text(told: list["StudiedSweep"]) -> str:
+def _text(studied: list["StudiedSweep"]) -> str:
     lines, columns = [], ["name", "unit", "min", "at min", "max", "at max"]
-    for one in told:
+    for one in studied:
         failed = one.numbers.failed
         lines += [f"{one.name}: {one.points} points, {len(failed)} failed. {one.about}".rstrip()]
         lines += [table(one.rows, columns, named=["name"])] if one.rows else []

@@ -84,32 +84,32 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
     kept_or_short(count, 0.0 if scheduler else seconds, out)
     means = sweeps.Means(jobs=jobs or 0, folder=out, fresh=fresh, scheduler=scheduler)
     with progress(count, f"sweep of {case}, about {max(seconds, 1):.0f} s of a processor") as bar:
-        found = sweeps.sweep(plan, bar.update, means)
+        result = sweeps.sweep(plan, bar.update, means)
 
-    def finish(found: "Sweep") -> None:
-        told = numbers(found, [] if out is None else write(found, out, picture_of(found)))
+    def finish(result: "Sweep") -> None:
+        summary = numbers(result, [] if out is None else write(result, out, picture_of(result)))
         # the table tells which points an interrupt has left
-        left, beside = ("data", "failed") if found.interrupted else ("data",), {"doubts": gaps(found)}
-        emit(told, lambda: _text(found, told), beside=beside, leave_out=left, files=told.files)
+        left, beside = ("data", "failed") if result.interrupted else ("data",), {"doubts": gaps(result)}
+        emit(summary, lambda: _text(result, summary), beside=beside, leave_out=left, files=summary.files)
 
-    found = ended(found, finish)
-    ctx.exit(INTERRUPTED if found.interrupted else 1 if len(sweeps.failures(found)) == count else 0)
+    result = ended(result, finish)
+    ctx.exit(INTERRUPTED if result.interrupted else 1 if len(sweeps.failures(result)) == count else 0)
 
 
-def _text(found: "Sweep", told: "SweepNumbers") -> str:
-    sampled, rows = "sample" in found.dims, rows_of(found)
-    dims = " x ".join(f"{size} {name}" for name, size in found.dims.items())
-    lines = [f"{found.analysis} of {found.case} over {dims}: {len(told.failed)} of {len(found.points)} failed"]
-    lines += [f"{found.kept} points kept from before"] if found.kept else []
-    lines += [f"the folder's points of another sweep are set aside in {found.aside}"] if found.aside else []
+def _text(result: "Sweep", summary: "SweepNumbers") -> str:
+    sampled, rows = "sample" in result.dims, rows_of(result)
+    dims = " x ".join(f"{size} {name}" for name, size in result.dims.items())
+    lines = [f"{result.analysis} of {result.case} over {dims}: {len(summary.failed)} of {len(result.points)} failed"]
+    lines += [f"{result.kept} points kept from before"] if result.kept else []
+    lines += [f"the folder's points of another sweep are set aside in {result.aside}"] if result.aside else []
     if rows:
         spread = ["mean", "std"] if sampled else []
         lines += ["", table(rows, ["name", "unit", "min", "at min", "max", "at max", *spread], named=["name"]), ""]
-        if more := len(told.data) - len(rows):
-            runs = found.analysis == "hinge" and not found.show
+        if more := len(summary.data) - len(rows):
+            runs = result.analysis == "hinge" and not result.show
             further = "; check, runs, retune, sensitivity, losses, misfire_speed_share with --show" * runs
             lines.append(f"{more} more results with --json or --out{further}")
-    if told.sobol:
+    if summary.sobol:
         indices = [
             {
                 "result": one.result,
@@ -117,13 +117,13 @@ def _text(found: "Sweep", told: "SweepNumbers") -> str:
                 "first": f"{one.first:.3f} ({one.first_low:.3f} to {one.first_high:.3f})",
                 "total": f"{one.total:.3f} ({one.total_low:.3f} to {one.total_high:.3f})",
             }
-            for one in told.sobol
+            for one in summary.sobol
         ]
         shown = table(indices, ["result", "value", "first", "total"], named=["result", "value"])
         lines += ["Sobol indices, with 95 % intervals", shown, ""]
-    lines += [f"failed at {place(found, gap.index)}: {gap.reason}" for gap in told.failed[:5]]
-    if len(told.failed) > 5:
-        lines.append(f"and {len(told.failed) - 5} more")
+    lines += [f"failed at {place(result, gap.index)}: {gap.reason}" for gap in summary.failed[:5]]
+    if len(summary.failed) > 5:
+        lines.append(f"and {len(summary.failed) - 5} more")
     return "\n".join(lines)
 
 
@@ -156,75 +156,77 @@ def kept_or_short(count: int, seconds: Second, out: Path | None) -> None:
         )
 
 
-def ended(found: "Sweep", finish: Callable[["Sweep"], None]) -> "Sweep":
+def ended(result: "Sweep", finish: Callable[["Sweep"], None]) -> "Sweep":
     """A sweep, written by `finish`: after an interrupt, in the writing too, what is finished, however long it takes."""
-    if not found.interrupted:
+    if not result.interrupted:
         with asked_to_stop():
-            finish(found)
-            return found
-        found = replace(found, interrupted=True)
+            finish(result)
+            return result
+        result = replace(result, interrupted=True)
     with whole():
-        finish(found)
-    return found
+        finish(result)
+    return result
 
 
-def picture_of(found: "Sweep", name: str = "") -> str:
+def picture_of(result: "Sweep", name: str = "") -> str:
     """The picture of a sweep as SVG; empty where there is nothing to draw, or no time after an interrupt.
 
     name: keeps its ids its own on a page.
     """
-    if found.interrupted:
+    if result.interrupted:
         return ""
     from mechsym.style import svg
     from mechsym.sweep.plots import picture
 
-    figure = picture(found)
+    figure = picture(result)
     return "" if figure is None else svg(figure, name)
 
 
-def write(found: "Sweep", out: Path, picture: str) -> list[Path]:
+def write(result: "Sweep", out: Path, picture: str) -> list[Path]:
     """Table, netCDF where it can be written, picture; after an interrupt the table alone."""
     from mechsym.files import write_text
     from mechsym.sweep import store, write_netcdf, write_table
 
-    files = [write_table(found, out)]
-    if found.interrupted:
+    files = [write_table(result, out)]
+    if result.interrupted:
         return [*files, out / store.NAME]
     try:
-        files.append(write_netcdf(found, out))
+        files.append(write_netcdf(result, out))
     except MissingExtra as error:
         click.echo(f"no netCDF file: {error}", err=True)
     pictures = [write_text(out / "sweep.svg", picture)] if picture else []
     return [*files, *pictures, out / store.NAME]
 
 
-def gaps(found: "Sweep") -> tuple[Doubt, ...]:
+def gaps(result: "Sweep") -> tuple[Doubt, ...]:
     """A sweep whose points are all refused."""
-    refused = [o for o in found.outcomes if getattr(o, "of_input", False)]
-    return proportion("gaps", "points that are refused / all", len(refused) / len(found.outcomes))
+    refused = [o for o in result.outcomes if getattr(o, "of_input", False)]
+    return proportion("gaps", "points that are refused / all", len(refused) / len(result.outcomes))
 
 
-def rows_of(found: "Sweep") -> list[Json]:
+def rows_of(result: "Sweep") -> list[Json]:
     """Smallest and largest of the main results and where they are, each in the unit that suits it."""
     import numpy as np
 
     from mechsym.sweep import main_results
 
     rows = []
-    for name, column in main_results(found).items():
+    for name, column in main_results(result).items():
         ends = np.nanmin(column), np.nanmax(column)
         # of points that differ by no more than a run is known to the first
         low, high = (int(np.flatnonzero(np.abs(column - end) <= 1e-9 * np.abs(end))[0]) for end in ends)
         numbers = dict(zip(_NUMBERS, map(float, (*ends, np.nanmean(column), np.nanstd(column))), strict=True))
         largest = max(map(abs, numbers.values()))
-        row = {"name": name, "unit": found.units[name], "at min": place(found, low), "at max": place(found, high)}
+        row = {"name": name, "unit": result.units[name], "at min": place(result, low), "at max": place(result, high)}
         rows.append(row | {key: 0.0 if abs(v) < 1e-12 * largest else v for key, v in numbers.items()})
     return in_rows(rows, _NUMBERS)
 
 
-def place(found: "Sweep", index: int) -> str:
+def place(result: "Sweep", index: int) -> str:
     """Where a point is, in words."""
-    parts = [(a, v if isinstance(v, str) else f"{v:.6g}") for a, v in zip(found.axes, found.points[index], strict=True)]
+    parts = [
+        (a, v if isinstance(v, str) else f"{v:.6g}") for a, v in zip(result.axes, result.points[index], strict=True)
+    ]
     plain = {"-", *(a.unit for a, _ in parts if a.key.endswith(f"_{a.unit}"))}  # the name carries it; else SI
     units = {a.key: a.suffix or ("" if a.unit in plain else a.unit) for a, _ in parts}
     return ", ".join(f"{a.key}={v} {units[a.key]}".rstrip() for a, v in parts)

@@ -219,13 +219,13 @@ def _weights(works: np.ndarray, offset: np.ndarray) -> np.ndarray:
     rows = np.hstack([-works / scale, works / scale, np.ones((count, 1))])
     sums = np.zeros((2, 2 * n + 1))
     sums[0, :n] = sums[1, n : 2 * n] = 1.0
-    found = scipy.optimize.linprog(
+    optimum = scipy.optimize.linprog(
         np.append(np.zeros(2 * n), -1.0), A_ub=rows, b_ub=offset / scale, A_eq=sums, b_eq=np.ones(2),
         bounds=[(0.0, None)] * (2 * n) + [(None, None)], method="highs-ds",
     )  # fmt: skip
-    if found.x is None:
+    if optimum.x is None:
         return np.zeros(n)  # proves nothing: 0 less what stands beside it
-    up, down = (np.where(part > _NOTHING, part, 0.0) for part in (found.x[:n], found.x[n : 2 * n]))
+    up, down = (np.where(part > _NOTHING, part, 0.0) for part in (optimum.x[:n], optimum.x[n : 2 * n]))
     return up / up.sum() - down / down.sum()
 
 
@@ -270,14 +270,14 @@ def floor(design: CoDesign, bound: Bound, ripple: np.ndarray) -> Floor:
         ambient=float(np.ptp(np.asarray(sum(affine_energy(h.spring, z)[0] for h, z in hardware)))),
     )
     q = swing_per_inertia(kept)
-    found = list(proofs(points, bound.phi, q, terms, MOST))
-    kind = _in_balls(design, bound, q, terms, found) if design.task.losses is None else _LOSSY
+    proof_list = list(proofs(points, bound.phi, q, terms, MOST))
+    kind = _in_balls(design, bound, q, terms, proof_list) if design.task.losses is None else _LOSSY
     return Floor(
         total_inertia=float(total.max()),
         rollers=float(np.mean(rollers)),
         ripple=kept,
         terms=terms,
-        proofs=tuple(found),
+        proofs=tuple(proof_list),
         estimate=tuple(swing / kept for swing in bound.swing),
         assumes=_assumes(design, kept, terms),
         proven=kind == PROVEN,
@@ -285,18 +285,18 @@ def floor(design: CoDesign, bound: Bound, ripple: np.ndarray) -> Floor:
     )
 
 
-def _in_balls(design: CoDesign, bound: Bound, q: float, terms: Terms, found: list[Proof]) -> str:
+def _in_balls(design: CoDesign, bound: Bound, q: float, terms: Terms, stated: list[Proof]) -> str:
     """What the bound of a design's springs is; where balls prove it, the proof is what they prove."""
     place = design.task.springs - 1
-    if not found[place].points:
+    if not stated[place].points:
         return PROVEN  # that nothing is proven
     try:
-        proven = enclosed(design.task.points, bound.phi, q, terms, found[place].points)
+        proven = enclosed(design.task.points, bound.phi, q, terms, stated[place].points)
     except BadInput as error:  # MissingExtra too
         return f"computed in doubles and not proven ({error})"
-    if proven < (1 - _CLOSE) * found[place].total_inertia:
+    if proven < (1 - _CLOSE) * stated[place].total_inertia:
         return "computed in doubles and not proven (balls hold less)"
-    found[place] = dataclasses.replace(found[place], total_inertia=min(proven, found[place].total_inertia))
+    stated[place] = dataclasses.replace(stated[place], total_inertia=min(proven, stated[place].total_inertia))
     return PROVEN
 
 
@@ -318,9 +318,9 @@ def _assumes(design: CoDesign, ripple: float, terms: Terms) -> tuple[str, ...]:
     )
 
 
-def proving(found: Floor, design: CoDesign) -> tuple[float, ...]:
+def proving(proven: Floor, design: CoDesign) -> tuple[float, ...]:
     """Speeds [rpm] of the points that prove the bound for the design's number of springs."""
-    return tuple(design.task.points[k].omega / RPM for k in found.proofs[design.task.springs - 1].points)
+    return tuple(design.task.points[k].omega / RPM for k in proven.proofs[design.task.springs - 1].points)
 
 
 def hidden(design: CoDesign, given: CoDesign | None) -> tuple[Doubt, ...]:

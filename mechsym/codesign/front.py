@@ -51,15 +51,15 @@ class RippleMap:
     ripple: np.ndarray  #: shape (m, n); 2 where the shaft stops [-]
 
 
-def ripple_map(found: CoDesign, loads: Sequence[Point], omega: RadPerSecond[Array], load: Pascal[Array]) -> RippleMap:
+def ripple_map(design: CoDesign, loads: Sequence[Point], omega: RadPerSecond[Array], load: Pascal[Array]) -> RippleMap:
     """Ripple and pressure of a design with one spring under propeller load, for all pairs of speed and load.
 
     loads: the machine at ascending loads, at any speed; omega: speeds, shape (m,); load: mean indicated pressures,
     within those of the points.
     """
-    if len(found.tracks) != 1:
+    if len(design.tracks) != 1:
         raise BadInput("the map is that of one spring; a design with several has a schedule for its points")
-    (track,), period = found.tracks, loads[0].period
+    (track,), period = design.tracks, loads[0].period
     phi = np.arange(_ANGLES) * period / _ANGLES
     inertia = loads[0].inertia(phi)
     gas = scipy.interpolate.PchipInterpolator(
@@ -67,7 +67,7 @@ def ripple_map(found: CoDesign, loads: Sequence[Point], omega: RadPerSecond[Arra
     )(load)
     torque = scipy.interpolate.PchipInterpolator([p.load for p in loads], [p.load_torque for p in loads])(load)
     rollers = added_inertia(track, phi)
-    total = inertia + rollers + found.flywheel
+    total = inertia + rollers + design.flywheel
     square = omega[:, None, None] ** 2
     wanted = (gas[None] + square / 2 * (inertia + rollers)).reshape(-1, _ANGLES)
     fixed, by_p0 = affine_energy(track.hardware.spring, track.z(phi))
@@ -128,36 +128,36 @@ def front(
     ripples: allowed (max - min) / mean of the speed; ready: of the same task but for ripple and limits; saving: share
     of the bare flywheel that a hinge must save. Returns designs: one for each ripple, in ascending order.
     """
-    found: list[CoDesign] = []
+    designs: list[CoDesign] = []
     if ripples:
         ready = ready or programme(task)
     for wanted in sorted(ripples):
         asked = dataclasses.replace(task, ripple=wanted)
-        near = found[-1] if found and found[-1].status == "optimal" else None
-        made = solve(asked, ready, near)
-        if near is not None and made.status != "optimal":
-            made = solve(asked, ready)
-        found.append(worth_it(made, bare_flywheel(task.points, wanted), saving))
+        near = designs[-1] if designs and designs[-1].status == "optimal" else None
+        design = solve(asked, ready, near)
+        if near is not None and design.status != "optimal":
+            design = solve(asked, ready)
+        designs.append(worth_it(design, bare_flywheel(task.points, wanted), saving))
         progress()
-    return found
+    return designs
 
 
-def worth_it(found: CoDesign, bare: float, saving: float) -> CoDesign:
+def worth_it(design: CoDesign, bare: float, saving: float) -> CoDesign:
     """The design, infeasible where its flywheel is not enough below the bare one [kg*m^2] by the share `saving` [-].
 
     A flywheel that is free makes up for any hinge: without this no limit could ever be too narrow. Where hardware is
     free the rollers count as flywheel.
     """
     most = (1 - saving) * bare
-    left = found.flywheel + (rollers_inertia(found) if found.task.free else 0.0)
-    if found.status != "optimal" or left <= most or bare == 0:
-        return found
-    met = ", ".join(a.limit for a in found.active if a.limit != "ripple") or "no limit but the ripple"
+    left = design.flywheel + (rollers_inertia(design) if design.task.free else 0.0)
+    if design.status != "optimal" or left <= most or bare == 0:
+        return design
+    met = ", ".join(a.limit for a in design.active if a.limit != "ripple") or "no limit but the ripple"
     words = (
         f"a hinge within these limits leaves {left:.5g} of {bare:.5g} kg*m^2, and {most:.5g} is the most "
         f"that codesign.saving = {saving:g} allows; active: {met}"
     )
-    return dataclasses.replace(found, status="infeasible", reason=words)
+    return dataclasses.replace(design, status="infeasible", reason=words)
 
 
 @record
@@ -188,8 +188,8 @@ def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
             return _ripple(points[k], missing - missing.mean(), own + flywheel)
 
         bounds, options = (_FAR[0] * guess[k], _FAR[1] * guess[k]), {"xatol": 1e-5 * guess[k]}
-        found = scipy.optimize.minimize_scalar(at_pressure, bounds=bounds, method="bounded", options=options)
-        return float(found.x), float(found.fun)
+        optimum = scipy.optimize.minimize_scalar(at_pressure, bounds=bounds, method="bounded", options=options)
+        return float(optimum.x), float(optimum.fun)
 
     def excess(flywheel: float) -> float:
         return max(best(k, flywheel)[1] for k in range(len(points))) - task.ripple
@@ -210,8 +210,8 @@ def _ripple(point: Point, missing: np.ndarray, inertia: np.ndarray) -> float:
         speed = constant_load_speed(missing, inertia, point.omega)
     else:
         speed = propeller_load_speed(missing, inertia, point.omega, point.load_torque, point.period)
-    found = ripple(speed)
-    return _STOPPED + float(np.ptp(missing)) / (float(inertia.max()) * point.omega**2) if found is None else found
+    value = ripple(speed)
+    return _STOPPED + float(np.ptp(missing)) / (float(inertia.max()) * point.omega**2) if value is None else value
 
 
 _RATIO = 3.0  # largest by smallest ratio of noncircular gears (assumed)
@@ -322,10 +322,10 @@ def _best(works: np.ndarray, scale: np.ndarray) -> np.ndarray:
         [sparse.hstack([unit * by_shape, by_low, 0 * ones]), sparse.hstack([-unit * by_shape, -by_low, -ones])]
     ).tocsr()
     cost = np.concatenate([np.zeros(n + k), [1.0]])
-    found = scipy.optimize.linprog(
+    optimum = scipy.optimize.linprog(
         cost, A_ub=matrix, b_ub=np.concatenate([target, -target]), bounds=(None, None), method="highs"
     )
-    return np.asarray(found.x[:n]) * unit * size
+    return np.asarray(optimum.x[:n]) * unit * size
 
 
 def _left(points: Sequence[Point], phi: np.ndarray, shape: np.ndarray, power: float | None) -> float:
@@ -345,8 +345,8 @@ def _ripple_of(point: Point, missing: Function, inertia: Function) -> float:
         work = missing(phi)
         return np.asarray(work - work.mean())
 
-    found = ripple(motion(point, centred, inertia)[1])
-    return 10.0 if found is None else found
+    value = ripple(motion(point, centred, inertia)[1])
+    return 10.0 if value is None else value
 
 
 def _least(worst: Callable[[float], float], wanted: float) -> float | None:

@@ -91,23 +91,25 @@ def real(machine: Running, given: HingeLosses, fill: float = 1.0) -> Real:
     return Real(machine=dataclasses.replace(machine, extra=_periodic(phi, extra, point.period), load=left), taken=lost)
 
 
-def machine_at(found: CoDesign, k: int, flywheel: float | None = None) -> Running:
+def machine_at(design: CoDesign, k: int, flywheel: float | None = None) -> Running:
     """A point of a design ready to turn, with friction and heat where its programme had them; flywheel [kg*m^2]."""
-    made = running.running(found.task.points[k], found.tracks, k, found.flywheel if flywheel is None else flywheel)
-    return made if found.task.losses is None else real(made, found.task.losses).machine
+    machine = running.running(
+        design.task.points[k], design.tracks, k, design.flywheel if flywheel is None else flywheel
+    )
+    return machine if design.task.losses is None else real(machine, design.task.losses).machine
 
 
-def losses(found: CoDesign, given: HingeLosses) -> tuple[LossTorques, ...]:
+def losses(design: CoDesign, given: HingeLosses) -> tuple[LossTorques, ...]:
     """All guides together, at each point: of the polytropic spring, or as the programme had them."""
-    if found.task.losses is None:
-        return tuple(_beside(found, k, point, given) for k, point in enumerate(found.task.points))
-    machines = [running.running(p, found.tracks, k, found.flywheel) for k, p in enumerate(found.task.points)]
-    return tuple(real(machine, found.task.losses).taken for machine in machines)
+    if design.task.losses is None:
+        return tuple(_beside(design, k, point, given) for k, point in enumerate(design.task.points))
+    machines = [running.running(p, design.tracks, k, design.flywheel) for k, p in enumerate(design.task.points)]
+    return tuple(real(machine, design.task.losses).taken for machine in machines)
 
 
-def _beside(found: CoDesign, k: int, point: Point, given: HingeLosses) -> LossTorques:
+def _beside(design: CoDesign, k: int, point: Point, given: HingeLosses) -> LossTorques:
     taken = dict.fromkeys(KINDS, 0.0)
-    for track in found.tracks:
+    for track in design.tracks:
         path = fine_path(track, point.period)[1]
         force = track.hardware.charged(float(track.p0[k])).force(path.z)
         for kind, torque in friction(track, path, force, point.omega, given).items():
@@ -137,10 +139,10 @@ class Lossy:
     fill: float = quantity("-", about="fill of the springs by that of the schedule, for the least ripple")
 
 
-def with_losses(found: CoDesign, k: int, given: HingeLosses) -> Lossy:
+def with_losses(design: CoDesign, k: int, given: HingeLosses) -> Lossy:
     """A point with friction and heat; the fill is set anew unless the programme had them in it."""
-    inside, point = found.task.losses, found.task.points[k]
-    machine = running.running(point, found.tracks, k, found.flywheel)
+    inside, point = design.task.losses, design.task.points[k]
+    machine = running.running(point, design.tracks, k, design.flywheel)
     assumed = inside or given
     if real(machine, assumed).taken.total >= abs(point.load_torque):  # the hinge takes more than the machine gives
         return Lossy(ripple=None, time_ripple=None, energy_residual=None, fill=1.0)
@@ -151,11 +153,11 @@ def with_losses(found: CoDesign, k: int, given: HingeLosses) -> Lossy:
 
     fill = 1.0 if inside else float(
         scipy.optimize.minimize_scalar(ripple, bounds=_RESET, method="bounded", options={"xatol": 1e-4}).x)  # fmt: skip
-    made = real(machine, assumed, fill).machine
-    motion = running.steady(made)
+    lossy = real(machine, assumed, fill).machine
+    motion = running.steady(lossy)
     if motion.speed_ripple is None:
         return Lossy(ripple=None, time_ripple=None, energy_residual=None, fill=fill)
-    filled = dataclasses.replace(made, pressures=tuple(fill * p for p in machine.pressures))
+    filled = dataclasses.replace(lossy, pressures=tuple(fill * p for p in machine.pressures))
     run = in_time(filled, assumed, float(motion.omega[0]), _TURNS)
     return Lossy(ripple=motion.speed_ripple, time_ripple=ripple_of_last_turn(run, point.period),
                  energy_residual=run.energy_residual, fill=fill)  # fmt: skip
@@ -173,21 +175,21 @@ def in_time(machine: Running, given: HingeLosses, speed: float, periods: int) ->
         return float(y[0]) - end
 
     turned.terminal = True  # type: ignore[attr-defined]
-    found = scipy.integrate.solve_ivp(
+    solution = scipy.integrate.solve_ivp(
         lambda t, y: rates(y), (0.0, 5 * end / speed), [0.0, speed, 0.0, 0.0, *starts], method="DOP853",
         rtol=_TOLERANCE, atol=_TOLERANCE * np.array([1, point.omega, *[abs(point.load_torque)] * 2, *starts]),
         events=turned, dense_output=True, max_step=point.period / point.omega / 60,
     )  # fmt: skip
-    t = np.linspace(0, found.t[-1], round(_PER_TURN * end / (2 * np.pi)) + 1)
-    phi, omega, gained, lost, *T = found.sol(t)
+    t = np.linspace(0, solution.t[-1], round(_PER_TURN * end / (2 * np.pi)) + 1)
+    phi, omega, gained, lost, *T = solution.sol(t)
     ends = np.array([phi[0], phi[-1]])
     kinetic = np.diff(running.inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2)[0]
     springs = [gas or t.hardware.charged(p) for t, gas, p in zip(machine.tracks, gases, machine.pressures, strict=True)]
     stored = sum(float(np.diff(spring.energy(t.z(ends), warm[[0, -1]]))[0])
                  for t, spring, warm in zip(machine.tracks, springs, T, strict=True))  # fmt: skip
     residual = float((gained[-1] - lost[-1] - kinetic - stored) / (abs(lost[-1]) or 1.0))
-    return TimeRun(t=t, phi=phi, omega=omega, stalled=not len(found.t_events[0]), energy_residual=residual,
-                   dense=lambda times: (found.sol(times)[:1], found.sol(times)[1:2]))  # fmt: skip
+    return TimeRun(t=t, phi=phi, omega=omega, stalled=not len(solution.t_events[0]), energy_residual=residual,
+                   dense=lambda times: (solution.sol(times)[:1], solution.sol(times)[1:2]))  # fmt: skip
 
 
 def _rates(machine: Running, gases: list[AirThermal | None], given: HingeLosses) -> Callable[[Scalar], list[float]]:

@@ -40,11 +40,11 @@ def point(machine: Machine, load: Pascal, law: str = "propeller", weight: Pure =
     weight: share of the time at this point.
     """
     torques, wanted = engine_torques(machine), torque(machine)
-    found = dataclasses.replace(_point(wanted, torques, load, law, weight), **_formulas(machine, torques.period))
+    shaped = dataclasses.replace(_point(wanted, torques, load, law, weight), **_formulas(machine, torques.period))
     gas = only_gas(machine)
     # of a torque alone no turn without combustion is known, and what takes work has none to lose
     if gas is None or wanted.load_torque <= 0:
-        return found
+        return shaped
     without = unfired(gas.force, torques.period)
 
     def misfire(phi: np.ndarray) -> np.ndarray:
@@ -52,7 +52,7 @@ def point(machine: Machine, load: Pascal, law: str = "propeller", weight: Pure =
         return np.asarray(without(phi) * arm + torques.gravity_torque(phi))
 
     return dataclasses.replace(
-        found, misfire=_remembered(misfire), misfire_kinks=unfired_kinks(torques.kinks, torques.period)
+        shaped, misfire=_remembered(misfire), misfire_kinks=unfired_kinks(torques.kinks, torques.period)
     )
 
 
@@ -169,10 +169,10 @@ class SpeedAndLoad:
 
 def places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
     """Speeds and loads of the curve `propeller` or `constant_speed`, or of a CSV file."""
-    found = _places(settings)
-    if not 0 < len(found) <= _MOST:
-        raise BadInput(f"{len(found)} points of speed and load; allowed are 1 to {_MOST} in one design")
-    return found
+    pairs = _places(settings)
+    if not 0 < len(pairs) <= _MOST:
+        raise BadInput(f"{len(pairs)} points of speed and load; allowed are 1 to {_MOST} in one design")
+    return pairs
 
 
 def _places(settings: CoDesignSettings) -> list[SpeedAndLoad]:
@@ -193,14 +193,14 @@ def _from_file(name: str) -> list[SpeedAndLoad]:
     columns = {head.strip(): (i, unit.rstrip("] ")) for i, (head, _, unit) in enumerate(heads)}
     if not {"speed", "load"} <= set(columns) <= set(_COLUMNS):
         raise BadInput(f"{name}: the headings are speed [rpm], load [bar] and perhaps weight, not {rows[:1]}")
-    found = []
+    pairs = []
     for number, row in enumerate(rows[1:], start=2):
         if len(row) != len(heads):
             raise BadInput(f"{name}, line {number}: {len(row)} values below {len(heads)} headings")
         values = {key: parse(f"{row[i].strip()} {unit}".strip(), _COLUMNS[key], f"{name}, line {number}: {key}")
                   for key, (i, unit) in columns.items()}  # fmt: skip
-        found.append(SpeedAndLoad(omega=values["speed"], mep=values["load"], weight=values.get("weight", 1.0)))
-    return found
+        pairs.append(SpeedAndLoad(omega=values["speed"], mep=values["load"], weight=values.get("weight", 1.0)))
+    return pairs
 
 
 def cycle_at(cycle: Record, high: Record | None, settings: CoDesignSettings, mep: float) -> Record:

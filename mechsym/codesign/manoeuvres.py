@@ -172,20 +172,20 @@ def pressure_error(machine: Running, turn: TimeRun) -> np.ndarray:
     columns = [_by_pressure(machine, s, phi) for s in range(len(machine.tracks))]
     matrix = np.column_stack([*columns, np.ones(phi.size), phi - phi[0]])
     scale = np.abs(matrix).max(axis=0)
-    found = np.linalg.lstsq(matrix / scale, seen - _designed(machine, phi), rcond=None)[0] / scale
-    return np.asarray(found[: len(columns)])
+    shares = np.linalg.lstsq(matrix / scale, seen - _designed(machine, phi), rcond=None)[0] / scale
+    return np.asarray(shares[: len(columns)])
 
 
 def hold(
-    found: CoDesign, k: int, off: float, turns: int = 6, gain: Pure = 1.0, noise: Pure = 0.0, rate: Pure = np.inf
+    solved: CoDesign, k: int, off: float, turns: int = 6, gain: Pure = 1.0, noise: Pure = 0.0, rate: Pure = np.inf
 ) -> Held:
     """Start a point with its pressures off by a share [-] and let the controller set them after every turn.
 
     gain: share of the error that is taken away in a turn; noise: one sigma of every measured speed by the mean speed;
     rate: largest change of a pressure in a turn by the design's.
     """
-    point, rng = found.task.points[k], np.random.default_rng(9)
-    design = machine_at(found, k)
+    point, rng = solved.task.points[k], np.random.default_rng(9)
+    design = machine_at(solved, k)
     wanted = np.array(design.pressures)
     p, speed, errors, ripples, legs = wanted * (1 + off), point.omega, [], [], []
     for _ in range(turns):

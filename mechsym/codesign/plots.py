@@ -125,13 +125,15 @@ def guides(result: CoDesignResult) -> Figure:
 def points(result: CoDesignResult) -> Figure:
     """Ripple by three ways, and the schedule of pressures, over the speed."""
     figure, (left, right) = _panels(2, "Ripple by three ways, and the pressures to set")
-    design, found = result.design, result.verified
+    design, verified = result.design, result.verified
     omega = np.array([p.omega for p in design.task.points])
     (turning, rpm), (factor, unit) = axis_unit("rad/s", omega), axis_unit("Pa", *(t.p0 for t in design.tracks))
     speeds = omega * turning
-    left.plot(speeds, 100 * found.programme_ripple, "o", color=BLUE, label="programme", markersize=7, fillstyle="none")
-    left.plot(speeds, 100 * found.steady_ripple, "x", color=RED, label="over the angle")
-    left.plot(speeds, 100 * found.time_ripple, "+", color=INK, label="run in time")
+    left.plot(
+        speeds, 100 * verified.programme_ripple, "o", color=BLUE, label="programme", markersize=7, fillstyle="none"
+    )
+    left.plot(speeds, 100 * verified.steady_ripple, "x", color=RED, label="over the angle")
+    left.plot(speeds, 100 * verified.time_ripple, "+", color=INK, label="run in time")
     left.axhline(100 * design.task.ripple, color=GREY, linewidth=0.8)
     left.set(xlabel=f"speed [{rpm}]", ylabel="speed ripple [%]")
     left.set_ylim(0, 1.15 * left.get_ylim()[1])

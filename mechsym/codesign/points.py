@@ -112,8 +112,8 @@ def bare_flywheel(points: Sequence[Point], wanted: Pure) -> Inertia:
     """
 
     def excess(flywheel: float) -> float:
-        found = [bare_ripple(point, flywheel) for point in points]
-        return max(_STOPPED if r is None else r for r in found) - wanted
+        ripples = [bare_ripple(point, flywheel) for point in points]
+        return max(_STOPPED if r is None else r for r in ripples) - wanted
 
     if excess(0.0) <= 0:
         return 0.0

@@ -80,26 +80,26 @@ def _programme(task: CoDesignTask) -> ReadyProgramme:
     kinks = sorted({k for p in task.points for k in p.kinks})
     splines = basis(task.points[0].period, kinks, round(task.knots * turns))
     parameters, gathered = ca.SX.sym("parameters", len(_values(task))), Gathered()
-    found = guides(task, samples, splines, gathered)
+    symbols = guides(task, samples, splines, gathered)
     flywheel = gathered.unknown("J", np.array([_START]), 0.0)
-    rollers = sum(g.inertia for g in found)
-    ripples = _motions(task, samples, found, _FLYWHEEL * flywheel, parameters[0], gathered)
+    rollers = sum(g.inertia for g in symbols)
+    ripples = _motions(task, samples, symbols, _FLYWHEEL * flywheel, parameters[0], gathered)
     goal = flywheel + (ca.dot(ca.DM(samples.weights), rollers) / _FLYWHEEL if task.free else 0.0)
     # limits where spring and rollers are asked most: at the largest pressure of the schedule and the highest speed
     hardware, fastest = task.hardware, max(p.omega for p in task.points)
     *settings, reach = ca.vertsplit(parameters[1:])
     limits = lettered(task.bounds, dict(zip((key for key, *_ in asked_of(task.bounds)), settings, strict=True)))
-    for guide in found:
+    for guide in symbols:
         spring = hardware.charged((1 + task.robust) * guide.largest, **guide.values)
         at = hardware.station(guide.path, spring, fastest, **guide.values)
         # rollers of the case's own guide reach rho0 + r and no farther
         rows = limit_rows(at, limits, hardware.z_margin, reach if task.free else None)
         gathered.group([*rows, ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
-    smooth = sum(ca.sumsqr(g.path.d2rho) for g in found) / samples.phi.size
-    chosen = sum(ca.sumsqr(share - 1) for g in found for share in g.shares)
+    smooth = sum(ca.sumsqr(g.path.d2rho) for g in symbols) / samples.phi.size
+    chosen = sum(ca.sumsqr(share - 1) for g in symbols for share in g.shares)
     x, box = ca.vertcat(*gathered.unknowns), np.vstack(gathered.box)
-    values = [ca.vertcat(*g.values.values()) for g in found]
-    read = [ca.horzcat(*(g.coefficients for g in found)), ca.horzcat(*(g.p0 for g in found)), ca.horzcat(*values),
+    values = [ca.vertcat(*g.values.values()) for g in symbols]
+    read = [ca.horzcat(*(g.coefficients for g in symbols)), ca.horzcat(*(g.p0 for g in symbols)), ca.horzcat(*values),
             _FLYWHEEL * flywheel, ripples]  # fmt: skip
     return ReadyProgramme(
         task=task, basis=splines,
@@ -151,31 +151,31 @@ def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesig
     ready: a programme of the same task but for ripple and limits, used again; near: a solution of the same programme to
     start from. Returns found: with status and reason; where nothing is feasible, the last design that was tried.
     """
-    made = ready or programme(task)
-    found = _solved(task, made, near, made.wall if ready is None else 0.0)
-    asked, wall = task.bounds, found.wall
+    prepared = ready or programme(task)
+    design = _solved(task, prepared, near, prepared.wall if ready is None else 0.0)
+    asked, wall = task.bounds, design.wall
     for _ in range(_ROUNDS):
-        over = passed(found) if found.status == "optimal" else {}
+        over = passed(design) if design.status == "optimal" else {}
         if not over:
             break
         # between its angles, and beside the hardest point, the programme does not look
-        radius = found.tracks[0].hardware.radius
+        radius = design.tracks[0].hardware.radius
         settings = {key: limit.stricter(setting, 1 + over[key] + _LITTLE, radius)
                     for key, limit, setting in asked_of(asked) if key in over}  # fmt: skip
         asked = dataclasses.replace(asked, **settings)
-        again = _solved(dataclasses.replace(task, bounds=asked), made, found, 0.0)
+        again = _solved(dataclasses.replace(task, bounds=asked), prepared, design, 0.0)
         wall += again.wall
         if again.status != "optimal":
             break
-        found = dataclasses.replace(again, task=task, wall=wall)
-    return found
+        design = dataclasses.replace(again, task=task, wall=wall)
+    return design
 
 
-def _solved(task: CoDesignTask, made: ReadyProgramme, near: CoDesign | None, building: float) -> CoDesign:
+def _solved(task: CoDesignTask, ready: ReadyProgramme, near: CoDesign | None, building: float) -> CoDesign:
     begin = time.perf_counter()
-    start = {"x0": made.start} if near is None else dict(near.solution)
-    found = ipopt(made.solver, {**start, "p": _values(task), **made.bounds}, nearly=True)
-    return _result(task, made, found, time.perf_counter() - begin + building)
+    start = {"x0": ready.start} if near is None else dict(near.solution)
+    solved = ipopt(ready.solver, {**start, "p": _values(task), **ready.bounds}, nearly=True)
+    return _result(task, ready, solved, time.perf_counter() - begin + building)
 
 
 def _values(task: CoDesignTask) -> list[float]:
@@ -183,37 +183,42 @@ def _values(task: CoDesignTask) -> list[float]:
 
 
 def _motions(
-    task: CoDesignTask, samples: Samples, found: list[GuideSymbols], flywheel: ca.SX, ripple: ca.SX, gathered: Gathered
+    task: CoDesignTask,
+    samples: Samples,
+    symbols: list[GuideSymbols],
+    flywheel: ca.SX,
+    ripple: ca.SX,
+    gathered: Gathered,
 ) -> ca.SX:
     """Motion of each point at each corner of the errors; the ripple of each, shape (k * corners,) [-]."""
-    rollers = sum(g.inertia for g in found)
+    rollers = sum(g.inertia for g in symbols)
     total = ca.DM(samples.inertia) + flywheel + rollers
     sides = (1 - task.robust, 1 + task.robust) if task.robust else (1.0,)
     ripples, given = [], task.losses
-    warm = unknowns.warmths(task, samples, found, given, gathered) if given else []
+    warm = unknowns.warmths(task, samples, symbols, given, gathered) if given else []
     for k, point in enumerate(task.points):
         for errors in itertools.product(sides, repeat=task.springs):
             # the constant of the work is free: g takes it up
             missing, taken = ca.DM(samples.work[k]) + point.omega**2 / 2 * rollers, 0.0
             if given:
-                pressures = [e * g.p0[k] for g, e in zip(found, errors, strict=True)]
-                lost = unknowns.taken(task, point, samples, found, pressures, warm[k], given, gathered)
+                pressures = [e * g.p0[k] for g, e in zip(symbols, errors, strict=True)]
+                lost = unknowns.taken(task, point, samples, symbols, pressures, warm[k], given, gathered)
                 missing, taken = missing + lost.work, lost.torque
             else:
                 missing += sum(
                     task.hardware.charged(e * g.p0[k], **g.values).symbolic().energy(g.path.z)
-                    for g, e in zip(found, errors, strict=True)
+                    for g, e in zip(symbols, errors, strict=True)
                 )
-            made = motion_rows(point, k, samples, missing, total, ripple, taken)
-            gathered.add(made.unknowns, made.start)
-            gathered.group(zip(made.rows, made.low, made.high, strict=True))
-            ripples.append(made.ripple)
+            rows = motion_rows(point, k, samples, missing, total, ripple, taken)
+            gathered.add(rows.unknowns, rows.start)
+            gathered.group(zip(rows.rows, rows.low, rows.high, strict=True))
+            ripples.append(rows.ripple)
     return ca.vertcat(*ripples)
 
 
-def _result(task: CoDesignTask, made: ReadyProgramme, solved: Solved, wall: float) -> CoDesign:
+def _result(task: CoDesignTask, ready: ReadyProgramme, solved: Solved, wall: float) -> CoDesign:
     found = solved.values
-    coefficients, p0, values, flywheel, ripples = (np.array(v.full()) for v in made.read(found["x"]))
+    coefficients, p0, values, flywheel, ripples = (np.array(v.full()) for v in ready.read(found["x"]))
     tracks = []
     for s in range(task.springs):
         # IPOPT relaxes bounds by 1e-8
@@ -221,7 +226,7 @@ def _result(task: CoDesignTask, made: ReadyProgramme, solved: Solved, wall: floa
         chosen = dict(zip(names, np.maximum(values[:, s], 0.0).tolist(), strict=True))
         chosen[task.hardware.spring.setting[0]] = float(p0[:, s].max())
         hardware = task.hardware.changed(chosen)
-        tracks.append(Track(hardware=hardware, z=curve(made.basis, coefficients[:, s]), p0=p0[:, s]))
+        tracks.append(Track(hardware=hardware, z=curve(ready.basis, coefficients[:, s]), p0=p0[:, s]))
     inertia = float(flywheel[0, 0]) if float(flywheel[0, 0]) > _NONE else 0.0
     priced = solved.status == "optimal" and inertia
     return CoDesign(

@@ -81,10 +81,10 @@ def rank(points: Sequence[Point], springs: int = MOST) -> Bound:
     sizes = np.linalg.svd(wanted, compute_uv=False)
     best: list[Shapes] = []
     for r in range(1, min(springs, MOST) + 1):
-        found = _none_left(wanted, r) if r >= len(points) else _best(wanted, r)
-        if best and found.swing > best[-1].swing:
-            found = dataclasses.replace(best[-1], springs=r)  # a shape that is not used does no harm
-        best.append(found)
+        shapes = _none_left(wanted, r) if r >= len(points) else _best(wanted, r)
+        if best and shapes.swing > best[-1].swing:
+            shapes = dataclasses.replace(best[-1], springs=r)  # a shape that is not used does no harm
+        best.append(shapes)
     swings = [b.swing for b in best]
     count, before = 0, bare
     for swing in swings:
@@ -136,12 +136,12 @@ def _best(wanted: np.ndarray, r: int) -> Shapes:
         "x0": x0, "lbx": np.where(held, x0, -np.inf), "ubx": np.where(held, x0, np.inf),
         "lbg": np.concatenate([zero, -far]), "ubg": np.concatenate([far, zero]),
     }  # fmt: skip
-    found = ipopt(solver, given, nearly=True)
-    end = np.asarray(found.values["x"]).ravel() if found.status == "optimal" else x0
+    solved = ipopt(solver, given, nearly=True)
+    end = np.asarray(solved.values["x"]).ravel() if solved.status == "optimal" else x0
     shapes_, shares_ = end[: r * n].reshape(n, r).T, end[r * n : r * n + k * r].reshape(r, k).T
     # the swing that these very shapes leave, whatever the solver says
     swing = size * float(np.ptp(w - shares_ @ shapes_, axis=1).max())
-    status = found.status if found.status == "optimal" else found.reason
+    status = solved.status if solved.status == "optimal" else solved.reason
     return Shapes(springs=r, swing=swing, shapes=size * shapes_, shares=shares_, status=status)
 
 
@@ -189,10 +189,10 @@ def counts(points: Sequence[Point], ripple: float, most: int = 12, added: float 
     """Flywheels of 1 to `most` evenly firing cylinders for a ripple [-], bare, and with a hinge that adds [kg*m^2]."""
     rows = []
     for n in range(1, most + 1):
-        made = tuple(together(p, even_firing(n, p.period)) for p in points)
-        bound = rank(made, 1)
-        rows.append(Count(cylinders=n, flywheel_inertia_bare=bare_flywheel(made, ripple), swing=bound.swing[0],
-                          flywheel_inertia_estimate=flywheel_estimate(made, bound, ripple, added)))  # fmt: skip
+        merged = tuple(together(p, even_firing(n, p.period)) for p in points)
+        bound = rank(merged, 1)
+        rows.append(Count(cylinders=n, flywheel_inertia_bare=bare_flywheel(merged, ripple), swing=bound.swing[0],
+                          flywheel_inertia_estimate=flywheel_estimate(merged, bound, ripple, added)))  # fmt: skip
     return rows
 
 

@@ -97,24 +97,24 @@ def check_goal(goal: str) -> str:
     return goal
 
 
-def realise(found: CoDesign, goal: str = "bearing_loss") -> Realised:
+def realise(design: CoDesign, goal: str = "bearing_loss") -> Realised:
     """Hardware with the smallest goal that gives the same works within all limits; `goal` is one of `GOALS`."""
     check_goal(goal)
-    if not found.task.hardware.spring.gas and goal in ("gas_volume", "spring_pressure"):
+    if not design.task.hardware.spring.gas and goal in ("gas_volume", "spring_pressure"):
         raise BadInput(f"goal = {goal!r} asks for gas, and there is none in the spring; take bearing_loss")
-    omega = max(p.omega for p in found.task.points)
-    made = [_one(found, track, goal, omega) for track in found.tracks]
-    failed = [words for words, *_ in made if words != "optimal"]
+    omega = max(p.omega for p in design.task.points)
+    rows = [_one(design, track, goal, omega) for track in design.tracks]
+    failed = [words for words, *_ in rows if words != "optimal"]
     return Realised(
         status=failed[0] if failed else "optimal",
-        design=dataclasses.replace(found, tracks=tuple(m[1] for m in made)),
-        before=tuple(m[2] for m in made),
-        after=tuple(m[3] for m in made),
+        design=dataclasses.replace(design, tracks=tuple(m[1] for m in rows)),
+        before=tuple(m[2] for m in rows),
+        after=tuple(m[3] for m in rows),
     )
 
 
-def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, Track, float, float]:
-    h, top, period = track.hardware, int(np.argmax(track.p0)), found.task.points[0].period
+def _one(design: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, Track, float, float]:
+    h, top, period = track.hardware, int(np.argmax(track.p0)), design.task.points[0].period
     phi = np.arange(_FINE) * period / _FINE
     # energy above its least [J] and its derivatives by the crank angle [J/rad, J/rad^2]
     spring, z = track.hardware.charged(float(track.p0[top])), track.z(phi)
@@ -135,7 +135,7 @@ def _one(found: CoDesign, track: Track, goal: str, omega: float) -> tuple[str, T
         return new, new.station(path, new.spring, omega)
 
     def margins(x: np.ndarray) -> np.ndarray:
-        return _margins(found, at(x)[1]) - _MARGIN
+        return _margins(design, at(x)[1]) - _MARGIN
 
     start = np.zeros(len(CHOSEN) + 1)
     before = GOALS[goal](at(start)[1])
@@ -164,10 +164,10 @@ def _closing(
     return z, dz, (d2U - spring.stiffness(z) * dz**2) / F
 
 
-def _margins(found: CoDesign, at: Station) -> np.ndarray:
+def _margins(design: CoDesign, at: Station) -> np.ndarray:
     """What is left of each limit, by the limit [-]."""
     # the least closing is chosen too, and is none of them
-    rows = limit_rows(at, found.task.bounds, 0.0, found.task.widest)[1:]
+    rows = limit_rows(at, design.task.bounds, 0.0, design.task.widest)[1:]
     above = [high - np.max(values) for values, _, high in rows if np.isfinite(high)]
     below = [np.min(values) - low for values, low, _ in rows if np.isfinite(low)]
     room = at.rho0 - at.spring.H / 2 - at.rollers.radius

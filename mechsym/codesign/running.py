@@ -119,7 +119,7 @@ def panels(machine: Running) -> Panels:
     """The machine over the angle, for `mechsym.simulate`."""
     point = machine.point
     knots = {float(x) for t in machine.tracks for x in t.z.x[:-1] % point.period}
-    made = tabulate(
+    table = tabulate(
         ReducedMachine(
             inertia=lambda phi: inertia(machine, phi), torque=lambda phi: torque(machine, phi), load=machine.load,
             period=point.period, kinks=tuple(sorted({*machine.kinks, *knots})),
@@ -127,8 +127,8 @@ def panels(machine: Running) -> Panels:
     )  # fmt: skip
     if isinstance(machine.load, ConstantLoad):
         # a governor holds the mean: the load is what these panels integrate
-        return dataclasses.replace(made, load=ConstantLoad(torque=mean_torque(made)))
-    return made
+        return dataclasses.replace(table, load=ConstantLoad(torque=mean_torque(table)))
+    return table
 
 
 def steady(machine: Running) -> Steady:
@@ -180,20 +180,20 @@ def joined(legs: Sequence[TimeRun]) -> TimeRun:
     )
 
 
-def extremes(found: TimeRun) -> tuple[float, float]:
+def extremes(motion: TimeRun) -> tuple[float, float]:
     """Least and greatest speed [rad/s] of a whole run; of several behind each other those that were read."""
-    if found.dense is None:
-        return float(found.omega.min()), float(found.omega.max())
-    (speed,) = speeds(found.dense, found.t)
+    if motion.dense is None:
+        return float(motion.omega.min()), float(motion.omega.max())
+    (speed,) = speeds(motion.dense, motion.t)
     return speed.min, speed.max
 
 
-def ripple_of_last_turn(found: TimeRun, period: float) -> float | None:
+def ripple_of_last_turn(motion: TimeRun, period: float) -> float | None:
     """Ripple of the speed over the last period [rad], see `mechsym.simulate.speed`; None after a stall."""
-    if found.stalled or found.dense is None:
+    if motion.stalled or motion.dense is None:
         return None
     (speed,) = speeds(
-        found.dense, np.linspace(last_period(found.t, found.phi, found.omega, period), found.t[-1], _LOOKS)
+        motion.dense, np.linspace(last_period(motion.t, motion.phi, motion.omega, period), motion.t[-1], _LOOKS)
     )
     return speed.ripple
 
@@ -301,10 +301,10 @@ def turn(machine: Turning, readings: int) -> tuple[np.ndarray, np.ndarray, bool]
         runs = _runs(machine)
         # once to see how long it takes, and once to be read at even times
         t = np.linspace(0, integrate(runs, "dop853").t[0], readings)
-        found = integrate(dataclasses.replace(runs, times=t[1:-1]), "dop853")
-        if found.status[0] > _MET:
-            raise BadInput(f"the machine in time {STATUS[found.status[0]]}")
-        return t, np.vstack([runs.start, found.samples[0], found.y[0]]).T, bool(found.met[0] == 1)
+        outcome = integrate(dataclasses.replace(runs, times=t[1:-1]), "dop853")
+        if outcome.status[0] > _MET:
+            raise BadInput(f"the machine in time {STATUS[outcome.status[0]]}")
+        return t, np.vstack([runs.start, outcome.samples[0], outcome.y[0]]).T, bool(outcome.met[0] == 1)
     except NoCompiler:
         return _by_scipy(machine, readings)
 
@@ -315,10 +315,10 @@ def at_times(machine: Turning, times: np.ndarray) -> tuple[np.ndarray, np.ndarra
     machine = dataclasses.replace(machine, turned=machine.turned + _BEYOND)
     runs = _runs(machine)
     try:
-        found = integrate(
+        outcome = integrate(
             dataclasses.replace(runs, until=times[-1:], times=times[(times > 0) & (times < times[-1])]), "dop853"
         )
-        states = np.vstack([*([runs.start] if times[0] <= 0 else []), found.samples[0], found.y])
+        states = np.vstack([*([runs.start] if times[0] <= 0 else []), outcome.samples[0], outcome.y])
         states = states[np.isfinite(states[:, 1])]
     except NoCompiler:
         states = _solved(machine).sol(times).T
@@ -339,9 +339,9 @@ def _runs(machine: Turning) -> Runs:
 
 
 def _by_scipy(machine: Turning, readings: int) -> tuple[np.ndarray, np.ndarray, bool]:
-    found = _solved(machine)
-    t = np.linspace(0, found.t[-1], readings)
-    return t, found.sol(t), bool(len(found.t_events[1]))
+    solution = _solved(machine)
+    t = np.linspace(0, solution.t[-1], readings)
+    return t, solution.sol(t), bool(len(solution.t_events[1]))
 
 
 def _solved(machine: Turning) -> Any:

@@ -39,33 +39,33 @@ class Scenario:
     run: TimeRun | None  #: None where the shaft cannot even be started
 
 
-def misfire(found: CoDesign, k: int, flywheel: float | None = None) -> Scenario:
+def misfire(design: CoDesign, k: int, flywheel: float | None = None) -> Scenario:
     """One period without combustion from dead centre at a point; `flywheel` [kg*m^2] in place of the design's."""
-    point, inertia = found.task.points[k], found.flywheel if flywheel is None else flywheel
-    machine = machine_at(found, k, inertia)
+    point, inertia = design.task.points[k], design.flywheel if flywheel is None else flywheel
+    machine = machine_at(design, k, inertia)
     return _lost_combustion(machine, point, k)
 
 
-def misfire_shares(found: CoDesign, flywheel: Inertia | None = None) -> list[float | None]:
+def misfire_shares(design: CoDesign, flywheel: Inertia | None = None) -> list[float | None]:
     """Lowest speed after a lost combustion by the mean speed at each point [-]; 0 for a stall, None if not known.
 
     flywheel: in place of the design's.
     """
-    return [_share(found, k, flywheel) for k in range(len(found.task.points))]
+    return [_share(design, k, flywheel) for k in range(len(design.task.points))]
 
 
-def misfire_flywheel(found: CoDesign, share: float, least: Inertia | None = None) -> Inertia | None:
+def misfire_flywheel(design: CoDesign, share: float, least: Inertia | None = None) -> Inertia | None:
     """Flywheel with which a lost combustion leaves a share [-] of the speed at every point, guides unchanged [kg*m^2].
 
     least: what it is at least, by default the design's. Returns inertia: None where a point does not know its misfire.
     """
-    if any(p.misfire is None for p in found.task.points):
+    if any(p.misfire is None for p in design.task.points):
         return None
 
     def short(flywheel: float) -> float:
-        return min(_share(found, k, flywheel) or 0.0 for k in range(len(found.task.points))) - share
+        return min(_share(design, k, flywheel) or 0.0 for k in range(len(design.task.points))) - share
 
-    low = found.flywheel if least is None else least
+    low = design.flywheel if least is None else least
     if short(low) >= 0:
         return low
     high = max(2 * low, 100.0)
@@ -74,12 +74,12 @@ def misfire_flywheel(found: CoDesign, share: float, least: Inertia | None = None
     return float(scipy.optimize.brentq(short, low, high, xtol=min(1.0, 1e-3 * high)))
 
 
-def table(found: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:
+def table(design: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:
     """All scenarios at some points, by default at the first and the last."""
     rows = []
-    for k in ks if ks is not None else sorted({0, len(found.task.points) - 1}):
-        point = found.task.points[k]
-        machine = machine_at(found, k)
+    for k in ks if ks is not None else sorted({0, len(design.task.points) - 1}):
+        point = design.task.points[k]
+        machine = machine_at(design, k)
         if point.misfire is not None:
             rows.append(_lost_combustion(machine, point, k))
         rows += [_load_step(machine, k), _governed(machine, k), _scatter(machine, k, 0.01), _scatter(machine, k, 0.03)]
@@ -87,10 +87,10 @@ def table(found: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:
     return rows
 
 
-def _share(found: CoDesign, k: int, flywheel: float | None) -> float | None:
-    if found.task.points[k].misfire is None:
+def _share(design: CoDesign, k: int, flywheel: float | None) -> float | None:
+    if design.task.points[k].misfire is None:
         return None
-    return misfire(found, k, flywheel).speed_min or 0.0
+    return misfire(design, k, flywheel).speed_min or 0.0
 
 
 def steady_speed(machine: Running) -> tuple[float, float] | None:
@@ -151,13 +151,13 @@ def _governed(machine: Running, k: int) -> Scenario:
 
 def _standstill(machine: Running, k: int) -> Scenario:
     """No run: where the shaft rests, and what turns it from there."""
-    found = manoeuvres.standstill(machine)
-    angles, load = ", ".join(f"{np.degrees(a):.0f}" for a in found.angles), abs(machine.point.load_torque)
-    torque, vented = (quantity_text(value, "N*m", 3) for value in (found.torque, found.vented))
+    stop = manoeuvres.standstill(machine)
+    angles, load = ", ".join(f"{np.degrees(a):.0f}" for a in stop.angles), abs(machine.point.load_torque)
+    torque, vented = (quantity_text(value, "N*m", 3) for value in (stop.torque, stop.vented))
     return Scenario(
         name="standing still", about="springs under pressure, no fuel, no friction", point=k, speed_min=None,
         speed_max=None, run=None,
-        outcome=f"rests at {angles} deg; a constant {torque} ({found.torque / load:.2f} of the load's) "
+        outcome=f"rests at {angles} deg; a constant {torque} ({stop.torque / load:.2f} of the load's) "
                 f"turns it from there for good, {vented} with the springs vented",
     )  # fmt: skip
 
@@ -171,10 +171,10 @@ def _astern(machine: Running, k: int) -> Scenario:
     return Scenario(name=name, about=about, point=k, speed_min=None, speed_max=None, run=None, outcome=words)
 
 
-def _last_turn(found: TimeRun) -> float:
+def _last_turn(run: TimeRun) -> float:
     """Mean speed of the last turn [rad/s]."""
-    last = found.phi >= found.phi[-1] - 2 * np.pi
-    return float(np.ptp(found.phi[last]) / np.ptp(found.t[last]))
+    last = run.phi >= run.phi[-1] - 2 * np.pi
+    return float(np.ptp(run.phi[last]) / np.ptp(run.t[last]))
 
 
 def _scatter(machine: Running, k: int, share: float) -> Scenario:
@@ -231,26 +231,26 @@ _STOPPED = 2.0
 _COAST = 60.0  # most turns of a stop
 
 
-def rows(found: CoDesign, k: int, scavenged: Point | None = None) -> list[Scenario]:
+def rows(design: CoDesign, k: int, scavenged: Point | None = None) -> list[Scenario]:
     """Scenarios of a point. scavenged: the same point with a tenth less scavenge pressure and the load as it was."""
-    machine = machine_at(found, k)
-    made = [] if scavenged is None else [_scavenge_step(found, machine, scavenged, k)]
+    machine = machine_at(design, k)
+    scenarios = [] if scavenged is None else [_scavenge_step(design, machine, scavenged, k)]
     # the controller of one turn, from pressures that are off
-    held, point = hold(found, k, _OFF, turns=4), found.task.points[k]
+    held, point = hold(design, k, _OFF, turns=4), design.task.points[k]
     about = f"pressures {_OFF:.0%} off, set after each turn from the speed of that turn"
     errors = ", ".join(f"{100 * e:.2f}" for e in np.abs(held.pressure_error).max(axis=1))
     words = f"error {errors} % turn by turn, ripple {per_cent(held.ripple[0])} to {per_cent(held.ripple[-1])}"
-    made += [_leak(machine, k), told("controller", about, k, point.omega, held.run, lambda r: words)]
-    return made + ([] if machine.point.misfire is None else [_start(machine, k), _stop(machine, k)])
+    scenarios += [_leak(machine, k), told("controller", about, k, point.omega, held.run, lambda r: words)]
+    return scenarios + ([] if machine.point.misfire is None else [_start(machine, k), _stop(machine, k)])
 
 
-def _scavenge_step(found: CoDesign, machine: Running, scavenged: Point, k: int) -> Scenario:
+def _scavenge_step(design: CoDesign, machine: Running, scavenged: Point, k: int) -> Scenario:
     """The load stays, the gas has another shape: how far from it is the guide, and does a pressure help?"""
     name, about = "scavenge step", "scavenge pressure 10 % lower, mean pressure and spring as before"
     start = steady_speed(machine)
     if start is None:
         return not_running(name, about, k)
-    other = running.running(scavenged, found.tracks, k, found.flywheel)
+    other = running.running(scavenged, design.tracks, k, design.flywheel)
     other = dataclasses.replace(other, extra=machine.extra, load=machine.load)
     run = running.run(other, start[0], _TURNS)
 

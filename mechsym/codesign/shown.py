@@ -18,40 +18,40 @@ from mechsym.style import svg
 
 
 @shows(CoDesignResult)
-def codesign_view(found: CoDesignResult) -> View:
+def codesign_view(result: CoDesignResult) -> View:
     """The flywheel beside what it would be otherwise, the ripple that is kept, what is lost."""
-    design, broken = found.design, found.verified.broken
-    bare = f"added; without a hinge {quantity_text(found.bare, 'kg*m^2', 4)}"
-    shares = [at.total / abs(p.load_torque) for at, p in zip(found.losses, design.task.points, strict=True)]
-    target = found.target
+    design, broken = result.design, result.verified.broken
+    bare = f"added; without a hinge {quantity_text(result.bare, 'kg*m^2', 4)}"
+    shares = [at.total / abs(p.load_torque) for at, p in zip(result.losses, design.task.points, strict=True)]
+    target = result.target
     cards = (
         Card(name="flywheel", value=quantity_text(design.flywheel, "kg*m^2", 4), about=bare),
         Card(name="speed ripple", value=ratio_text(float(max(design.ripple))),
              about=f"largest of all points, {'with' if design.task.losses else 'without'} losses"),
         Card(name="target", value="kept" if target.met else "missed" if target.held else "no design",
-             about=found.answer, mark="yes" if target.met else "no"),
+             about=result.answer, mark="yes" if target.met else "no"),
         Card(name="limits", value="kept" if target.held else "NOT kept", about="; ".join(broken) or design.reason,
              mark="" if target.held else "no"),
         Card(name="losses of the hinge", value=f"{figure(100 * float(max(shares)), 3)} %",
              about="of the load's torque at the worst point, with assumed friction"),
     )  # fmt: skip
     return View(
-        title=f"Co-design of {found.name}", cards=cards, pictures=_pictures(found),
-        columns=lambda: point_columns(found), findings=lambda: of_codesign(found),
+        title=f"Co-design of {result.name}", cards=cards, pictures=_pictures(result),
+        columns=lambda: point_columns(result), findings=lambda: of_codesign(result),
     )  # fmt: skip
 
 
-def _pictures(found: CoDesignResult) -> tuple[Picture, ...]:
+def _pictures(result: CoDesignResult) -> tuple[Picture, ...]:
     """All that there is something to draw for."""
-    design, bound, checked = found.design, found.bound, found.verified
+    design, bound, checked = result.design, result.bound, result.verified
     torques = [abs(p.load_torque) for p in design.task.points]
-    shares = [at.total / torque for at, torque in zip(found.losses, torques, strict=True)]
+    shares = [at.total / torque for at, torque in zip(result.losses, torques, strict=True)]
     ripple = float(np.max([checked.programme_ripple, checked.steady_ripple, checked.time_ripple]))
     closings = [v for c in checked.contacts for v in (c.z_min, c.z_max)]
     radii = [v for c in checked.contacts for v in (c.rho_min, c.rho_max)]
     pressures = _span([float(p) for track in design.tracks for p in track.p0], "Pa")
     wanted, left = (quantity_text(v, "kg*m^2", 4) for v in (np.ptp(bound.wanted, axis=1).max(), bound.best[0].swing))
-    added, bare = (quantity_text(v, "kg*m^2", 4) for v in (design.flywheel, found.bare))
+    added, bare = (quantity_text(v, "kg*m^2", 4) for v in (design.flywheel, result.bare))
     works = "Works that the points want, by the square of their speeds, which swing by up to " + wanted
     if len(torques) > 1:
         works = f"Left: {works[0].lower()}{works[1:]}. Right: what the best single shape leaves, a swing of {left}"
@@ -67,19 +67,19 @@ def _pictures(found: CoDesignResult) -> tuple[Picture, ...]:
     if len(torques) > 1:
         see = f"Ripple by the programme, over the angle and by a run in time, at most {_percent(ripple)} at "
         rows.insert(0, ("points", plots.points, f"{see}{len(torques)} points, and the pressures to set, {pressures}."))
-    if any(s.run is not None for s in found.scenarios):
+    if any(s.run is not None for s in result.scenarios):
         see = "Speed by the mean before, over turns, at the slowest and the fastest point. In a turn without "
         see += "combustion the gas goes back along the compression line and the load brakes on."
         rows.append(("scenarios", plots.scenarios, see))
-    if found.spread is not None:
-        see = f"Left: largest ripple of all points; 19 of 20 machines keep {_percent(found.spread.p95)}. Right: each "
+    if result.spread is not None:
+        see = f"Left: largest ripple of all points; 19 of 20 machines keep {_percent(result.spread.p95)}. Right: each "
         see += "error alone, at two sigma to either side (shares; of n the index itself)."
         rows.append(("spread", plots.spread, see))
-    if found.map is not None:
+    if result.map is not None:
         see = "Ripple, and the pressure with the least ripple, over speed and load; the line joins the points of the "
         see += "design. Ripple above 30 % or a shaft that stops is drawn as 30 %."
         rows.append(("map", plots.ripple_map, see))
-    return tuple(Picture(name=name, see=see, draw=partial(draw, found)) for name, draw, see in rows)
+    return tuple(Picture(name=name, see=see, draw=partial(draw, result)) for name, draw, see in rows)
 
 
 def _percent(share: float) -> str:
@@ -90,19 +90,19 @@ def _span(values: Sequence[float], unit: str) -> str:
     return " to ".join(quantity_text(end, unit, 4) for end in dict.fromkeys((min(values), max(values))))
 
 
-def of_codesign(found: CoDesignResult) -> Iterator[Finding]:
+def of_codesign(result: CoDesignResult) -> Iterator[Finding]:
     """What of a co-design has to be known first."""
-    if not found.target.met:
-        worst = [ripple for ripple in found.target.with_losses if ripple is not None]
-        yield Finding(rank=NOT_MET, words=found.answer, value=max(worst, default=None))
-    points = found.design.task.points
-    known = [(share, k) for k, share in enumerate(found.misfire) if share is not None]
+    if not result.target.met:
+        worst = [ripple for ripple in result.target.with_losses if ripple is not None]
+        yield Finding(rank=NOT_MET, words=result.answer, value=max(worst, default=None))
+    points = result.design.task.points
+    known = [(share, k) for k, share in enumerate(result.misfire) if share is not None]
     if known:
         share, k = min(known)
         where = f" at {quantity_text(points[k].omega, 'rad/s', 4)}" if len(points) > 1 else ""
         yield from lost_combustion(share, where)
-    if found.taken != "none":
-        shares = [at.total / abs(p.load_torque) for at, p in zip(found.losses, points, strict=True)]
+    if result.taken != "none":
+        shares = [at.total / abs(p.load_torque) for at, p in zip(result.losses, points, strict=True)]
         words = f"friction in the hinge is assumed: {figure(100 * max(shares), 3)} % of the torque at the worst point"
         yield Finding(rank=LEAST_SURE, words=words, value=max(shares))
 
@@ -126,12 +126,12 @@ _SIZES = (
 _DANGERS = ("misfire", "burst", "leak", "astern")  # what a builder asks about first
 
 
-def write(result: CoDesignResult, numbers: CoDesignNumbers, told: Json, folder: Path) -> list[Path]:
+def write(result: CoDesignResult, numbers: CoDesignNumbers, summary: Json, folder: Path) -> list[Path]:
     """Write page, summary as it is `told`, tables and pictures into a folder, which is made when missing."""
     pictures = {picture.name: svg(picture.draw()) for picture in result.view.pictures}
     files = [
         write_text(folder / "report.html", html(result, numbers, pictures)),
-        write_text(folder / "summary.json", to_json(told) + "\n"),
+        write_text(folder / "summary.json", to_json(summary) + "\n"),
         _table(folder / "points.csv", point_columns(result)),
     ]
     for s, track in enumerate(result.design.tracks):

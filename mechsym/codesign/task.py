@@ -198,10 +198,10 @@ def limit_rows(at: Station, limits: Record, least: Metre, reach: Metre[Scalar] |
 
     limits: settings as symbols. least: smallest closing. reach: largest radius that rollers may reach; None asks none.
     """
-    made = [((at.z - least) / at.spring.H, 0.0, np.inf)]
+    entries = [((at.z - least) / at.spring.H, 0.0, np.inf)]
     for _, limit, setting in asked(limits, CENTRE):
         if limit.holds(at.spring, at.count):
-            made += limit.rows(at, setting)
+            entries += limit.rows(at, setting)
     if reach is not None:
-        made.append(((at.rho + at.rollers.radius) / reach, -np.inf, 1.0))
-    return tuple(made)
+        entries.append(((at.rho + at.rollers.radius) / reach, -np.inf, 1.0))
+    return tuple(entries)

@@ -60,15 +60,15 @@ def basis(period: float, kinks: Sequence[float], count: int) -> Basis:
 
 def matrices(basis: Basis, phi: np.ndarray) -> tuple[ca.DM, ca.DM, ca.DM]:
     """Sparse matrices of shape (n, m) from coefficients to the value and its first two derivatives at phi [rad]."""
-    splines, found = scipy.interpolate.BSpline(_extended(basis), np.eye(basis.count + _DEGREE), _DEGREE), []
+    splines, columns = scipy.interpolate.BSpline(_extended(basis), np.eye(basis.count + _DEGREE), _DEGREE), []
     phi = basis.knots[0] + (phi - basis.knots[0]) % basis.period
     for order in range(3):
         spread = splines.derivative(order)(phi) if order else splines(phi)
         folded = spread[:, : basis.count].copy()
         folded[:, :_DEGREE] += spread[:, basis.count :]
         folded[np.abs(folded) < 1e-14] = 0.0
-        found.append(ca.sparsify(ca.DM(folded)))
-    return found[0], found[1], found[2]
+        columns.append(ca.sparsify(ca.DM(folded)))
+    return columns[0], columns[1], columns[2]
 
 
 def curve(basis: Basis, coefficients: np.ndarray) -> "scipy.interpolate.PPoly":
@@ -125,9 +125,9 @@ class Gathered:
 
     def unknown(self, name: str, start: np.ndarray, low: float = -np.inf, high: float = np.inf) -> ca.SX:
         """A column of unknowns with its start and bounds [-]."""
-        found = ca.SX.sym(name, len(start))
-        self.add(found, start, low, high)
-        return found
+        letters = ca.SX.sym(name, len(start))
+        self.add(letters, start, low, high)
+        return letters
 
     def add(self, symbols: ca.SX, start: np.ndarray, low: float = -np.inf, high: float = np.inf) -> None:
         """Unknowns that exist already, with their start and bounds [-]."""
@@ -147,7 +147,7 @@ class Gathered:
 def guides(task: CoDesignTask, samples: Samples, splines: Basis, gathered: Gathered) -> list[GuideSymbols]:
     """Symbols of each guide, with their start; the pressures of a guide stand below one bound."""
     B, B1, B2 = matrices(splines, samples.phi)
-    pressures, found, given = start_pressures(task, samples), [], task.hardware
+    pressures, symbols, given = start_pressures(task, samples), [], task.hardware
     count = 1 if task.schedule == "one" else len(task.points)
     for s, shape in enumerate(shapes(task, samples)):
         values, shares = _hardware(task, s, gathered)
@@ -159,11 +159,11 @@ def guides(task: CoDesignTask, samples: Samples, splines: Basis, gathered: Gathe
         rollers = roller_inertia(
             path.rho, path.drho, values["moving_mass"], given.roller_inertia, values["radius"], given.count
         )
-        found.append(GuideSymbols(
+        symbols.append(GuideSymbols(
             coefficients=c, p0=ca.repmat(p0, len(task.points) // count, 1), largest=largest, scale=scale,
             values=values, shares=tuple(shares), path=path, inertia=given.shaft_ratio**2 * rollers,
         ))  # fmt: skip
-    return found
+    return symbols
 
 
 def _hardware(task: CoDesignTask, s: int, gathered: Gathered) -> tuple[dict[str, ca.SX], list[ca.SX]]:
@@ -204,27 +204,27 @@ class Warmth:
 
 
 def warmths(
-    task: CoDesignTask, samples: Samples, found: list[GuideSymbols], given: HingeLosses, gathered: Gathered
+    task: CoDesignTask, samples: Samples, symbols: list[GuideSymbols], given: HingeLosses, gathered: Gathered
 ) -> list[Warmth | None]:
     """Temperatures at each point; points with the same x share their unknowns. None of a law without heat."""
     known: dict[float, Warmth] = {}
-    made: list[Warmth | None]
-    made, started = [], shapes(task, samples)
+    by_guide: list[Warmth | None]
+    by_guide, started = [], shapes(task, samples)
     for point in task.points:
         walled = task.hardware.spring.with_wall(given, point.omega)
         if walled is None:
-            made.append(None)
+            by_guide.append(None)
             continue
         x = round(point.omega * walled.tau, 12)
         if x not in known:
-            ratio = (_warmth(g, z, task, samples, x, given, gathered) for g, z in zip(found, started, strict=True))
+            ratio = (_warmth(g, z, task, samples, x, given, gathered) for g, z in zip(symbols, started, strict=True))
             known[x] = Warmth(walled=walled, x=x, ratio=tuple(ratio))
-        made.append(known[x])
-    return made
+        by_guide.append(known[x])
+    return by_guide
 
 
 def taken(
-    task: CoDesignTask, point: Point, samples: Samples, found: list[GuideSymbols], pressures: list[ca.SX],
+    task: CoDesignTask, point: Point, samples: Samples, symbols: list[GuideSymbols], pressures: list[ca.SX],
     warm: Warmth | None, given: HingeLosses, gathered: Gathered,
 ) -> Taken:  # fmt: skip
     """Energy of the gas, work lost and mean loss at one point; pressures at free height [Pa], one for each guide."""
@@ -232,7 +232,7 @@ def taken(
     unknown = gathered.unknown("lost", np.zeros(n))
     mean, lost = scale * unknown[0] / point.period, scale * ca.vertcat(0.0, unknown[1:])
     rate, stored = ca.SX(n, 1), ca.SX(n, 1)
-    for s, (guide, p0) in enumerate(zip(found, pressures, strict=True)):
+    for s, (guide, p0) in enumerate(zip(symbols, pressures, strict=True)):
         z = guide.path.z
         if warm is None:
             spring = task.hardware.charged(p0, **guide.values)

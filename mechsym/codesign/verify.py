@@ -44,38 +44,38 @@ class Spread:
         return float(np.quantile(self.samples, 0.95))
 
 
-def spread(found: CoDesign, count: int = 200, errors: dict[str, Pure] | None = None) -> Spread:
+def spread(design: CoDesign, count: int = 200, errors: dict[str, Pure] | None = None) -> Spread:
     """Ripple of a co-design whose pressures are set as designed, while the machine is a little off.
 
     errors: one sigma of some in place of their own; pressures are off by one share for all springs.
     """
-    first, *others = found.task.hardware.spring.sensitive
+    first, *others = design.task.hardware.spring.sensitive
     sigma = {first: _SETTING, **dict.fromkeys(others, _OTHER), **_ERRORS, **(errors or {})}
     draws = np.random.default_rng(_SEED).standard_normal((count, len(sigma)))
-    lost = _lost(found)
-    samples = [_worst(found, dict(zip(sigma, row * list(sigma.values()), strict=True)), lost) for row in draws]
+    lost = _lost(design)
+    samples = [_worst(design, dict(zip(sigma, row * list(sigma.values()), strict=True)), lost) for row in draws]
     alone = {
-        name: (_worst(found, {name: -2 * s}, lost), _worst(found, {name: 2 * s}, lost)) for name, s in sigma.items()
+        name: (_worst(design, {name: -2 * s}, lost), _worst(design, {name: 2 * s}, lost)) for name, s in sigma.items()
     }
     return Spread(samples=np.sort(samples), alone=alone, errors=sigma)
 
 
-def worst(found: CoDesign, off: dict[str, float]) -> float:
+def worst(design: CoDesign, off: dict[str, float]) -> float:
     """Largest ripple of all points with errors by name [-]; 2 where the shaft stops."""
-    return _worst(found, off, _lost(found))
+    return _worst(design, off, _lost(design))
 
 
-def _worst(found: CoDesign, off: dict[str, float], lost: "list[scipy.interpolate.PPoly | None]") -> float:
-    tracks = [_changed(track, off) for track in found.tracks]
-    flywheel = found.flywheel * (1 + off.get("flywheel", 0.0))
+def _worst(design: CoDesign, off: dict[str, float], lost: "list[scipy.interpolate.PPoly | None]") -> float:
+    tracks = [_changed(track, off) for track in design.tracks]
+    flywheel = design.flywheel * (1 + off.get("flywheel", 0.0))
     rows = [_ripple(p, tracks, k, flywheel, off, extra) for k, (p, extra) in
-            enumerate(zip(found.task.points, lost, strict=True))]  # fmt: skip
+            enumerate(zip(design.task.points, lost, strict=True))]  # fmt: skip
     return max(_UNCERTAINTY_STOPPED if r is None else r for r in rows)
 
 
-def _lost(found: CoDesign) -> "list[scipy.interpolate.PPoly | None]":
+def _lost(design: CoDesign) -> "list[scipy.interpolate.PPoly | None]":
     """Torque of friction and heat at each point [N*m], where the programme had them."""
-    return [machine_at(found, k).extra for k in range(len(found.task.points))]
+    return [machine_at(design, k).extra for k in range(len(design.task.points))]
 
 
 def _ripple(
@@ -160,18 +160,18 @@ class Verified:
         return float(np.max(np.ptp(three, axis=0)) / max(float(np.max(three)), 1e-12))
 
 
-def verify(found: CoDesign) -> Verified:
+def verify(design: CoDesign) -> Verified:
     """Run a co-design as built at all its points: ripples and residuals [-], contact, limits that are passed."""
     steady, time_ripple, residual = [], [], []
-    for k, point in enumerate(found.task.points):
-        machine = machine_at(found, k)
+    for k, point in enumerate(design.task.points):
+        machine = machine_at(design, k)
         motion = running.steady(machine)
         steady.append(motion)
         if motion.speed_mean is None:
             time_ripple.append(np.nan)
             residual.append(np.nan)
             continue
-        start, inside = float(motion.omega[0]), found.task.losses
+        start, inside = float(motion.omega[0]), design.task.losses
         run = (
             in_time(machine, inside, start, PERIODS)
             if inside
@@ -180,16 +180,16 @@ def verify(found: CoDesign) -> Verified:
         ripple = running.ripple_of_last_turn(run, point.period)
         time_ripple.append(np.nan if ripple is None else ripple)
         residual.append(run.energy_residual)
-    contacts = tuple(contact(track, found.task.points) for track in found.tracks)
+    contacts = tuple(contact(track, design.task.points) for track in design.tracks)
     return Verified(
         steady=tuple(steady),
-        programme_ripple=found.ripple,
+        programme_ripple=design.ripple,
         steady_ripple=np.array([np.nan if s.speed_ripple is None else s.speed_ripple for s in steady]),
         time_ripple=np.array(time_ripple),
         energy_residual=np.array(residual),
         contacts=contacts,
-        broken=tuple(words for c, t in zip(contacts, found.tracks, strict=True) for words in _broken(c, t, found)),
-        used=used(found),
+        broken=tuple(words for c, t in zip(contacts, design.tracks, strict=True) for words in _broken(c, t, design)),
+        used=used(design),
     )
 
 
@@ -217,40 +217,40 @@ def _stations(track: Track, points: Sequence[Point]) -> list[Station]:
     return [h.station(path, h.charged(float(p0)), q.omega) for p0, q in zip(track.p0, points, strict=True)]
 
 
-def passed(found: CoDesign) -> dict[str, float]:
+def passed(design: CoDesign) -> dict[str, float]:
     """Limits that a design passes between the angles of its programme or at its easier points, by what share [-]."""
-    return {key: share - 1 for key, share in used(found).items() if share > 1 + _SLACK}
+    return {key: share - 1 for key, share in used(design).items() if share > 1 + _SLACK}
 
 
-def used(found: CoDesign) -> dict[str, float]:
+def used(design: CoDesign) -> dict[str, float]:
     """Share of each limit that the guide uses which uses most of it [-]."""
     shares: dict[str, float] = {}
-    for track in found.tracks:
-        for key, _, setting, share, _ in _asked(track, found):
+    for track in design.tracks:
+        for key, _, setting, share, _ in _asked(track, design):
             # the contact pressure of an undercut profile is said by the undercut
             if setting is not None and np.isfinite(share):
                 shares[key] = max(shares.get(key, -np.inf), share)
     return shares
 
 
-def _asked(track: Track, found: CoDesign) -> Iterator[tuple[str, GuideLimit, float, float, Station]]:
+def _asked(track: Track, design: CoDesign) -> Iterator[tuple[str, GuideLimit, float, float, Station]]:
     """Key, limit, setting, the largest share that is used [-] and the point where it is."""
-    stations = _stations(track, found.task.points)
-    for key, limit, setting in asked(found.task.bounds, CENTRE):
+    stations = _stations(track, design.task.points)
+    for key, limit, setting in asked(design.task.bounds, CENTRE):
         if limit.holds(track.hardware.spring, track.hardware.count):
             tops = [float(np.max(limit.share(at, setting))) for at in stations]
             most = int(np.argmax(tops))
             yield key, limit, setting, tops[most], stations[most]
 
 
-def _broken(c: GuideLoads, track: Track, found: CoDesign) -> list[str]:
+def _broken(c: GuideLoads, track: Track, design: CoDesign) -> list[str]:
     h, words, reach = track.hardware, [], c.rho_max + track.hardware.radius
-    for _, limit, setting, share, at in _asked(track, found):
+    for _, limit, setting, share, at in _asked(track, design):
         if share > 1 + _SLACK:
             most = float(np.min(limit.most(at, setting)))
             words.append(limit.told(share * most, most, setting, at))
-    if reach > (1 + _SLACK) * found.task.widest:
-        words.append(f"radius that the rollers reach {1e3 * reach:.4g} of at most {1e3 * found.task.widest:.4g} mm")
+    if reach > (1 + _SLACK) * design.task.widest:
+        words.append(f"radius that the rollers reach {1e3 * reach:.4g} of at most {1e3 * design.task.widest:.4g} mm")
     if c.reaction_min.min() <= 0:
         words.append(f"a roller leaves its track (contact force {c.reaction_min.min() / 1e3:.4g} kN)")
     if c.z_min < h.z_margin - _SLACK * h.spring.H:

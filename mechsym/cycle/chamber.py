@@ -222,8 +222,8 @@ def chamber_over(kinematics: ca.Function, bore: Metre, compression_ratio: Pure, 
 def motion_over(kinematics: ca.Function) -> Motion:
     """The motion of a piston without mass; argument as for `chamber_over`."""
     phi, none = ca.SX.sym("phi"), ca.SX.sym("none", 0)
-    found = dict(zip(kinematics.name_out(), kinematics.call([phi]), strict=True))
-    x, dx = found["x"], found["dx_dphi"]
+    values = dict(zip(kinematics.name_out(), kinematics.call([phi]), strict=True))
+    x, dx = values["x"], values["dx_dphi"]
     function = ca.Function("travel", [phi, none], [x, dx, ca.jacobian(dx, phi)])
     return with_bottom(Motion(name="piston", function=function, parameters={}, masses=()))
 

@@ -204,8 +204,10 @@ def compare(a: Json, b: Json, cases: tuple[str, ...] = ()) -> EngineComparison:
     return EngineComparison(cases=cases, numbers=numbers)
 
 
-def _flat(found: Json) -> dict[str, np.ndarray]:
-    return {k: np.asarray(v) for k, v in found.items() if k not in ("fractions", "loads")} | dict(found["fractions"])
+def _flat(figures: Json) -> dict[str, np.ndarray]:
+    return {k: np.asarray(v) for k, v in figures.items() if k not in ("fractions", "loads")} | dict(
+        figures["fractions"]
+    )
 
 
 def _pair(name: str, a: float, b: float) -> Json:

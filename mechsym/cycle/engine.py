@@ -66,35 +66,35 @@ def _joined(parts: list[Performance]) -> Performance:
     return Performance(**values)
 
 
-def columns(found: Performance) -> Json:
+def columns(result: Performance) -> Json:
     """Figures by names and units of the command line: `speed_rpm`, ...; `fractions` and `loads` are mappings."""
-    shares = {name: getattr(found, name) for name in ("heat", "work", "exhaust", "unburnt")}
+    shares = {name: getattr(result, name) for name in ("heat", "work", "exhaust", "unburnt")}
     return {
-        "speed_rpm": found.omega / RPM,
-        "torque_avg": found.torque_avg,
-        "torque_max": found.torque_max,
-        "power_kw": found.power / 1e3,
-        "mep_kpa": found.mep / 1e3,
-        "gross_mep_kpa": (found.mep - found.pumping_mep) / 1e3,
-        "pumping_mep_kpa": found.pumping_mep / 1e3,
-        "sfc_g_kwh": found.sfc * 3.6e9,
-        "efficiency": found.efficiency,
-        "p_max_mpa": found.p_max / 1e6,
-        "p_max_angle_deg": np.degrees(found.p_max_angle),
-        **found.burnt,
-        "t_max_k": found.t_max,
-        "knock": found.knock,
-        "force_max": found.force_max,
+        "speed_rpm": result.omega / RPM,
+        "torque_avg": result.torque_avg,
+        "torque_max": result.torque_max,
+        "power_kw": result.power / 1e3,
+        "mep_kpa": result.mep / 1e3,
+        "gross_mep_kpa": (result.mep - result.pumping_mep) / 1e3,
+        "pumping_mep_kpa": result.pumping_mep / 1e3,
+        "sfc_g_kwh": result.sfc * 3.6e9,
+        "efficiency": result.efficiency,
+        "p_max_mpa": result.p_max / 1e6,
+        "p_max_angle_deg": np.degrees(result.p_max_angle),
+        **result.burnt,
+        "t_max_k": result.t_max,
+        "knock": result.knock,
+        "force_max": result.force_max,
         "fractions": shares,
-        "loads": found.loads,
-        "friction_mep_kpa": found.friction_mep / 1e3,
-        "brake_mep_kpa": (found.mep - found.friction_mep) / 1e3,
-        "brake_torque": found.brake_torque,
-        "brake_power_kw": found.brake_power / 1e3,
-        "brake_sfc_g_kwh": found.brake_sfc * 3.6e9,
-        "brake_efficiency": found.brake_efficiency,
-        "mechanical_efficiency": mechanical_efficiency(found.brake_power, found.power),
-        "energy_residual": found.energy_residual,
+        "loads": result.loads,
+        "friction_mep_kpa": result.friction_mep / 1e3,
+        "brake_mep_kpa": (result.mep - result.friction_mep) / 1e3,
+        "brake_torque": result.brake_torque,
+        "brake_power_kw": result.brake_power / 1e3,
+        "brake_sfc_g_kwh": result.brake_sfc * 3.6e9,
+        "brake_efficiency": result.brake_efficiency,
+        "mechanical_efficiency": mechanical_efficiency(result.brake_power, result.power),
+        "energy_residual": result.energy_residual,
     }
 
 
@@ -126,13 +126,13 @@ _PERIOD = 4 * math.pi
 
 def gas_of_engine(engine: ClosedEngine, omega: RadPerSecond) -> Gas:
     """Gas of an engine at one speed."""
-    found, room, charge = curves(engine, omega, _STEP), chamber(engine.chamber, engine.motion), engine.cycle
-    phi, p, left, gamma = np.radians(found["phi_deg"]), found["p_pa"], charge.intake_pressure, 1.0
+    curve, room, charge = curves(engine, omega, _STEP), chamber(engine.chamber, engine.motion), engine.cycle
+    phi, p, left, gamma = np.radians(curve["phi_deg"]), curve["p_pa"], charge.intake_pressure, 1.0
     events: tuple[float, ...] = (charge.exhaust_opens, charge.inlet_closes)
     fact = "gas exchange takes place at intake pressure: assumed, the cycle models the closed period only"
     if engine.blowdown is not None:
         build = partial(closed_period, engine)
-        exchange = open_period(build, {"omega": np.array([omega])}, found["t_k"][-1:])
+        exchange = open_period(build, {"omega": np.array([omega])}, curve["t_k"][-1:])
         phi, p = np.append(phi, exchange.phi[0, 1:]), np.append(p, exchange.p[0, 1:])
         left, gamma = float(p[-1]), float(exchange.gamma[0])
         events = (*events, 2 * math.pi, _drawn_from(room, left / charge.intake_pressure, gamma))
@@ -146,7 +146,7 @@ def gas_of_engine(engine: ClosedEngine, omega: RadPerSecond) -> Gas:
         return np.where(known, np.interp(angle, phi, p), drawn)
 
     absolute = periodic(cycle, _PERIOD, -2 * math.pi)  # from the dead centre of gas exchange on
-    hottest = float(found["t_k"].max())
+    hottest = float(curve["t_k"].max())
     pressure = pressure_over("spark-ignition", absolute, _PERIOD, (), room, t_max=hottest, facts=(fact,))
     # where the pressure jumps, or its slope
     return Gas(pressure=replace(pressure, kinks=tuple(sorted(angle % _PERIOD for angle in events))), chamber=room)

@@ -56,7 +56,7 @@ class Gas(Shown):
         )
 
 
-def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
+def at_same_travel(gas: Gas, own: ca.Function, other: ca.Function) -> Gas:
     r"""The same indicator diagram over another motion of equal stroke: equal pressure at equal travel, so equal work.
 
     .. math:: p_{other}(\theta) = p(\varphi), \quad x_{own}(\varphi) = x_{other}(\theta)
@@ -72,15 +72,15 @@ def at_same_travel(found: Gas, own: ca.Function, other: ca.Function) -> Gas:
         theta = np.asarray(theta, dtype=float)
         half = np.ceil(theta / math.pi) - 1  # a valve that opens at the dead centre opens after it
         angle = np.arccos(np.clip(cosine(np.cos(theta)), -1.0, 1.0))
-        return found.pressure.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
+        return gas.pressure.absolute(np.where(half % 2 == 0, half * math.pi + angle, (half + 1) * math.pi - angle))
 
-    p_max, angle = peak(absolute, found.pressure.period, ())
-    pressure = dataclasses.replace(found.pressure, absolute=absolute, kinks=(), p_max=p_max, phi_p_max=angle, phases={})
-    room = dataclasses.replace(found.chamber, motion=motion_over(other))
-    return dataclasses.replace(found, pressure=pressure, chamber=room)
+    p_max, angle = peak(absolute, gas.pressure.period, ())
+    pressure = dataclasses.replace(gas.pressure, absolute=absolute, kinks=(), p_max=p_max, phi_p_max=angle, phases={})
+    room = dataclasses.replace(gas.chamber, motion=motion_over(other))
+    return dataclasses.replace(gas, pressure=pressure, chamber=room)
 
 
-def over_travel(found: Gas, own: ca.Function, other: ca.Function, late: Radian = 0.0) -> Gas:
+def over_travel(gas: Gas, own: ca.Function, other: ca.Function, late: Radian = 0.0) -> Gas:
     r"""The same diagram over a motion that is not even in the angle: equal pressure at equal shares of stroke.
 
     .. math:: p_{other}(\theta) = p(\varphi), \quad x_{own}(\varphi)/s_{own} = x_{other}(\theta)/s_{other}
@@ -96,16 +96,16 @@ def over_travel(found: Gas, own: ca.Function, other: ca.Function, late: Radian =
     def back(phi: float) -> float:
         return float(scipy.optimize.brentq(lambda theta: float(angle(theta)) - phi, phi - 1.0, phi + 1.0, xtol=1e-14))
 
-    whole = found.pressure
+    whole = gas.pressure
     pressure = dataclasses.replace(
         whole, absolute=lambda theta: whole.absolute(angle(np.asarray(theta, dtype=float))),
         kinks=tuple(sorted(back(kink) % whole.period for kink in whole.kinks)), phi_p_max=back(whole.phi_p_max),
     )  # fmt: skip
-    room, ratio = found.chamber, other_stroke / own_stroke
+    room, ratio = gas.chamber, other_stroke / own_stroke
     room = dataclasses.replace(
         room, stroke=ratio * room.stroke, displacement=ratio * room.displacement, clearance=ratio * room.clearance
     )
-    return dataclasses.replace(found, pressure=pressure, chamber=room)
+    return dataclasses.replace(gas, pressure=pressure, chamber=room)
 
 
 _Shift = Callable[[np.ndarray], np.ndarray]

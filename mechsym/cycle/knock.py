@@ -82,43 +82,43 @@ def share_of_delay(
 
 
 def knock_integral(
-    found: Mapping[str, ca.MX], steps: int, gas: ConstantGamma | NasaMixture, octane: Pure[Scalar]
+    values: Mapping[str, ca.MX], steps: int, gas: ConstantGamma | NasaMixture, octane: Pure[Scalar]
 ) -> Scalar:
     """Livengood and Wu's integral of a closed period, from the closing of the inlet to the end of combustion [-].
 
-    found: mapping of str to CasADi expression, what `closed_function` gives: nodes `p` [Pa] and `t` [K], and the angles
-    between the phases [rad]. steps: steps of that function in all. octane: octane number of the fuel.
+    values: mapping of str to CasADi expression, what `closed_function` gives: nodes `p` [Pa] and `t` [K], and the
+    angles between the phases [rad]. steps: steps of that function in all. octane: octane number of the fuel.
     """
     first, second = steps_of("before", steps) + 1, steps_of("during", steps) + 1
-    before = found["p"][:first], found["t"][:first]
-    p, p_0, T_0 = found["p"][first : first + second], before[0][first - 1], before[1][first - 1]
+    before = values["p"][:first], values["t"][:first]
+    p, p_0, T_0 = values["p"][first : first + second], before[0][first - 1], before[1][first - 1]
     T = end_gas_temperature(p, p_0, T_0, kappa(gas, T_0))
     power = GRADING["during"]
     grading = ca.DM(power * np.linspace(0, 1, second) ** (power - 1)).T
-    still, burning = found["starts"] - found["closes"], found["ends"] - found["starts"]
-    ahead = share_of_delay(still * ca.DM.ones(1, first), *before, found["omega"], octane)
-    return ahead + share_of_delay(burning * grading, p, T, found["omega"], octane)
+    still, burning = values["starts"] - values["closes"], values["ends"] - values["starts"]
+    ahead = share_of_delay(still * ca.DM.ones(1, first), *before, values["omega"], octane)
+    return ahead + share_of_delay(burning * grading, p, T, values["omega"], octane)
 
 
 def knock_of_runs(
-    found: Mapping[str, np.ndarray], gas: ConstantGamma | NasaMixture, octane: Pure[Scalar]
+    values: Mapping[str, np.ndarray], gas: ConstantGamma | NasaMixture, octane: Pure[Scalar]
 ) -> Pure[Array]:
     """The same integral of closed periods that are numbers, one beside the other.
 
-    found: nodes `p` [Pa] and `t` [K] of shape (k, steps + 3), angles between the phases [rad] and `omega` [rad/s] of
+    values: nodes `p` [Pa] and `t` [K] of shape (k, steps + 3), angles between the phases [rad] and `omega` [rad/s] of
     shape (k,); octane: octane number of the fuel, shape (k,). Returns share: 1 where the end gas ignites by itself,
     shape (k,).
     """
-    steps = found["p"].shape[1] - 3
+    steps = values["p"].shape[1] - 3
     first, second = steps_of("before", steps) + 1, steps_of("during", steps) + 1
-    column = {name: np.asarray(found[name], float)[:, None] for name in ("closes", "starts", "ends", "omega")}
-    number = np.broadcast_to(np.asarray(octane, float), found["p"].shape[:1])[:, None]
-    p, p_0, T_0 = found["p"][:, first : first + second], found["p"][:, [first - 1]], found["t"][:, [first - 1]]
+    column = {name: np.asarray(values[name], float)[:, None] for name in ("closes", "starts", "ends", "omega")}
+    number = np.broadcast_to(np.asarray(octane, float), values["p"].shape[:1])[:, None]
+    p, p_0, T_0 = values["p"][:, first : first + second], values["p"][:, [first - 1]], values["t"][:, [first - 1]]
     T = end_gas_temperature(p, p_0, T_0, kappa(gas, T_0))
     power = GRADING["during"]
     grading = power * np.linspace(0, 1, second) ** (power - 1)
     ahead = share_of_delay(
-        column["starts"] - column["closes"], found["p"][:, :first], found["t"][:, :first], column["omega"], number
+        column["starts"] - column["closes"], values["p"][:, :first], values["t"][:, :first], column["omega"], number
     )
     return np.asarray(
         ahead + share_of_delay((column["ends"] - column["starts"]) * grading, p, T, column["omega"], number)

@@ -41,26 +41,26 @@ def piston_motion(
         mechanism = one_coordinate(bind(name, parameters), guesses or {})
     elif len(mechanism.coordinates) != 1:
         raise BadInput(f"mechanism {name} has {len(mechanism.coordinates)} coordinates; a cycle needs one crank angle")
-    found = Motion(
+    motion = Motion(
         name=name,
         function=from_top(slopes(mechanism, role.travel, symbols), parameters),
         parameters=dict(parameters),
         masses=role.masses,
         loads=_loads(mechanism, symbols, role, parameters) if role.loads else None,
     )
-    found = with_bottom(found)
-    check_motion(found)
-    return found
+    motion = with_bottom(motion)
+    check_motion(motion)
+    return motion
 
 
 def pistons_of(name: str) -> tuple[PistonRole, ...]:
     """What the declaration of a mechanism says of its pistons. Raises BadInput: it has none."""
-    found = mechanisms.roles_of(name).pistons
-    if not found:
+    pistons = mechanisms.roles_of(name).pistons
+    if not pistons:
         raise BadInput(
             f"mechanism {name!r} has no piston for an engine cycle; declare one with m.piston(name, travel=x, force=F)"
         )
-    return found
+    return pistons
 
 
 def top_of(travel: ca.Function) -> Radian:
@@ -129,20 +129,20 @@ def slopes(mechanism: Mechanism, name: str, symbols: Mapping[str, ca.SX]) -> ca.
 def travel_of(mechanism: Mechanism, name: str) -> ca.Function:
     """Travel of a piston and its derivative over the crank angle [rad]: [m], [m/rad]."""
     phi = ca.SX.sym("phi")
-    found = slopes(mechanism, name, {})
-    return ca.Function("travel", [phi], found.call([phi]), ["phi"], ["x", "dx_dphi", "d2x_dphi2"])
+    travel = slopes(mechanism, name, {})
+    return ca.Function("travel", [phi], travel.call([phi]), ["phi"], ["x", "dx_dphi", "d2x_dphi2"])
 
 
-def from_top(found: ca.Function, parameters: Mapping[str, float] | None = None) -> ca.Function:
+def from_top(function: ca.Function, parameters: Mapping[str, float] | None = None) -> ca.Function:
     """A travel from its top dead centre on, which is found for the numbers of the parameters."""
     phi = ca.SX.sym("phi")
     given = [ca.SX.sym("parameters", len(parameters))] if parameters else []
     numbers = [ca.DM(list(parameters.values()))] if parameters else []
-    top = top_of(ca.Function("travel", [phi], found.call([phi, *numbers])[:2]))
-    if top == 0.0 and abs(float(found.call([0.0, *numbers])[0])) == 0.0:
-        return found
-    start = found.call([ca.SX(top), *given])[0]
-    x, first, second = found.call([phi + top, *given])
+    top = top_of(ca.Function("travel", [phi], function.call([phi, *numbers])[:2]))
+    if top == 0.0 and abs(float(function.call([0.0, *numbers])[0])) == 0.0:
+        return function
+    start = function.call([ca.SX(top), *given])[0]
+    x, first, second = function.call([phi + top, *given])
     return ca.Function("travel", [phi, *given], [x - start, first, second])
 
 

@@ -66,19 +66,19 @@ def performance_picture(path: Path, engines: Mapping[str, Json]) -> Path:
     figure, axes = panels(12, 7.2, 2, 3, "Torque, power, consumption, peak pressure and shares of energy over speed")
     (turning, turning_unit), runs = axis_unit("rpm"), tuple(zip(_LOOKS, engines.items(), strict=False))
     for axis, (key, label, unit) in zip(axes, _MAP, strict=False):
-        factor, shown = axis_unit(unit, *(found[key] for found in engines.values()))
-        for (line, color), (name, found) in runs:
-            speed, values = (np.asarray(found[n], dtype=float) for n in ("speed_rpm", key))
+        factor, shown = axis_unit(unit, *(figures[key] for figures in engines.values()))
+        for (line, color), (name, figures) in runs:
+            speed, values = (np.asarray(figures[n], dtype=float) for n in ("speed_rpm", key))
             axis.plot(speed * turning, values * factor, line, color=color, label=name)
         axis.set_ylabel(f"{label} [{shown}]")
         if key == "sfc_g_kwh" and _known(engines, key):
             low, high = _without_start(engines, key)
             axis.set_ylim(low * factor, high * factor)
-    for (line, color), (name, found) in runs:
-        speed = np.asarray(found["speed_rpm"]) * turning
-        for shade, (share, values) in zip(SERIES, found["fractions"].items(), strict=False):
+    for (line, color), (name, figures) in runs:
+        speed = np.asarray(figures["speed_rpm"]) * turning
+        for shade, (share, values) in zip(SERIES, figures["fractions"].items(), strict=False):
             axes[4].plot(speed, values, line, color=shade, label=f"{share} {name}".strip())
-        axes[5].plot(speed, found["efficiency"], line, color=color, label=name)
+        axes[5].plot(speed, figures["efficiency"], line, color=color, label=name)
     for axis, label in ((axes[4], "share of the fuel's energy"), (axes[5], "efficiency")):
         axis.set_ylabel(f"{label} [-]")
     if not _known(engines, "efficiency"):  # an algebraic cycle knows no fuel
@@ -112,12 +112,12 @@ def pareto_picture(
 
 
 def _known(engines: Mapping[str, Json], key: str) -> bool:
-    return any(np.isfinite(np.asarray(found[key], dtype=float)).any() for found in engines.values())
+    return any(np.isfinite(np.asarray(figures[key], dtype=float)).any() for figures in engines.values())
 
 
 def _without_start(engines: Mapping[str, Json], key: str) -> tuple[float, float]:
     # at a few rpm all heat goes into the walls and the consumption leaves the picture
-    values = np.concatenate([found[key] for found in engines.values()])
+    values = np.concatenate([figures[key] for figures in engines.values()])
     low = float(np.nanmin(values))
     return 0.98 * low, min(float(np.nanmax(values)), 1.4 * low)
 

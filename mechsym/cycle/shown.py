@@ -81,33 +81,33 @@ _OF_ONE_SPEED = ("ca50_deg",)
 
 
 @shows(CycleFigures)
-def cycle_view(found: CycleFigures) -> View:
+def cycle_view(figures: CycleFigures) -> View:
     """Brake figures first, indicated ones beside them; of several speeds each where it is best."""
-    rpm = np.asarray(found["speed_rpm"])
-    one, rubs = rpm.size == 1, np.any(found.get("friction_mep_kpa", 0.0))
-    words = {} if found.source is None else found.source.page.words
+    rpm = np.asarray(figures["speed_rpm"])
+    one, rubs = rpm.size == 1, np.any(figures.get("friction_mep_kpa", 0.0))
+    words = {} if figures.source is None else figures.source.page.words
     cards = [card(CycleColumns, "speed_rpm", rpm[0])] if one else []
-    cylinders = found.get("cylinders", 1)
+    cylinders = figures.get("cylinders", 1)
     for key in _SHOWN:
-        values = np.asarray(found.get(key, np.nan), dtype=float)
+        values = np.asarray(figures.get(key, np.nan), dtype=float)
         unknown = not rubs and key in AFTER_FRICTION
         if unknown or not np.isfinite(values).any() or not one and key in _OF_ONE_SPEED:
             continue
         k = int((np.nanargmin if key in _LEAST else np.nanargmax)(values))
         about = [] if one else [f"{'least' if key in _LEAST else 'largest'}, at {figure(float(rpm[k]), 4)} rpm"]
-        if cylinders > 1 and key in found.get("per_cylinder", {}):
-            about.append(f"of {cylinders} {found.get('each', 'cylinder')}s together")
+        if cylinders > 1 and key in figures.get("per_cylinder", {}):
+            about.append(f"of {cylinders} {figures.get('each', 'cylinder')}s together")
         if key == "p_max_mpa" and one:
-            about.append(f"at {figure(float(np.ravel(found['p_max_angle_deg'])[k]), 3)} deg")
+            about.append(f"at {figure(float(np.ravel(figures['p_max_angle_deg'])[k]), 3)} deg")
         if key in _ABOUT:
-            about.append(_ABOUT[key] if "heat_in_j" not in found else "of the heat from the hot side")
+            about.append(_ABOUT[key] if "heat_in_j" not in figures else "of the heat from the hot side")
         shown = card(CycleColumns, key, values.flat[k], ", ".join(about))
         cards.append(replace(shown, name=words.get(key, shown.name)))
     drawn = (
-        () if one else (Picture(name="speeds", see="Torque and power over the speed.", draw=lambda: _speeds(found)),)
+        () if one else (Picture(name="speeds", see="Torque and power over the speed.", draw=lambda: _speeds(figures)),)
     )
-    return View(title="Engine cycle", cards=tuple(cards), pictures=drawn, columns=lambda: _flat(found, rpm.size),
-                findings=lambda: of_cycle(found))  # fmt: skip
+    return View(title="Engine cycle", cards=tuple(cards), pictures=drawn, columns=lambda: _flat(figures, rpm.size),
+                findings=lambda: of_cycle(figures))  # fmt: skip
 
 
 _ABOUT = {
@@ -118,34 +118,34 @@ _ABOUT = {
 }
 
 
-def _flat(found: Json, size: int) -> Columns:
-    return Columns({k: v for k, v in found.items() if isinstance(v, np.ndarray) and v.shape == (size,)}, UNITS)
+def _flat(figures: Json, size: int) -> Columns:
+    return Columns({k: v for k, v in figures.items() if isinstance(v, np.ndarray) and v.shape == (size,)}, UNITS)
 
 
-def _speeds(found: Json) -> "Figure":
+def _speeds(figures: Json) -> "Figure":
     from mechsym.style import BLUE, RED, axis_unit, legend, panels
 
     made, axes = panels(9, 3.2, 1, 2, "Torque and power over the speed")
-    omega = np.asarray(found["speed_rpm"]) * np.pi / 30
-    rubs = np.any(found.get("friction_mep_kpa", 0.0))
+    omega = np.asarray(figures["speed_rpm"]) * np.pi / 30
+    rubs = np.any(figures.get("friction_mep_kpa", 0.0))
     curves = (("torque", "brake_torque", "torque_avg", 1.0, "N*m"), ("power", "brake_power_kw", "power_kw", 1e3, "W"))
     for axis, (name, brake, indicated, times, si) in zip(axes, curves, strict=True):
         keys = {**({"brake": brake} if rubs else {}), "indicated": indicated}
-        (across, rpm), (factor, unit) = axis_unit("rad/s", omega), axis_unit(si, times * np.asarray(found[indicated]))
+        (across, rpm), (factor, unit) = axis_unit("rad/s", omega), axis_unit(si, times * np.asarray(figures[indicated]))
         for (label, key), look, color in zip(keys.items(), ("-", "--"), (BLUE, RED), strict=False):
-            axis.plot(omega * across, times * factor * np.asarray(found[key]), look, color=color, label=label)
+            axis.plot(omega * across, times * factor * np.asarray(figures[key]), look, color=color, label=label)
         axis.set(xlabel=f"speed [{rpm}]", ylabel=f"{name} [{unit}]")
         legend(axis)
     return made
 
 
 @shows(EngineComparison)
-def comparison_view(found: EngineComparison) -> View:
+def comparison_view(comparison: EngineComparison) -> View:
     """Where the torque curves of two engines cross."""
-    crossing = ", ".join(quantity_text(float(v) * np.pi / 30, "rad/s") for v in found.numbers.crossover_rpm)
+    crossing = ", ".join(quantity_text(float(v) * np.pi / 30, "rad/s") for v in comparison.numbers.crossover_rpm)
     where = Card(name="mean torque crosses at", value=crossing or "no speed")
     names = ("quantity", "speed_rpm", "a", "b", "difference", "unit")
-    columns = {name: [getattr(row, name) for row in found.numbers.table] for name in names}
+    columns = {name: [getattr(row, name) for row in comparison.numbers.table] for name in names}
     return View(title="Two engines", cards=(where,), columns=lambda: columns)
 
 
@@ -168,35 +168,35 @@ def beale_power(mean_pressure: Pascal, swept: Volume, omega: RadPerSecond) -> Wa
     return _BEALE * mean_pressure * swept * omega / (2 * math.pi)
 
 
-def of_cycle(found: CycleFigures) -> Iterator[Finding]:
+def of_cycle(figures: CycleFigures) -> Iterator[Finding]:
     r"""Unequal strokes, and Carnot's efficiency :math:`1 - T_c/T_e`, whose power is therefore an upper bound."""
-    if found.apart:
+    if figures.apart:
         words = (
-            f"strokes differ by up to {figure(100 * found.apart, 2)} %: every cylinder has the pressure of the first "
+            f"strokes differ by up to {figure(100 * figures.apart, 2)} %: every cylinder has the pressure of the first "
             "at the same share of its stroke"
         )
-        yield Finding(rank=LOOK_AT, words=words, value=found.apart)
-    if not all(name in found for name in (*_TEMPERATURES, "efficiency")):
+        yield Finding(rank=LOOK_AT, words=words, value=figures.apart)
+    if not all(name in figures for name in (*_TEMPERATURES, "efficiency")):
         return
-    hot, cold = (np.asarray(found[name], dtype=float) for name in _TEMPERATURES)
+    hot, cold = (np.asarray(figures[name], dtype=float) for name in _TEMPERATURES)
     ceiling = 1.0 - cold / hot
-    at = int(np.argmax(found["efficiency"]))
-    if abs(float(np.asarray(found["efficiency"])[at] - ceiling[at])) <= _SAME:
-        power = quantity_text(1e3 * float(np.max(found["power_kw"])), "W", 4)
+    at = int(np.argmax(figures["efficiency"]))
+    if abs(float(np.asarray(figures["efficiency"])[at] - ceiling[at])) <= _SAME:
+        power = quantity_text(1e3 * float(np.max(figures["power_kw"])), "W", 4)
         words = (
             f"{figure(100 * ceiling[at], 4)} % is Carnot's efficiency between {figure(cold[at], 4)} and "
-            f"{figure(hot[at], 4)} K: the model has no losses, and {power} is an upper bound{_as_built(found)}"
+            f"{figure(hot[at], 4)} K: the model has no losses, and {power} is an upper bound{_as_built(figures)}"
         )
         yield Finding(rank=LOOK_AT, words=words, value=float(ceiling[at]))
 
 
-def _as_built(found: CycleFigures) -> str:
+def _as_built(figures: CycleFigures) -> str:
     """What such machines give as they are built, where the gas is known."""
-    if found.source is None:
+    if figures.source is None:
         return ""
-    best = int(np.argmax(found["power_kw"]))
-    omega = RPM * float(np.asarray(found["speed_rpm"])[best])
-    gas = found.source.at(omega)
+    best = int(np.argmax(figures["power_kw"]))
+    omega = RPM * float(np.asarray(figures["speed_rpm"])[best])
+    gas = figures.source.at(omega)
     mean = float(np.mean(gas.pressure.absolute(even_angles(gas.pressure.period))))
-    power = found.get("cylinders", 1) * beale_power(mean, gas.chamber.displacement, omega)
+    power = figures.get("cylinders", 1) * beale_power(mean, gas.chamber.displacement, omega)
     return f"; machines as built give about {quantity_text(power, 'W', 2)} (Beale's rule, 0.15 p f V)"

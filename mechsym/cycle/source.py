@@ -119,10 +119,10 @@ _POINTS = 1441
 _COLD_AIR = 1.4  # no mixture of air, fuel and products has more
 
 
-def _closing(found: Json) -> str:
-    worst = abs(found["energy_residual"]).max()
+def _closing(figures: Json) -> str:
+    worst = abs(figures["energy_residual"]).max()
     if worst != worst:
-        known = np.isfinite(found["sfc_g_kwh"]).all()
+        known = np.isfinite(figures["sfc_g_kwh"]).all()
         fuel = "fuel as the temperature rise asks for, without heat to the walls" if known else "no fuel is known"
         return f"an algebraic cycle: {fuel}, no first law to close"
     return f"first law closed to {ratio_text(worst, 1)} of the fuel's heating value"

@@ -127,7 +127,7 @@ def derive(m: Declaration) -> Equations:
     terms = (mass[i][j] * u[i] * u[j] for i in range(len(u)) for j in range(len(u)))
     weight = [-b.mass * g * p for b in m.bodies for g, p in zip(m.gravity, b.at, strict=True)]
     springs = [Rational(1, 2) * s.value * s.along**2 for s in m.springs]
-    found = Equations(
+    result = Equations(
         mechanism=m,
         mass_matrix=tuple(map(tuple, mass)),
         bias=tuple(sum((_body_bias(m, body, v) for body in m.bodies), Integer(0)) for v in m.q),
@@ -140,7 +140,7 @@ def derive(m: Declaration) -> Equations:
         **_held(m),
     )
     draw_cams(m)  # last: what it names stands behind what moves
-    return found
+    return result
 
 
 def _held(m: Declaration) -> dict[str, Any]:

@@ -241,9 +241,9 @@ class Letters:
             require_known(expression)
         except UnsupportedNode as error:
             refuse(f"{what} = {value}: {error}")
-        found = self.dimension(expression)
-        if unit and found is not None and found != self._unit(unit):
-            refuse(f"{what} = {value} is in {in_words(found)}, and must be in {unit}")
+        dimension = self.dimension(expression)
+        if unit and dimension is not None and dimension != self._unit(unit):
+            refuse(f"{what} = {value} is in {in_words(dimension)}, and must be in {unit}")
         angles = {f.args[0] for f in expression.atoms(sin, cos, tan)} | ({expression} if unit == "rad" else set())
         for number in (angle.as_coeff_Add()[0] for angle in angles):
             if abs(number) > 2 * pi and number.is_Rational:
@@ -297,12 +297,12 @@ class Letters:
     def _number(self, value: Expr | float, what: str) -> float:
         """A finite number, which no letter is."""
         try:
-            found = nan if isinstance(value, bool) else float(value)
+            number = nan if isinstance(value, bool) else float(value)
         except (TypeError, ValueError):
-            found = nan
-        if not isfinite(found):
+            number = nan
+        if not isfinite(number):
             refuse(f"{what} = {value!r} is no number; write one in SI, with any unit in the case")
-        return found
+        return number
 
     def _size_of(self, value: Expr | float, unit: str, what: str, moving: tuple[Symbol, ...] = ()) -> str:
         """An expression of parameters, and of coordinates where they may move it, as text."""

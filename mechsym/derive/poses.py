@@ -157,8 +157,8 @@ def _nearer(
         refuse(f"the loop does not close at the joint {joint.name!r} in the pose; check the pose and the lengths")
     nearest = {sign: [row[best[0] if len(row) > 1 else 0] for row in rows] for sign, rows in by_sign.items()}
     named = " and ".join(link.name for link in links)
-    told = " or ".join(f"{_in_words(m, links, row)} (branch = {sign})" for sign, row in nearest.items())
-    way_out = f"{named} at {told}; say nearer angles of them, or branch= at the joint"
+    choices = " or ".join(f"{_in_words(m, links, row)} (branch = {sign})" for sign, row in nearest.items())
+    way_out = f"{named} at {choices}; say nearer angles of them, or branch= at the joint"
     if rank[best[0]] > _ROUGH * np.sqrt(len(links)):
         refuse(f"the pose fits no solution at the joint {joint.name!r}: {way_out}")
     share = np.mean(away[1][best] < away[-1][best])

@@ -102,7 +102,7 @@ def equations(m: SpatialDeclaration) -> Equations:
 
 def _rows(m: SpatialDeclaration) -> dict[str, ClosureRow]:
     """Rows of all joints that hang nothing, and of quaternions."""
-    found = dict(m.norms)
+    rows = dict(m.norms)
     for joint in m.space_joints:
         if joint.child is None:
             if joint.given:
@@ -110,9 +110,9 @@ def _rows(m: SpatialDeclaration) -> dict[str, ClosureRow]:
                 refuse(f"the joint {joint.name!r} closes a loop and cannot have {named}; declare it before those that "
                        "hang its bodies", joint.where)  # fmt: skip
             joint.rows = rows_of(joint)
-            found |= joint.rows
+            rows |= joint.rows
             m.words.append(f"{joint.name} closes a loop")
-    return found
+    return rows
 
 
 def _inertia(m: SpatialDeclaration, value: Expr) -> dict[str, Expr]:
@@ -171,25 +171,25 @@ def _reactions(
         (n, f), (n_, f_), weight = tree.inertial(part, True), outer.get(part, (NONE, NONE)), _weight(m, part)
         total[part] = vec.less(vec.less(n, n_), weight[0]), vec.less(vec.less(f, f_), weight[1])
     carried = tree.carried(total, "r")
-    found: dict[str, Expr] = {}
+    reactions: dict[str, Expr] = {}
     for joint in m.space_joints:
         force, moment = _closed(joint, pushes) if joint.child is None else _borne(m, joint, carried)
         if KINDS[joint.kind].forces == "n":
-            found[f"R_{joint.name}"] = multiplier(m, joint.name)
+            reactions[f"R_{joint.name}"] = multiplier(m, joint.name)
             continue
         axes = (joint.axes or m.frame).part
         if axes.path:
             force, moment = (m.tape.vector("seen", vec.back(axes.world, v)) for v in (force, moment))
         for stem, letters, values in (("R", KINDS[joint.kind].forces, force), ("M", KINDS[joint.kind].moments, moment)):
-            found |= {f"{stem}_{a}_{joint.name}": values["xyz".index(a)] for a in letters}
+            reactions |= {f"{stem}_{a}_{joint.name}": values["xyz".index(a)] for a in letters}
     absent = {multiplier(m, n): O for n in rows if n not in chosen.rows}
-    m.undetermined = chosen.open_reactions(m, rows, found)
-    for name, value in (*found.items(), *m.dynamic_outputs.items()):
+    m.undetermined = chosen.open_reactions(m, rows, reactions)
+    for name, value in (*reactions.items(), *m.dynamic_outputs.items()):
         hanging = sorted(s.name for s in value.free_symbols if s.name in m.undetermined)
         if hanging:
             refuse(f"{name} hangs on {', '.join(hanging)}, which no equation determines: {m.redundant[0]}")
-    known = {Symbol(n, real=True): v for n, v in found.items()}
-    outputs = {n: _without(m, v, absent) for n, v in found.items() if n not in m.undetermined}
+    known = {Symbol(n, real=True): v for n, v in reactions.items()}
+    outputs = {n: _without(m, v, absent) for n, v in reactions.items() if n not in m.undetermined}
     outputs |= {n: _without(m, e.xreplace(known), absent) for n, e in m.dynamic_outputs.items()}
     return {n: v for n, v in outputs.items() if v != 0}
 

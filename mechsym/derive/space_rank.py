@@ -41,20 +41,22 @@ class ClosureChoice:
     names: tuple[str, ...] = ()
     redundant: list[str] = field(default_factory=list)
 
-    def open_reactions(self, m: Declaration, rows: Mapping[str, ClosureRow], found: Mapping[str, Expr]) -> list[str]:
+    def open_reactions(
+        self, m: Declaration, rows: Mapping[str, ClosureRow], reactions: Mapping[str, Expr]
+    ) -> list[str]:
         """Names of reactions that self-balanced forces change; what is told of them goes into `redundant`."""
         if len(self.rows) == self.count:
             return []
         multipliers = [Symbol(f"force_{n}", real=True) for n in self.names]
         letters = [*_letters(m), *velocities(m), *accelerations(m), *m.input_list, *multipliers]
-        at, values = _evaluated(m, letters, list(found.values()))
+        at, values = _evaluated(m, letters, list(reactions.values()))
         slopes = ca.jacobian(ca.vertcat(*values), ca.vertcat(*at[-len(multipliers) :]))
         function = ca.Function("slopes", at, [slopes])
-        worst = np.zeros(len(found))
+        worst = np.zeros(len(reactions))
         for pose, free in zip(self.poses, self.free, strict=True):
             rest = [0.0] * (len(letters) - len(pose))
             worst = np.maximum(worst, np.abs(np.asarray(function(*pose, *rest)) @ free).max(axis=1, initial=0.0))
-        names = [n for n, w in zip(found, worst, strict=True) if w > _OPEN * worst.max()]
+        names = [n for n, w in zip(reactions, worst, strict=True) if w > _OPEN * worst.max()]
         joints = [j.name for j in m.space_joints if any(n.endswith(f"_{j.name}") for n in names)]
         few, many = self.count - len(self.rows), self.count
         line = f"{few} of {many} conditions are redundant: the joints {', '.join(joints)} hold one another; "
@@ -168,7 +170,7 @@ def _require_held(m: Declaration, masses: list[np.ndarray], slopes: list[np.ndar
 
 def _poses(m: Declaration, function: ca.Function) -> list[np.ndarray]:
     """Letters at closed poses near the guesses: those without a value take one with which the loops close."""
-    generator, found = np.random.default_rng(1), list[np.ndarray]()
+    generator, poses = np.random.default_rng(1), list[np.ndarray]()
     letters = _letters(m)
     first = {**{q: m.guesses.get(q.name, m.poses.get(q.name, 0.0)) for q in m.q}, **m.own}
     fixed = {s for s in m.parameter_list if "default" in m.ranges.get(s.name, {})}
@@ -180,14 +182,14 @@ def _poses(m: Declaration, function: ca.Function) -> list[np.ndarray]:
         start = np.array([_drawn(m, s, first, fixed, generator, k % _TRIES) for s in letters])
         x = _closed(function, start, moves if k < _TRIES else free)
         if x is not None and all(_within(m, s, v) for s, v in zip(letters, x, strict=True)):
-            found.append(x)
-        if len(found) == _SAMPLES or found and k == _TRIES:
+            poses.append(x)
+        if len(poses) == _SAMPLES or poses and k == _TRIES:
             break
-    if not found:
+    if not poses:
         refuse(
             f"the loops of {m.name} close nowhere near their pose; give joints a pose=, or other sizes", m.where[m.name]
         )
-    return found
+    return poses
 
 
 def _assembled(

@@ -55,11 +55,11 @@ def _between(first: TreeBody, second: TreeBody) -> list[tuple[int, TreeBody, Col
 
 
 def _collected(terms: list[tuple[int, Column, Expr]]) -> dict[Symbol, Expr]:
-    found: dict[Symbol, Expr] = {}
+    collected: dict[Symbol, Expr] = {}
     for sign, column, value in terms:
         for q, c in column.by.items():
-            found[q] = found.get(q, O) + sign * c * value
-    return found
+            collected[q] = collected.get(q, O) + sign * c * value
+    return collected
 
 
 @dataclass(eq=False)

@@ -117,8 +117,8 @@ def _force(role: _Role, R: Mapping[str, np.ndarray]) -> np.ndarray:
     if isinstance(role, GuideRole):
         return R[role.reaction or ""] * np.exp(1j * role.way)
     sign = 1.0 if role.throw is None else -1.0  # of a crank pin the reaction is that on the rod
-    found: np.ndarray = sum(sign * R[n] * np.exp(1j * way) for n, way in zip(role.reactions, role.ways, strict=False))
-    return found
+    force: np.ndarray = sum(sign * R[n] * np.exp(1j * way) for n, way in zip(role.reactions, role.ways, strict=False))
+    return force
 
 
 def _load(role: _Role, at: np.ndarray, force: np.ndarray) -> Load:

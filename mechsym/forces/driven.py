@@ -208,9 +208,9 @@ def forces(
     t = np.linspace(0.0, motion.t_end, section.points)
     values = [inputs.get(n, 0.0) for n in mechanism.inputs]
     rates = {f"{q}d": start.get(f"{q}d", 0.0) for q in one.free}
-    found = driven.path(one, lambda at: motion.law(one.driven, at), t, pose | rates, values)
-    table = {"t": t, **dict(zip((*names, *velocities(mechanism)), (*found.q, *found.u), strict=True))}
-    table |= dict(zip((f"{q}dd" for q in names), found.a, strict=True)) | driven.outputs(one, found, values)
+    followed = driven.path(one, lambda at: motion.law(one.driven, at), t, pose | rates, values)
+    table = {"t": t, **dict(zip((*names, *velocities(mechanism)), (*followed.q, *followed.u), strict=True))}
+    table |= dict(zip((f"{q}dd" for q in names), followed.a, strict=True)) | driven.outputs(one, followed, values)
     known = {"t": "s", **units}
     for q, kind in kinds.items():
         known |= {q: kind, f"{q}d": f"{kind}/s", f"{q}dd": f"{kind}/s^2", f"power_{q}": "W"}
@@ -224,15 +224,15 @@ def forces(
     return DrivenForces(name=mechanism.name, one=one, columns=columns)
 
 
-def view(found: DrivenForces) -> View:
+def view(motion: DrivenForces) -> View:
     """What of a motion is worth seeing: places and forces of what is driven."""
-    table, units = found.columns, found.columns.units
+    table, units = motion.columns, motion.columns.units
     largest = {n: float(np.abs(table[n]).max()) for n in table if n.startswith("driving_")}
     cards = [Card(name=n.replace("_", " "), value=quantity_text(most, units[n], 4), about="largest")
              for n, most in largest.items()]  # fmt: skip
 
     def draw() -> "Figure":
-        names = [*found.one.driven, *largest]
+        names = [*motion.one.driven, *largest]
         figure, axes = panels(9.0, 1.4 * len(names) + 0.6, len(names), 1, "Driven places and forces", sharex=True)
         for axis, name in zip(axes, names, strict=True):
             factor, unit = axis_unit(units[name], table[name])
@@ -243,13 +243,13 @@ def view(found: DrivenForces) -> View:
 
     see = "What each drive does, and the torque or force that it takes."
     pictures = (Picture(name="driving", see=see, draw=draw),)
-    return View(title=f"Forces of {found.name}", cards=tuple(cards), pictures=pictures, columns=lambda: table)
+    return View(title=f"Forces of {motion.name}", cards=tuple(cards), pictures=pictures, columns=lambda: table)
 
 
-def numbers(found: DrivenForces, case: str) -> DrivenNumbers:
+def numbers(motion: DrivenForces, case: str) -> DrivenNumbers:
     """The same in numbers: largest and smallest of every column, work of every drive."""
-    table, units = found.columns, found.columns.units
-    powers = {q: table[f"power_{q}"] for q in found.one.driven}
+    table, units = motion.columns, motion.columns.units
+    powers = {q: table[f"power_{q}"] for q in motion.one.driven}
     curves = {q: scipy.interpolate.CubicSpline(table["t"], power) for q, power in powers.items()}
     largest = max(float(np.abs(p).max()) for p in powers.values())
     shown = [n for n in table if n not in ("t", "power_residual")]
@@ -257,7 +257,7 @@ def numbers(found: DrivenForces, case: str) -> DrivenNumbers:
     high, low = (Columns(end, {n: units[n] for n in end}) for end in ends)
     residual = table.get("power_residual")
     return DrivenNumbers(
-        case=case, mechanism=found.name, driven=list(found.one.driven), free=list(found.one.free),
+        case=case, mechanism=motion.name, driven=list(motion.one.driven), free=list(motion.one.free),
         t_end=float(table["t"][-1]), max=high, min=low,
         work={q: float(curve.integrate(0.0, table["t"][-1])) for q, curve in curves.items()},
         power_residual=None if residual is None or not largest > 0 else float(np.abs(residual).max()) / largest,

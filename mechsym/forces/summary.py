@@ -65,8 +65,10 @@ def _numbers(turn: Turn, role: CamRole) -> CamNumbers:
     q = mechanism.coordinates[0]
     phi = np.arange(_POINTS) * 4 * math.pi / _POINTS
     outputs = [kinematics.name_out().index(n) for n in (f"pressure_angle_{role.name}", f"curvature_{role.name}")]
-    told = ca.Function("cam", [x := ca.SX.sym(q)], [kinematics.call([x])[k] for k in outputs], [q], ["angle", "bend"])
-    shape = along(told, {q: phi})
+    at_angle = ca.Function(
+        "cam", [x := ca.SX.sym(q)], [kinematics.call([x])[k] for k in outputs], [q], ["angle", "bend"]
+    )
+    shape = along(at_angle, {q: phi})
 
     carried_at = _one(reactions, role.force)
 

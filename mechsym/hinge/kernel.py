@@ -131,13 +131,13 @@ def _in_blocks(
     given = np.asarray(values, dtype=float)
     if given.ndim != 2 or given.shape[1] != len(names):
         raise BadInput(f"values have shape {np.shape(values)}; it must be (n, {len(names)}): {', '.join(names)}")
-    at, found = [list(lanes).index(name) for name in names], []
+    at, blocks = [list(lanes).index(name) for name in names], []
     for k in range(0, max(len(given), 1), _BLOCK):
         block = given[k : k + _BLOCK]
         columns = np.repeat(np.array([*lanes.values()])[:, None], len(block), axis=1)
         columns[at] = block.T
-        found.append(function(columns))
-    return np.concatenate(found)
+        blocks.append(function(columns))
+    return np.concatenate(blocks)
 
 
 def _parts(
@@ -242,13 +242,13 @@ def _stages(wanted: Balance, ratio: float) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(phi), np.concatenate(rows) / [ratio, ratio**2, 1.0]
 
 
-def _march(stage: ca.SX, lane: ca.SX, found: ca.SX, stages: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+def _march(stage: ca.SX, lane: ca.SX, rows: ca.SX, stages: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
     """Where around the turn each quantity is largest."""
-    count = found.numel()
+    count = rows.numel()
     state, number = ca.SX.sym("state", 2 * count), ca.SX.sym("number")
     best, place = state[:count], state[count:]
-    larger = found > best
-    step = ca.vertcat(ca.fmax(best, found), *[ca.if_else(larger[i], number, place[i]) for i in range(count)])
+    larger = rows > best
+    step = ca.vertcat(ca.fmax(best, rows), *[ca.if_else(larger[i], number, place[i]) for i in range(count)])
     run = marcher(ca.Function("design_turn", [state, ca.vertcat(stage, number), lane], [step]))
     numbered = np.column_stack([stages, np.arange(len(stages), dtype=float)])
 
@@ -266,9 +266,9 @@ def _margins(parts: _KernelParts, columns: np.ndarray) -> tuple[np.ndarray, np.n
     tops = [_highest(parts, columns, k, places[k]) for k in range(len(parts.peaks))]
     peaks, weights, middle = (np.stack([t[i] for t in tops]) for i in range(3))
     with np.errstate(all="ignore"):
-        found = parts.finish.batch(*columns, *peaks)
-    good = found[-1] > 0  # not a number counts as no guide
-    margins = np.where(good, found[:-1], -1.0).T
+        batch = parts.finish.batch(*columns, *peaks)
+    good = batch[-1] > 0  # not a number counts as no guide
+    margins = np.where(good, batch[:-1], -1.0).T
     for name, peak in zip(parts.peaks, peaks, strict=True):  # infinite where an undercut leaves nothing to ask
         margins[good & np.isinf(peak), name] = np.inf
     return margins, peaks, weights, middle
@@ -297,16 +297,16 @@ def _gradients(parts: _KernelParts, columns: np.ndarray) -> np.ndarray:
     margins, peaks, weights, places = _margins(parts, columns)
     of_values, of_margins = parts.slopes()
     n, m, stages = columns.shape[1], margins.shape[1], parts.stages
-    found = of_margins.batch(*columns, *peaks)
+    gradients = of_margins.batch(*columns, *peaks)
     count = len(parts.peaks)
-    k = len(found) // (m + 1) - count
+    k = len(gradients) // (m + 1) - count
     of_peaks = np.zeros((count, k, n))
     for peak in range(count):
         for shift in (-1, 0, 1):
             here = stages[places[peak] + shift].T
             jacobian = of_values.batch(*np.ascontiguousarray(here), *columns).reshape(k, count, n)[:, peak]
             of_peaks[peak] += np.where(weights[peak, shift + 1] != 0, weights[peak, shift + 1] * jacobian, 0.0)
-    direct, through = found[: k * (m + 1)].reshape(k, m + 1, n), found[k * (m + 1) :].reshape(count, m + 1, n)
+    direct, through = gradients[: k * (m + 1)].reshape(k, m + 1, n), gradients[k * (m + 1) :].reshape(count, m + 1, n)
     total = direct + np.einsum("pmn,pkn->kmn", through, of_peaks)
     total = np.moveaxis(total[:, :m], (2, 1, 0), (0, 1, 2))
     return np.where(np.isfinite(margins)[..., None] & ~(margins == -1.0).all(axis=1)[:, None, None], total, 0.0)

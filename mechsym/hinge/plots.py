@@ -185,11 +185,11 @@ def track(design: Design, turn: Contact, radius: Metre) -> "Figure":
         (x, y, style.RED, {"label": "cut profile, first track"}),
     ]
     if design.guide.rollers == 2:
-        told = "second track, half a turn on"
+        second = "second track, half a turn on"
         if same_after_half_a_turn(np.column_stack([x, y])):
             curves[-1][3]["label"] = "cut profile, both tracks alike"
         else:
-            curves.append((-x, -y, style.VIOLET, {"linewidth": 0.9, "label": told}))
+            curves.append((-x, -y, style.VIOLET, {"linewidth": 0.9, "label": second}))
     for across, up, color, options in curves:
         axis.plot(across * factor, up * factor, color=color, **options)
     axis.plot(0, 0, marker="+", color=style.INK, markersize=10)
@@ -249,17 +249,17 @@ def speeds(design: Design) -> "Figure":
 def _runs(design: Design, trials: Sequence[Trial]) -> list[tuple[str, str, np.ndarray, np.ndarray]]:
     """Name, colour, turns and speed of each run; runs that cannot be told apart once, under their names."""
     (q,), (u,) = design.machine.mechanism.coordinates, velocities(design.machine.mechanism)
-    found: list[tuple[str, str, np.ndarray, np.ndarray]] = []
+    runs: list[tuple[str, str, np.ndarray, np.ndarray]] = []
     for trial in trials:
         turns = trial.result.columns[q] / (2 * np.pi)
         share = trial.result.columns[u] / design.machine.omega
-        for k, (label, color, other, values) in enumerate(found):
+        for k, (label, color, other, values) in enumerate(runs):
             if abs(other[-1] - turns[-1]) < 0.01 and np.abs(np.interp(other, turns, share) - values).max() < 1e-4:
-                found[k] = (f"{label} = {trial.about}", color, other, values)
+                runs[k] = (f"{label} = {trial.about}", color, other, values)
                 break
         else:
-            found.append((trial.about, _COLORS[trial.name], turns, share))
-    return found
+            runs.append((trial.about, _COLORS[trial.name], turns, share))
+    return runs
 
 
 def retuning(design: Design) -> "Figure":
@@ -304,13 +304,13 @@ def loads(rows: Sequence[AtLoad]) -> "Figure":
     figure, (left, right) = style.panels(9, 3.6, 1, 2, "Speed ripple and setting of the spring over the load")
     ordered = sorted(rows, key=lambda row: row.share)
     shares = [100 * row.share for row in ordered]
-    for found, color, name in (
+    for points, color, name in (
         ([row.as_cut for row in ordered], style.RED, "spring as designed"),
         ([row.reset for row in ordered], style.BLUE, "setting of that load"),
     ):
         # no line between the points: at the design's own load, which may lie between, there is no ripple
-        left.plot(shares, [_per_cent(s) for s in found], "o", color=color, markersize=5, label=name)
-        stopped = [share for share, s in zip(shares, found, strict=True) if s.speed_ripple is None]
+        left.plot(shares, [_per_cent(s) for s in points], "o", color=color, markersize=5, label=name)
+        stopped = [share for share, s in zip(shares, points, strict=True) if s.speed_ripple is None]
         left.plot(stopped, [1.0] * len(stopped), "x", color=color, transform=left.get_xaxis_transform(), clip_on=False)
     left.set(xlabel="load over that of the design [%]", ylabel="speed ripple [%]")
     left.set_ylim(0, max(left.get_ylim()[1], _STEADY))

@@ -65,12 +65,12 @@ def offers(
     parts = [balance.balance(hinge, kind) for kind in kinds]
     if parts[0].period == parts[1].period:
         parts = parts[:1]
-    found = []
+    offered = []
     for part in parts:
         wanted = choices if part is parts[0] else _instead(choices, part)
         track = cut(part, spring, wanted)
-        found.append(Offer(taken=part, track=track, verdict=judge(track, rollers, limits)))
-    return tuple(found)
+        offered.append(Offer(taken=part, track=track, verdict=judge(track, rollers, limits)))
+    return tuple(offered)
 
 
 def _instead(choices: GuideParameters, part: Balance) -> GuideParameters:

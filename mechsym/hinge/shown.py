@@ -46,7 +46,7 @@ def design_view(design: Design) -> View:
 def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
     """The numbers that decide."""
     guide, check, lost = numbers.guide, numbers.check, numbers.losses
-    found = [
+    shown = [
         Card(name="guide", value="can be cut" if guide.feasible else "cannot be built",
              about=f"{design.target.words}; {guide.reason.removeprefix(ALL_KEPT)}" if guide.feasible else guide.reason,
              mark="yes" if design.target.met else "no"),
@@ -60,7 +60,7 @@ def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
     if lost is not None:
         share, ripple = numbers.misfire_speed_share, lost.speed_ripple
         of_load = "" if lost.share is None else "of the load torque, "
-        found.insert(
+        shown.insert(
             1,
             Card(
                 name="speed ripple with losses",
@@ -69,13 +69,13 @@ def cards(design: Design, numbers: HingeNumbers) -> tuple[Card, ...]:
                 mark="" if design.target.met else "no",
             ),
         )
-        found += [Card(name="lost in the hinge", value=_lost(lost), about=f"{of_load}with assumed friction and heat")]
+        shown += [Card(name="lost in the hinge", value=_lost(lost), about=f"{of_load}with assumed friction and heat")]
         if share is not None:  # of a torque alone it is not known
-            found += [
+            shown += [
                 Card(name="one misfire", value=f"{figure(100 * share, 2)} % of the speed" if share else "stops",
                      about="with the flywheel that is kept", mark="" if share else "no"),
             ]  # fmt: skip
-    return tuple(found)
+    return tuple(shown)
 
 
 def _lost(lost: HingeLossNumbers) -> str:
@@ -94,15 +94,15 @@ def _dimensions(design: Design, guide: Verdict) -> list[Card]:
     spring, setting = design.guide.spring, partial(setting_text, design.guide.spring)
     sizes = "" if not spring.gas else f"piston {quantity_text(spring.area, 'm^2')}, column "\
         f"{quantity_text(spring.H, 'm')}, n = {figure(getattr(spring, 'n', None))}"  # fmt: skip
-    found = [Card(name="spring", value=setting(setting_of(spring)), about=sizes)]
+    shown = [Card(name="spring", value=setting(setting_of(spring)), about=sizes)]
     if design.usable is None:
-        return found
+        return shown
     ends = [quantity_text(rho, "m", 4) for rho in (guide.rho_min, guide.rho_max)]
     rollers = f"{design.guide.rollers} roller{'s' * (design.guide.rollers > 1)} of radius "
     about = f"{rollers}{quantity_text(design.rollers.radius, 'm', 4)}; spring closes "
     about += " to ".join(quantity_text(z, "m", 4) for z in (guide.z_min, guide.z_max))
     return [
-        Card(name="guide, radius of the roller centres", value=f"{ends[0]} to {ends[1]}", about=about), *found,
+        Card(name="guide, radius of the roller centres", value=f"{ends[0]} to {ends[1]}", about=about), *shown,
         card(Verdict, "roller_reaction_max", guide.roller_reaction_max,
              f"pressure angle up to {quantity_text(guide.pressure_angle_max, 'rad', 3)}"),
     ]  # fmt: skip
@@ -113,29 +113,31 @@ def pictures(design: Design) -> tuple[Picture, ...]:
     gas, phi = design.machine.gas, np.linspace(0, design.hinge.period, 1441)
     ends, swing = (f(design.hinge.torque(phi)) for f in (np.min, np.max)), float(np.ptp(design.hinge.work(phi)))
     # what the picture of the speeds shows: the largest ripples with the hinge and without
-    told = []
+    words = []
     for how, hinged in (("with the hinge", True), ("without", False)):
         runs = [t for t in design.trials if (t.name not in ("without", "flywheel")) == hinged]
         known = [(t.speed_ripple, t.about) for t in runs if t.speed_ripple is not None]
-        told += [f"{how} it ripples by {ripple_text(ripple)} at most ({about})" for ripple, about in sorted(known)[-1:]]
-    found = [
+        words += [
+            f"{how} it ripples by {ripple_text(ripple)} at most ({about})" for ripple, about in sorted(known)[-1:]
+        ]
+    shown = [
         Picture(name="torque", draw=lambda: plots.torque(design),
                 see=f"Hinge torque on the crank, {' to '.join(quantity_text(v, 'N*m', 4) for v in ends)}, with its "
                 f"parts, and below its work, which swings by {quantity_text(swing, 'J', 4)} and comes back."),
         Picture(name="speeds", draw=lambda: plots.speeds(design),
-                see=", ".join(["Crank speed over the design speed", *told]).replace(", ", ": ", 1) + "."),
+                see=", ".join(["Crank speed over the design speed", *words]).replace(", ", ": ", 1) + "."),
     ]  # fmt: skip
     if gas is not None:
         see = f"Cylinder pressure, at most {quantity_text(gas.pressure.p_max, 'Pa', 4)}, over the crank angle with the "
         see += "events of the cycle, and over the volume."
-        found.insert(0, Picture(name="pressure", draw=lambda: plots.pressure(design), see=see))
+        shown.insert(0, Picture(name="pressure", draw=lambda: plots.pressure(design), see=see))
     if (shapes := shapes_of(design)) is not None:
-        found.insert(0, Picture(name="mechanism", draw=lambda: figure_of(shapes, math.pi / 3),
+        shown.insert(0, Picture(name="mechanism", draw=lambda: figure_of(shapes, math.pi / 3),
                                 see="The mechanism as its declaration draws it."))  # fmt: skip
     if design.guide.rho is not None:
-        radius, at = design.rollers.radius, len(found) - 1
+        radius, at = design.rollers.radius, len(shown) - 1
         radii = [quantity_text(rho, "m", 4) for rho in (design.verdict.rho_min, design.verdict.rho_max)]
-        found[at:at] = [
+        shown[at:at] = [
             Picture(name="elastic_hinge", draw=lambda: plots.hinge(design),
                     see="The hinge to scale: the spring between its pistons turns with the guide's shaft, the rollers "
                     "run on tracks that stand still."),
@@ -149,14 +151,14 @@ def pictures(design: Design) -> tuple[Picture, ...]:
         ]  # fmt: skip
     if design.retuned is not None:
         rpm = figure(design.retuned.other.omega / RPM, 4)
-        found.append(Picture(name="retuning", draw=lambda: plots.retuning(design),
+        shown.append(Picture(name="retuning", draw=lambda: plots.retuning(design),
                              see=f"The same guide at {rpm} rpm: left the torque that is wanted and given, right the "
                              "speed over a steady turn."))  # fmt: skip
     if design.loads:
-        found.append(Picture(name="loads", draw=lambda: plots.loads(design.loads),
+        shown.append(Picture(name="loads", draw=lambda: plots.loads(design.loads),
                              see="Left: speed ripple over the load, a cross where the crank does not turn steadily. "
                              "Right: the setting of the spring that fits best."))  # fmt: skip
-    return tuple(found)
+    return tuple(shown)
 
 
 _FEW = 0.9  # of the speed: what one lost combustion may leave without a word
@@ -198,13 +200,13 @@ _FRAMES = 120
 def scenes(design: Design) -> list[Json]:
     """The engine, where there is a drawing of it, and the hinge, where there is a guide, over one period."""
     turns = design.hinge.period / (2 * np.pi)
-    frames, found = round(_FRAMES * max(1.0, turns)), []
+    frames, moving = round(_FRAMES * max(1.0, turns)), []
     machine = engine(design)
     if machine is not None:
-        found.append(scene(machine, "the engine to scale", turns, frames))
+        moving.append(scene(machine, "the engine to scale", turns, frames))
     if design.usable is not None:
-        found.append(hinge_scene(design.usable, design.rollers, turns, frames))
-    return found
+        moving.append(hinge_scene(design.usable, design.rollers, turns, frames))
+    return moving
 
 
 def hinge_scene(guide: Guide, rollers: RollerParameters, turns: Pure, frames: int) -> Json:

@@ -54,14 +54,14 @@ def verdicts(wanted: Balance, designs: Sequence[GuideDesign]) -> list[Verdict | 
             continue
         key = type(d.spring), d.choices.arrangement, d.choices.start, d.choices.shaft_ratio
         groups.setdefault(key, []).append(i)
-    found: list[Verdict | None] = [None] * len(designs)
+    results: list[Verdict | None] = [None] * len(designs)
     block = max(1, _CACHED // (len(_SHARES) * len(wanted.torque.x)))
     for members in groups.values() if can_be_given(wanted) else ():
         for k in range(0, len(members), block):
             some = members[k : k + block]
             for i, one in zip(some, _alike(wanted, [designs[i] for i in some]), strict=True):
-                found[i] = one
-    return found
+                results[i] = one
+    return results
 
 
 def _alike(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict | None]:
@@ -69,12 +69,12 @@ def _alike(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict | None]:
     choices = designs[0].choices
     refuse_open_track(choices, wanted.period)
     good = _can_be_cut(wanted, designs)
-    found: list[Verdict | None] = [None] * len(designs)
+    results: list[Verdict | None] = [None] * len(designs)
     if good.any():
         kept = [d for d, fine in zip(designs, good, strict=True) if fine]
         for i, one in zip(np.flatnonzero(good).tolist(), _judged(wanted, kept), strict=True):
-            found[i] = one
-    return found
+            results[i] = one
+    return results
 
 
 def _columns(records: Sequence[Record]) -> SimpleNamespace:

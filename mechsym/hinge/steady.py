@@ -134,8 +134,8 @@ def retuned(other: Machine, wanted: Hinge, hinge: RealHinge, turns: Pure) -> Ret
     near = retune(guide, wanted, "least_ripple_propeller_load").setting
 
     def ripple(setting: float) -> float:
-        found = with_guide(other, wanted, refit(guide, with_setting(guide.spring, setting))).speed_ripple
-        return 2.0 if found is None else found
+        value = with_guide(other, wanted, refit(guide, with_setting(guide.spring, setting))).speed_ripple
+        return 2.0 if value is None else value
 
     bounds = (0.8 * near, 1.25 * near)
     best = float(
@@ -243,10 +243,10 @@ def _projection(wanted: np.ndarray, given: np.ndarray) -> float:
 
 
 def _minimum(cost: Callable[[float], float], near: float) -> float:
-    found = scipy.optimize.minimize_scalar(
+    optimum = scipy.optimize.minimize_scalar(
         cost, bounds=(near / 2, near * 2), method="bounded", options={"xatol": 1e-9 * near}
     )
-    return float(found.x)
+    return float(optimum.x)
 
 
 def _ripple_constant(parts: Affine, setting: float) -> float | None:

@@ -151,25 +151,25 @@ def _friction(hinge: RealHinge) -> dict[str, Along]:
     def contact(F: Scalar, rho: Scalar, drho: Scalar, d2rho: Scalar, omega: Scalar) -> Scalar:
         return contact_force(F, rho, drho, d2rho, r.moving_mass, omega)
 
-    found = {}
+    torques = {}
     if given is not None:
         r_b = given.bearing_radius or r.radius / 2
-        found["bearing"] = taken(
+        torques["bearing"] = taken(
             lambda F, rho, drho, *more: laws.bearing_torque(
                 contact(F, rho, drho, *more), rho, drho, given.bearing_mu, r_b, r.radius, c
             )
         )
-        found["seal"] = taken(lambda F, rho, drho, *more: laws.seal_torque(F, drho, given.seal_mu, c))
-        found["guide"] = taken(
+        torques["seal"] = taken(lambda F, rho, drho, *more: laws.seal_torque(F, drho, given.seal_mu, c))
+        torques["guide"] = taken(
             lambda F, rho, drho, d2rho, omega: laws.guide_torque(
                 laws.side_force(F, rho, drho, d2rho, r.moving_mass, omega), drho, given.guide_mu, c
             )
         )
     if r.friction != "none":
-        found["rolling"] = taken(
+        torques["rolling"] = taken(
             lambda F, rho, drho, *more: c * loss_torque(contact(F, rho, drho, *more), rho, drho, r)
         )
-    return found
+    return torques
 
 
 def _gas(hinge: RealHinge, phi: float) -> tuple[State, ...]:
@@ -296,12 +296,12 @@ def _losses(result: Result, angle: str, period: float) -> dict[str, float]:
     """Mean torque that each kind of loss took over the last period [N*m]."""
     q = result.columns[angle]
     since = max(float(q[-1]) - period, float(q[0]))
-    found = {}
+    powers = {}
     for kind, name in KINDS.items():
         column = result.columns.get(name)
         lost = 0.0 if column is None else abs(float(column[-1] - np.interp(since, q, column)))
-        found[kind] = lost / (float(q[-1]) - since)
-    return found
+        powers[kind] = lost / (float(q[-1]) - since)
+    return powers
 
 
 def side_by_side(

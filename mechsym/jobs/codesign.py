@@ -65,12 +65,12 @@ def codesign(
     cut = cut_for_one(task, int(np.argsort(swings)[(len(swings) - 1) // 2]))  # the point with the middle swing
     progress()
     ready = programme(task)
-    found = worth_it(solve(task, ready), bare, settings.saving)
-    design = found
-    if settings.misfire_speed > 0 and found.status == "optimal":
+    best = worth_it(solve(task, ready), bare, settings.saving)
+    design = best
+    if settings.misfire_speed > 0 and best.status == "optimal":
         # the limits are prices of the smaller flywheel, not of that which a lost combustion asks for
-        needed = scenarios.misfire_flywheel(found, settings.misfire_speed)
-        design = found if needed is None else dataclasses.replace(found, flywheel=needed, active=())
+        needed = scenarios.misfire_flywheel(best, settings.misfire_speed)
+        design = best if needed is None else dataclasses.replace(best, flywheel=needed, active=())
     given = solve(dataclasses.replace(task, free=())) if task.free else None
     progress()
     designs = front(task, ripples, ready, progress, settings.saving)
@@ -94,12 +94,12 @@ def compared(result: CoDesignResult, progress: Callable[[], object] = lambda: No
     """The result with its peers at the ripples of its front: flywheel, coil springs, noncircular gears, two springs."""
     task = result.design.task
     ripples = sorted({task.ripple, *(d.task.ripple for d in result.front)})
-    found = peers(task.points, ripples)
+    others = peers(task.points, ripples)
     progress()
     to_save = any(d.flywheel > 0 for d in (result.design, *result.front))  # a second spring saves nothing of nothing
     more = springs_of(task, ripples, 2) if task.springs == 1 and len(task.points) > 1 and to_save else []
     progress()
-    return dataclasses.replace(result, peers=(*found, *more))
+    return dataclasses.replace(result, peers=(*others, *more))
 
 
 @result
@@ -138,17 +138,17 @@ def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -
         omega = np.linspace(0.9 * min(settings.speeds), 1.05 * max(*settings.speeds, full), _MAP)
         drawn = ripple_map(design, loads, omega, np.linspace(loads[0].load, loads[-1].load, _MAP))
     # what else happens at the first and the last point
-    found = []
+    designs = []
     for k in sorted({0, len(design.task.points) - 1}):
         place = machines.places(settings)[k]
         cycle, lower = _acting(case, settings, place.mep).get("cycle"), None
         if cycle is not None and (key := kind_of(cycle).scavenge):
             changed = dataclasses.replace(cycle, **{key: (1 - _SCAVENGE) * getattr(cycle, key)})
             lower = _point(case, settings, place, {"cycle": changed})
-        found += scenarios.rows(design, k, lower)
+        designs += scenarios.rows(design, k, lower)
     return dataclasses.replace(
         result,
-        scenarios=(*scenarios.table(design), *found),
+        scenarios=(*scenarios.table(design), *designs),
         spread=spread(design),
         map=drawn,
         misfire_floor=scenarios.misfire_flywheel(design, _HALF, 0.0) if design.status == "optimal" else None,

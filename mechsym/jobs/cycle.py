@@ -100,24 +100,26 @@ def other_piston(case: Case) -> str:
     return next(far, "")
 
 
-def of_engine(case: Case, found: Json, omega: Sequence[RadPerSecond] | RadPerSecond[Array] | None) -> Json:
+def of_engine(case: Case, figures: Json, omega: Sequence[RadPerSecond] | RadPerSecond[Array] | None) -> Json:
     """Figures of the whole engine from those of one cylinder (`cycle.columns`), which stand beside them.
 
     omega: crank speeds; None leaves the largest torque of several cylinders open. Returns figures: the same columns for
     the engine, `cylinders`, and `per_cylinder` with those that differ.
     """
     counted = cylinders(case)
-    own = {name: found[name] for name in (*_ADD, _NOT_LARGER) if name in found}
+    own = {name: figures[name] for name in (*_ADD, _NOT_LARGER) if name in figures}
     if counted.count == 1:
         # what stands in for one cylinder has not the mass of all that moves
         stands_in = one_cylinder(case).mechanism != case.mechanism
         known = "faces" in case.sections or not mechanisms.roles_of(case.mechanism).chosen
-        if stands_in and known and omega is not None and _NOT_LARGER in found:
-            found = {**found, _NOT_LARGER: largest_torque(case, omega)}
-        return {**found, "cylinders": 1, "each": counted.each, "per_cylinder": own}
-    whole = {name: np.asarray(found[name]) * counted.share for name in _ADD if name in found}
-    whole[_NOT_LARGER] = np.full(np.shape(found[_NOT_LARGER]), np.nan) if omega is None else largest_torque(case, omega)
-    return {**found, **whole, "cylinders": counted.count, "each": counted.each, "per_cylinder": own}
+        if stands_in and known and omega is not None and _NOT_LARGER in figures:
+            figures = {**figures, _NOT_LARGER: largest_torque(case, omega)}
+        return {**figures, "cylinders": 1, "each": counted.each, "per_cylinder": own}
+    whole = {name: np.asarray(figures[name]) * counted.share for name in _ADD if name in figures}
+    whole[_NOT_LARGER] = (
+        np.full(np.shape(figures[_NOT_LARGER]), np.nan) if omega is None else largest_torque(case, omega)
+    )
+    return {**figures, **whole, "cylinders": counted.count, "each": counted.each, "per_cylinder": own}
 
 
 def largest_torque(case: Case, omega: Sequence[float] | np.ndarray) -> np.ndarray:
@@ -156,10 +158,10 @@ def unlike_pistons(case: Case, omega: RadPerSecond[Array], friction: Friction) -
     with of(case):
         rows = {name: source(case, friction, number).figures(omega) for number, name in enumerate(travels)}
     swept = np.array([np.ptp(travel) for travel in travels.values()])
-    found = {"speed_rpm": next(iter(rows.values()))["speed_rpm"], **_together(list(rows.values()), swept)}
-    found["torque_max"] = largest_torque(case, omega)
+    together = {"speed_rpm": next(iter(rows.values()))["speed_rpm"], **_together(list(rows.values()), swept)}
+    together["torque_max"] = largest_torque(case, omega)
     alone = {name: {k: v for k, v in row.items() if k not in _ONLY} for name, row in rows.items()}
-    return found | {"loads": {}, "cylinders": len(rows), "per_cylinder": {}, "pistons": alone}
+    return together | {"loads": {}, "cylinders": len(rows), "per_cylinder": {}, "pistons": alone}
 
 
 def _together(rows: list[Json], swept: np.ndarray) -> Json:
@@ -171,20 +173,20 @@ def _together(rows: list[Json], swept: np.ndarray) -> Json:
     weights = dict.fromkeys(_BY_VOLUME, np.broadcast_to(swept[:, None], power.shape))
     weights |= dict.fromkeys(_BY_HEAT, heat) | {k: stacked[by] for k, by in _BY_POWER.items() if by in stacked}
     highest = np.argmax(stacked["p_max_mpa"], axis=0)
-    found: Json = {}
+    joined: Json = {}
     for name, values in stacked.items():
         if name in _SUMMED:
-            found[name] = values.sum(axis=0)
+            joined[name] = values.sum(axis=0)
         elif name in weights:
-            found[name] = _mean(values, weights[name])
+            joined[name] = _mean(values, weights[name])
         elif name in _AT_PEAK or name in _RESIDUALS:
             place = highest if name in _AT_PEAK else np.argmax(np.abs(values), axis=0)
-            found[name] = np.take_along_axis(values, place[None, :], axis=0)[0]
+            joined[name] = np.take_along_axis(values, place[None, :], axis=0)[0]
         else:
-            found[name] = values.max(axis=0)
+            joined[name] = values.max(axis=0)
     shares = rows[0]["fractions"]
-    found["fractions"] = {k: _mean(np.array([row["fractions"][k] for row in rows]), heat) for k in shares}
-    return found
+    joined["fractions"] = {k: _mean(np.array([row["fractions"][k] for row in rows]), heat) for k in shares}
+    return joined
 
 
 def _mean(values: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -217,19 +219,19 @@ def cycle(case: Case, omega: RadPerSecond[Array] | None = None, progress: Progre
         raise BadInput(f"{case.file}: {why}")
     friction = NoFriction() if kind.shared else _friction(case)
     if kind.shared:
-        found = source(case, friction)
+        gas = source(case, friction)
         with of(case):
-            figures = CycleFigures(_with_extremes(case, speeds, found.figures(speeds, progress)))
+            figures = CycleFigures(_with_extremes(case, speeds, gas.figures(speeds, progress)))
     elif mechanisms.roles_of(case.mechanism).pistons and other_piston(case):
         return CycleFigures(unlike_pistons(case, speeds, friction))
     else:
         counted = cylinders(case)  # what is wrong with them is said before the work begins
-        found = source(one_cylinder(case), friction)
+        gas = source(one_cylinder(case), friction)
         with of(case):
-            alone = found.figures(speeds, progress)
+            alone = gas.figures(speeds, progress)
         figures = CycleFigures(of_engine(case, alone, speeds))
         figures.apart = counted.apart
-    figures.source = found
+    figures.source = gas
     return figures
 
 

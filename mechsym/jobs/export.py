@@ -53,11 +53,11 @@ def ready(case: Case, diagram: str | None = None) -> Ready:
     wanted = case.sections.get("simulation") or Simulation(turns=TURNS)
     # its own run in time may go on through a dead point of the closed forms: then by constraint
     case = beyond(dataclasses.replace(case, sections={**case.sections, "simulation": wanted}))
-    found = running(case)
-    if "sides" in found.problem.mechanism.functions and not found.problem.unilateral:
-        run = simulate(found.problem, dataclasses.replace(Settings(), check="none"))
-        found = running(beyond(case, ends=True)) if run.end == LOCKED else found
-    return dataclasses.replace(found, problem=_splined(case, found.problem)) if _by_spark(case) else found
+    prepared = running(case)
+    if "sides" in prepared.problem.mechanism.functions and not prepared.problem.unilateral:
+        run = simulate(prepared.problem, dataclasses.replace(Settings(), check="none"))
+        prepared = running(beyond(case, ends=True)) if run.end == LOCKED else prepared
+    return dataclasses.replace(prepared, problem=_splined(case, prepared.problem)) if _by_spark(case) else prepared
 
 
 def _by_spark(case: Case) -> bool:
@@ -166,10 +166,10 @@ def loaded(scenes: list[Json], case: Case) -> list[Json]:
 
 def turning(case: Case, guide: Guide | None = None) -> list[Json]:
     """The machine of a case as a page turns it, and the hinge of a guide; nothing of one without a drawing."""
-    shapes, found = drawing(case), []
+    shapes, scenes = drawing(case), []
     turns = 1 if guide is None else max(1, round(1 / guide.parameters.shaft_ratio))
     if shapes is not None:
-        found.append(scene(shapes, "the machine to scale", turns, turns * FRAMES))
+        scenes.append(scene(shapes, "the machine to scale", turns, turns * FRAMES))
     if guide is not None:
-        found.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
-    return loaded(found, case)
+        scenes.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
+    return loaded(scenes, case)

@@ -66,13 +66,15 @@ class FlywheelDesign:
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What has to be known before its numbers."""
-        found = []
+        findings = []
         if self.inertia is None:
             words = f"no flywheel gives {figure(100 * self.ripple_wanted, 4)} %: {self.reason}"
-            found.append(Finding(rank=NOT_MET, words=words, value=self.ripple_wanted))
+            findings.append(Finding(rank=NOT_MET, words=words, value=self.ripple_wanted))
         elif self.check.status != "converged":
-            found.append(Finding(rank=NOT_MET, words=f"the run in time does not prove it: it is {self.check.status}"))
-        return (*found, *([Finding(rank=LOOK_AT, words=_TWISTS)] if self.twists else []))
+            findings.append(
+                Finding(rank=NOT_MET, words=f"the run in time does not prove it: it is {self.check.status}")
+            )
+        return (*findings, *([Finding(rank=LOOK_AT, words=_TWISTS)] if self.twists else []))
 
 
 _TWISTS = (
@@ -92,19 +94,19 @@ def flywheel(case: Case, ripple: Pure, turns: Pure = TURNS) -> FlywheelDesign:
     bare = shaft(case, 0.0)
     omega = bare.omega
     panels = tabulate(reduced(bare))
-    found = flywheel_for_ripple(panels, omega, ripple)
+    wheel = flywheel_for_ripple(panels, omega, ripple)
     # at constant speed the moving masses take their own share of the work
     free = turn(replace(panels, load=ConstantLoad(torque=0.0)), 0.0, 0.0)
     even = free.energy - mean_torque(panels) * (panels.phi - panels.edges[0])
     swing, kept = float(np.ptp(even - 0.5 * omega**2 * panels.inertia)), mean_inertia(panels)
-    steady = steady_state(panels, omega, found.inertia or 0.0)
+    steady = steady_state(panels, omega, wheel.inertia or 0.0)
     trial = None
-    if found.inertia is not None and len(steady.omega):
-        driven, about = shaft(case, found.inertia), f"flywheel of {found.inertia:.4g} kg m²"
+    if wheel.inertia is not None and len(steady.omega):
+        driven, about = shaft(case, wheel.inertia), f"flywheel of {wheel.inertia:.4g} kg m²"
         start = steady_state(tabulate(reduced(driven)), omega)
         trial = run("flywheel", about, driven, float(start.omega[0]), turns, Settings())
     return FlywheelDesign(
-        status=found.status, reason=found.reason, inertia=found.inertia, inertia_kept=kept,
+        status=wheel.status, reason=wheel.reason, inertia=wheel.inertia, inertia_kept=kept,
         estimate=max(0.0, swing / (ripple * omega**2) - kept), torque_mean=mean_torque(panels), work_swing=swing,
         ripple_wanted=ripple, ripple_bare=steady_state(panels, omega).speed_ripple, steady=steady, trial=trial,
         twists=facts_of(case.mechanism, case.sections).vibrates,

@@ -248,7 +248,7 @@ def _weight(one: Weight) -> WeightNumbers:
     return WeightNumbers(order=one.order, z=one.z, x=one.x, unbalance=one.unbalance, angle_deg=angle)
 
 
-def write_balance(one: BalancedEngine, told: BalanceOfEngine, folder: Path, about: str) -> list[Path]:
+def write_balance(one: BalancedEngine, balanced: BalanceOfEngine, folder: Path, about: str) -> list[Path]:
     """Write the page, its picture, and the spectra that an engine's mounts feel, by order."""
     from mechsym.forces.plots import balance_orders
     from mechsym.page import page
@@ -269,7 +269,7 @@ def write_balance(one: BalancedEngine, told: BalanceOfEngine, folder: Path, abou
     units = {name: "N" if name.startswith("force") else "N*m" for name in curves} | {"order": "-"}
     picture = svg(balance_orders(one))
     return [
-        write_text(folder / "report.html", page("balance.html", numbers=told, picture=picture, about=about)),
+        write_text(folder / "report.html", page("balance.html", numbers=balanced, picture=picture, about=about)),
         write_quantities(folder / "mounts.csv", columns, units),
         write_text(folder / "orders.svg", picture),
     ]

@@ -120,9 +120,9 @@ def engine_with(case: Case, friction: Friction, number: int = 0) -> ClosedEngine
     if not kind_of(case.need("cycle")).closed:
         why = "[cycle] kind must be 'spark-ignition' for this command; 'mechsym check' tells which take the case"
         raise BadInput(f"{case.file}: {why}")
-    found: Any = source(case, friction, number)
+    source_engine: Any = source(case, friction, number)
     with of(case):
-        engine: ClosedEngine = found.engine
+        engine: ClosedEngine = source_engine.engine
     return engine
 
 
@@ -192,12 +192,12 @@ def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
     for role in roles:
         _require_force(case, mechanism, role)
     if kind_of(case.sections["cycle"]).shared:  # each piston has the area by which the common gas pushes it
-        shared, found = gas_on(case), []
+        shared, pushed = gas_on(case), []
         for role, area in zip(roles, shared.pistons, strict=True):
             room = _room(case, travel_of(mechanism, role.travel), area)
             own = Gas(pressure=shared.pressure, chamber=room)
-            found.append(Piston(name=role.name, input=role.force, start=0.0, gas=own))
-        return found
+            pushed.append(Piston(name=role.name, input=role.force, start=0.0, gas=own))
+        return pushed
     return [_piston(case, mechanism, role, number) for number, role in enumerate(roles)]
 
 
@@ -277,13 +277,13 @@ def common_period(acting: list[Piston]) -> float:
 def kinks_of(acting: list[Piston]) -> tuple[float, ...]:
     """Crank angles at which the gas of a piston is not smooth [rad]."""
     period = common_period(acting)
-    found = (
+    angles = (
         (k + p.start + turn * p.gas.pressure.period) % period
         for p in acting
         for k in p.gas.pressure.kinks
         for turn in range(2)
     )
-    return tuple(sorted({round(a, 14) for a in found}))
+    return tuple(sorted({round(a, 14) for a in angles}))
 
 
 def shaft_curve(

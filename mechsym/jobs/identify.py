@@ -99,7 +99,7 @@ def _sizes(
     values = dict(zip(free, start.tolist(), strict=True))
     turn = [[values.get(name, angle) for name in dynamics.name_in()] for angle in np.arange(0.3, 2 * np.pi, 0.4)]
     inertias = (float(np.asarray(dynamics.call(at)[0])[0, 0]) for at in turn)
-    inertia = next((found for found in inertias if np.isfinite(found)), 1.0)
+    inertia = next((value for value in inertias if np.isfinite(value)), 1.0)
     speed = next(iter(trace.speeds.values()))
     push = inertia * float(np.ptp(speed)) / float(np.ptp(trace.t))
     # of what starts at 0: a push, or a push by the speed

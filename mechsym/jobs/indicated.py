@@ -90,14 +90,14 @@ class TorquePressure:
     @computed()
     def doubts(self) -> list[Doubt]:
         """What of the torque is possible and not usual."""
-        measured, found = self.measured, self.found
+        measured, pressure = self.measured, self.found
         doubts, seen = [], physics.scatter(measured.torque)
-        allowed = 2 * measured.noise + _SMOOTH * float(np.abs(found.gas).max())
+        allowed = 2 * measured.noise + _SMOOTH * float(np.abs(pressure.gas).max())
         if seen > allowed:
             why = "rows scatter more than --noise says; the intervals are too narrow"
             usual = f"at most {allowed:.4g}"
             doubts.append(Doubt(code="torque_noise", quantity="noise [N*m]", value=seen, usual=usual, why=why))
-        highest = (found.p + NORMAL_95 * found.error)[found.told]
+        highest = (pressure.p + NORMAL_95 * pressure.error)[pressure.told]
         if np.mean(highest < 0) > 0.05:
             why = (
                 "no gas pulls: look at the sign and zero of the torque, the angle, friction, and whether inertia is "
@@ -133,10 +133,10 @@ def indicated(case: Case, file: str, noise: NewtonMetre) -> TorquePressure:
     measured = CrankTorque(phi=phi, torque=curve(phi), omega=omega, noise=noise, with_inertia=table.with_inertia)
     idle, lever = physics.shaft_lines(acting.mechanism, acting.areas, phi, omega, acting.held)
     try:
-        found = physics.pressure_from_torque(measured, idle, lever, acting.p_back)
+        pressure = physics.pressure_from_torque(measured, idle, lever, acting.p_back)
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
-    return TorquePressure(case=case.name, measured=measured, found=found)
+    return TorquePressure(case=case.name, measured=measured, found=pressure)
 
 
 def common_gas(case: Case) -> CommonGas:

@@ -141,9 +141,9 @@ def drive_of(case: Case) -> CrankDrive:
 def acting_on(case: Case, drive: CrankDrive) -> tuple[Acting, ...]:
     """The cylinders of a case with their gas: one for all that share it, else that of each piston."""
     if drive.roles.faces:
-        found = gas(case)
+        gases = gas(case)
         with of(case):
-            return acting(drive, found)
+            return acting(drive, gases)
     travels = {role.force: role.travel for role in drive.roles.pistons}
     return tuple(
         Acting(gas=one.gas, face=GasFace(input=one.input, travel=travels[one.input], fires=one.start))
@@ -177,10 +177,10 @@ def _with_besides(plain: Machine, inputs: Mapping[str, float], driven: bool) -> 
 def mechanism_of(case: Case) -> Mechanism:
     """The mechanism of a case with all its coordinates and its flywheel; `[start]` gives the dependent ones guesses."""
     parameters, more = _weighed(case)
-    found = mechanisms.build(case.mechanism, parameters)
-    given = {k: v for k, v in guesses(case).items() if k in found.dependents}
-    found = replace(found, dependents={**found.dependents, **given}) if given else found
-    return with_inertia(found, more) if more else found
+    mechanism = mechanisms.build(case.mechanism, parameters)
+    given = {k: v for k, v in guesses(case).items() if k in mechanism.dependents}
+    mechanism = replace(mechanism, dependents={**mechanism.dependents, **given}) if given else mechanism
+    return with_inertia(mechanism, more) if more else mechanism
 
 
 def one_coordinate(case: Case) -> Mechanism:
@@ -193,10 +193,10 @@ def turning(case: Case, inertia: float = 0.0) -> Mechanism:
     parameters, more = _weighed(case, inertia)
     known = case.mechanism, content(case.mechanism), parameters, tuple(guesses(case).items())
     try:
-        found = _turning(*known)
+        mechanism = _turning(*known)
     except BadInput as error:
         raise BadInput(f"{case.file}: {error}") from None
-    return with_inertia(found, more) if more else found
+    return with_inertia(mechanism, more) if more else mechanism
 
 
 def _weighed(case: Case, inertia: float = 0.0) -> tuple[Any, float]:
@@ -238,11 +238,11 @@ def constants(case: Case) -> dict[str, float]:
 
 def acting_constants(case: Case, mechanism: Mechanism) -> dict[str, float]:
     """Constants of `[inputs]`, and the `[drive]` as it is at the end, by input [unit of the input]."""
-    found = constants(case)
+    acting = constants(case)
     if "drive" in case.sections:
         drive = drive_on(case, mechanism)
-        found[drive.input] = drive.value
-    return found
+        acting[drive.input] = drive.value
+    return acting
 
 
 @record
@@ -312,16 +312,16 @@ def turn(case: Case) -> Turn:
 def _turn(case: Case) -> Turn:
     drive, omega = drive_of(case), case.need("operation").speed
     acts, period, held = _what_acts(case, drive, omega)
-    found = at(drive, acts, omega, angles(period), held, period)
-    curves: Mapping[str, np.ndarray] = {**found.kinematics, **found.reactions, "torque": found.torque}
+    whole = at(drive, acts, omega, angles(period), held, period)
+    curves: Mapping[str, np.ndarray] = {**whole.kinematics, **whole.reactions, "torque": whole.torque}
     opened = ~np.all([np.isfinite(v) for v in curves.values()], axis=0)
     if opened.any():
         (q,) = drive.mechanism.coordinates
-        at_angle = f"{q} = {np.degrees(found.phi[np.argmax(opened)]):.3f} deg"
+        at_angle = f"{q} = {np.degrees(whole.phi[np.argmax(opened)]):.3f} deg"
         raise BadInput(
             f"{case.file}: the loop opens at {at_angle}: links too short, or a wrong branch; it cannot turn round"
         )
-    return found
+    return whole
 
 
 def torque(case: Case) -> np.ndarray:

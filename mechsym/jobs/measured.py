@@ -278,11 +278,11 @@ def case_of_trace(trace: Path, sizes: TraceSizes, folder: Path) -> tuple[str, tu
             beside = diagram_case(trace, sizes, folder, recorded, working, scale, by_time)
             with TemporaryDirectory() as there:
                 case = cases.load(str(write_text(Path(there) / "trace.toml", beside)))
-                found = measured_combustion(case, [str(trace)])
+                measured = measured_combustion(case, [str(trace)])
         except BadInput as error:
             refused = refused or error
             continue
-        doubts = (*case.doubts, *found.doubts)
+        doubts = (*case.doubts, *measured.doubts)
         if sizes.compression is None:
             why = "dead centre, heat and burn angles hang on it: give --compression, geometric"
             ratio = case.need("cycle").compression_ratio
@@ -298,16 +298,16 @@ def _taken_apart(
     measured = measured_cycles(cycle, cylinder, shared)
     speed = case.need("operation").speed
     omega = speed if measured.speeds is None else float(measured.speeds.mean())
-    found = diagram_combustion(measured, cylinder, case.sections.get("combustion", Analysis()), omega)
+    combustion = diagram_combustion(measured, cylinder, case.sections.get("combustion", Analysis()), omega)
     mep = float(cycle_work(measured, cylinder).mean())
-    doubts = diagram_doubts(cycle, cylinder, measured, found.mean.phi_p_max)
+    doubts = diagram_doubts(cycle, cylinder, measured, combustion.mean.phi_p_max)
     # several records are of several speeds: that tells the losses from a shift of the dead centre
     beside = [] if measured.speeds is None or shared else [speed_doubt(float(measured.speeds.mean()), speed)]
     if "measured" in case.sections and mep > 0:
         torque, swept = case.sections["measured"].torque, float(cylinder.displacement)
         beside.append(brake_doubt(torque, mep, swept, measured.period))
     return MeasuredDiagram(
-        figures=found.figures, combustion=found, centre=measured.alignment.dead_centre, omega=omega, mep=mep,
+        figures=combustion.figures, combustion=combustion, centre=measured.alignment.dead_centre, omega=omega, mep=mep,
         sensor=lag_of(measured, cylinder, cycle), line=read_and_used(cycle, measured),
         facts=diagram_facts(cycle, cylinder, measured),
         judged=doubts + tuple(doubt for doubt in beside if doubt is not None),

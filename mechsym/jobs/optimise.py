@@ -82,27 +82,27 @@ def figures(case: Case) -> dict[str, float]:
 
 def _figures(case: Case) -> dict[str, tuple[float, str]]:
     """Figures with their SI units; of two columns of one name the first."""
-    found: dict[str, tuple[float, str]] = {}
+    quantities: dict[str, tuple[float, str]] = {}
     for column, values in cycle(case).items():
         if isinstance(values, Mapping) or column in _NO_FIGURES or np.ndim(values) != 1:
             continue
         unit, size = _SI.get(UNITS[column], (UNITS[column], 1.0))
         value = float(values[0]) * size
         if math.isfinite(value):
-            found.setdefault(without_unit(column, UNITS[column]), (value, unit))
-    return found
+            quantities.setdefault(without_unit(column, UNITS[column]), (value, unit))
+    return quantities
 
 
 def _settings(case: Case, values: Mapping[str, float]) -> dict[str, float | list[float]]:
     """Overrides of a case; numbers of one list come together."""
-    found: Json = {}
+    chosen: Json = {}
     for name, value in values.items():
         key, number = _split(name)
         if number is None:
-            found[key] = value
+            chosen[key] = value
         else:
-            found.setdefault(key, list(_written(case, key)))[number] = value
-    return found
+            chosen.setdefault(key, list(_written(case, key)))[number] = value
+    return chosen
 
 
 def _split(name: str) -> tuple[str, int | None]:

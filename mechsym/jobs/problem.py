@@ -315,5 +315,5 @@ def _on_throws(case: Case, mechanism: Mechanism) -> Driving:
         fired = scipy.interpolate.PPoly(curve.c, curve.x + one.face.fires % period, extrapolate="periodic")
         value = Periodic(coordinate=name, value=fired, period=period, kinks=angles)
         parts.append(Part(name=f"gas_{number}", input=one.face.input, value=value))
-    kinks = (Kinks(coordinate=q, angles=tuple(sorted(found)), period=period) for q, found in bends.items() if found)
+    kinks = (Kinks(coordinate=q, angles=tuple(sorted(bent)), period=period) for q, bent in bends.items() if bent)
     return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(turn(case).torque)))

@@ -118,13 +118,13 @@ def loop(case: Case) -> Loop:
 def _cylinders(case: Case, mechanism: Mechanism) -> tuple[LoopCylinder, ...]:
     """Each piston of the declaration with a motion of its own; else the faces, or the throws, of a case."""
     q, values = mechanism.coordinates, asdict(case.need("parameters"))
-    found = []
+    cylinders = []
     for number, role in enumerate(mechanisms.roles_of(case.mechanism).pistons):
         fires = firing(case, role, travel_of(mechanism, role.travel)) % (4 * math.pi)
         motion = piston_motion(case.mechanism, values, guesses(case), number) if number else None
-        found.append(LoopCylinder(input=role.force, coordinate=q[0], firing=fires, motion=motion))
-    if found:
-        return tuple(found)
+        cylinders.append(LoopCylinder(input=role.force, coordinate=q[0], firing=fires, motion=motion))
+    if cylinders:
+        return tuple(cylinders)
     plan = plan_of(case.mechanism)
     roles = plan.parts(case.need("parameters"))
     faces = case.need("faces") if roles.chosen else None

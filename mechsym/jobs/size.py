@@ -66,12 +66,12 @@ _SIZES: dict[str, Callable[[np.ndarray], float]] = {
 
 def _joints(case: Case) -> Sizing:
     """Loads of every joint of a mechanism that no rule sizes: what its parts are chosen by."""
-    found, told = turn(case), listing(case.mechanism)
-    units = columns(found, loads_of(found)).units
-    loads = {**found.reactions, "driving_torque": found.driving}
-    about = dict(told.get("reactions", {}))
-    if found.drive.roles.closings or not about:
-        about = dict.fromkeys(found.reactions, "") | about
+    result, listed = turn(case), listing(case.mechanism)
+    units = columns(result, loads_of(result)).units
+    loads = {**result.reactions, "driving_torque": result.driving}
+    about = dict(listed.get("reactions", {}))
+    if result.drive.roles.closings or not about:
+        about = dict.fromkeys(result.reactions, "") | about
     about["driving_torque"] = "turns the shaft at the speed of operation"
     rows = [
         fact(name, f"load, {what}", float(size_of(loads[name])), units[name],
@@ -107,32 +107,32 @@ def _hypocycloid(one: Task) -> Sizing:
     reference, wants, stock = printed_parts(one.case), one.wants, one.stock
     drive = planet_of(one.case)
     forces_of = hypocycloid_forces(gas_of(one), drive)
-    found = rules.size_hypocycloid(forces_of, reference, hypocycloid.moving_printed(reference, stock), wants, stock)
-    mass, power = hypocycloid.total_mass(found.parts, reference, wants, stock), _power(one, found.forces.omega.max())
-    rows = rules.part_rows(found.parts, "sized") + check_rows(found.checks)
-    rows += rules.mass_rows(found.parts, reference, wants, stock)
-    rows += rules.engine_rows(found.parts, found.forces, found.moving, mass, power, wants, stock, drive.moving)
+    sizes = rules.size_hypocycloid(forces_of, reference, hypocycloid.moving_printed(reference, stock), wants, stock)
+    mass, power = hypocycloid.total_mass(sizes.parts, reference, wants, stock), _power(one, sizes.forces.omega.max())
+    rows = rules.part_rows(sizes.parts, "sized") + check_rows(sizes.checks)
+    rows += rules.mass_rows(sizes.parts, reference, wants, stock)
+    rows += rules.engine_rows(sizes.parts, sizes.forces, sizes.moving, mass, power, wants, stock, drive.moving)
     rows += _crossing_rows(one)
-    failing = unsafe(found.checks)
+    failing = unsafe(sizes.checks)
     if failing:
-        rows += rules.nearest_rows(found.parts, found.forces, wants, stock, lambda omega: _power(one, omega))
-    return Sizing(told=rows, failing=failing, converged=found.converged, rounds=found.rounds, parts=found.parts,
-                  forces=found.forces, stock=stock)  # fmt: skip
+        rows += rules.nearest_rows(sizes.parts, sizes.forces, wants, stock, lambda omega: _power(one, omega))
+    return Sizing(told=rows, failing=failing, converged=sizes.converged, rounds=sizes.rounds, parts=sizes.parts,
+                  forces=sizes.forces, stock=stock)  # fmt: skip
 
 
 def _slider_crank(one: Task) -> Sizing:
     parameters, roles = one.case.need("parameters"), mechanisms.roles_of(one.case.mechanism)
     start = float(amount(roles.rods[0].moving, dataclasses.asdict(parameters)))
     forces_of = slider_crank_forces(gas_of(one), mechanisms.build(one.case.mechanism, parameters), roles)
-    found = size_slider_crank(forces_of, start, one.wants, one.stock)
+    sizes = size_slider_crank(forces_of, start, one.wants, one.stock)
     rows = []
     for key in ("piston", "cylinder", "crank"):
-        rows += size_rows(key, getattr(found.parts, key), "sized")
-    rows += check_rows(found.checks)
-    rows.append(fact("engine", "moving mass of one piston", found.reciprocating, "kg", "mass model",
+        rows += size_rows(key, getattr(sizes.parts, key), "sized")
+    rows += check_rows(sizes.checks)
+    rows.append(fact("engine", "moving mass of one piston", sizes.reciprocating, "kg", "mass model",
                      note=f"the case has {start:.3f} kg"))  # fmt: skip
-    return Sizing(told=rows + _crossing_rows(one), failing=unsafe(found.checks), converged=found.converged,
-                  rounds=found.rounds, parts=found.parts, forces=found.forces, stock=one.stock)  # fmt: skip
+    return Sizing(told=rows + _crossing_rows(one), failing=unsafe(sizes.checks), converged=sizes.converged,
+                  rounds=sizes.rounds, parts=sizes.parts, forces=sizes.forces, stock=one.stock)  # fmt: skip
 
 
 def task(case: Case) -> Task:
@@ -199,34 +199,34 @@ def _crossing_rows(one: Task) -> list[SizeRow]:
 def _crosshead(case: Case) -> Sizing:
     part: CrossheadPart = case.need("part_crosshead")
     loads = crosshead_loads(case)
-    found = crosshead_checks(part, loads)
-    rows = size_rows("crosshead drive", part, "as printed") + check_rows(found)
+    checks = crosshead_checks(part, loads)
+    rows = size_rows("crosshead drive", part, "as printed") + check_rows(checks)
     rows += [
         fact(name, "pressure times sliding speed", value, "Pa*m/s", "Archard", note="mean over a turn")
         for name, value in wear(part, loads).items()
     ]
-    return Sizing(told=rows, failing=unsafe(found), converged=True, rounds=1, parts=part, forces=loads, stock=None)
+    return Sizing(told=rows, failing=unsafe(checks), converged=True, rounds=1, parts=part, forces=loads, stock=None)
 
 
 def crosshead_loads(case: Case) -> CrossheadLoads:
     """Loads of a crosshead drive over one cycle of its case."""
-    found = turn(case)
-    roles, q = found.drive.roles, found.drive.mechanism.coordinates[0]
+    loads = turn(case)
+    roles, q = loads.drive.roles, loads.drive.mechanism.coordinates[0]
     rod, x = roles.rods[0], roles.pistons[0].travel
-    beyond = float(amount(rod.moving if rod.beyond is None else rod.beyond, found.drive.mechanism.parameters))
-    inertia = beyond * found.kinematics[f"d2{x}_d{q}2"] * found.omega**2
+    beyond = float(amount(rod.moving if rod.beyond is None else rod.beyond, loads.drive.mechanism.parameters))
+    inertia = beyond * loads.kinematics[f"d2{x}_d{q}2"] * loads.omega**2
 
     def whole(values: np.ndarray) -> np.ndarray:
         return np.append(values, values[0])
 
     def borne(place: str) -> np.ndarray:
         role = next(bearing for bearing in roles.bearings if bearing.at == place)
-        return whole(np.hypot(*(found.reactions[name] for name in role.reactions)))
+        return whole(np.hypot(*(loads.reactions[name] for name in role.reactions)))
 
-    k, side = found.kinematics, next(guide.reaction for guide in roles.guides if guide.reaction)
+    k, side = loads.kinematics, next(guide.reaction for guide in roles.guides if guide.reaction)
     return CrossheadLoads(
-        phi=np.append(found.phi, found.phi[0] + found.period), omega=found.omega,
-        rod=whole(found.inputs[roles.pistons[0].force] - inertia), pin=borne("piston_pins"),
-        crank_pin=borne("crank_pins"), side=whole(found.reactions[side]), dx_dphi=whole(k[f"d{x}_d{q}"]),
+        phi=np.append(loads.phi, loads.phi[0] + loads.period), omega=loads.omega,
+        rod=whole(loads.inputs[roles.pistons[0].force] - inertia), pin=borne("piston_pins"),
+        crank_pin=borne("crank_pins"), side=whole(loads.reactions[side]), dx_dphi=whole(k[f"d{x}_d{q}"]),
         dpsi_dphi=whole(k[f"d{rod.swing}_d{q}"]),
     )  # fmt: skip

@@ -56,8 +56,8 @@ _KINDS = {"N*m": "torque", "N": "force"}  # of an input, by its unit
 def inputs_class(name: str) -> type[Record]:
     """The record of `[inputs]`: constants for inputs that nothing drives, 0 where they are not given."""
     _refuse_lists(name)
-    found = {n: (unit, _KINDS.get(unit, "input")) for n, unit in listing(name)["inputs"].items()}
-    fields = {n: quantity(unit, default=0.0, about=f"constant {kind}") for n, (unit, kind) in found.items()}
+    kinds = {n: (unit, _KINDS.get(unit, "input")) for n, unit in listing(name)["inputs"].items()}
+    fields = {n: quantity(unit, default=0.0, about=f"constant {kind}") for n, (unit, kind) in kinds.items()}
     return own.letters_class("Inputs", fields)
 
 
@@ -83,8 +83,8 @@ def start_class(name: str) -> type[Record]:
 def motion_class(name: str) -> type[Record]:
     """The record of `[motion]`: how each driven coordinate moves, and what all of these share."""
     _refuse_lists(name)
-    told = {q: dataclasses.field(default=None) for q in listing(name)["coordinates"]}
-    rows: list[Any] = [(q, float | str | None, field) for q, field in told.items()]
+    fields = {q: dataclasses.field(default=None) for q in listing(name)["coordinates"]}
+    rows: list[Any] = [(q, float | str | None, field) for q, field in fields.items()]
     for field in dataclasses.fields(MotionSettings):
         rows.append((field.name, field.type, dataclasses.field(default=field.default, metadata=field.metadata)))
     return dataclasses.make_dataclass("Motion", rows, frozen=True, kw_only=True, namespace={"__post_init__": check})

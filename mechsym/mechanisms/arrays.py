@@ -30,8 +30,8 @@ def along(function: ca.Function, letters: Mapping[str, Scalar]) -> dict[str, np.
     sizes = [(function.size1_out(i), function.size2_out(i)) for i in range(function.n_out())]
     if batch := over_arrays(function, count):
         return dict(zip(function.name_out(), _split(batch(*(rows.get(n, 0.0) for n in names)), sizes), strict=True))
-    found = function.call([ca.DM(rows[n]) if n in rows else 0.0 for n in names])
-    shaped = [_angle_last(np.asarray(v), size, count) for v, size in zip(found, sizes, strict=True)]
+    values = function.call([ca.DM(rows[n]) if n in rows else 0.0 for n in names])
+    shaped = [_angle_last(np.asarray(v), size, count) for v, size in zip(values, sizes, strict=True)]
     return dict(zip(function.name_out(), shaped, strict=True))
 
 
@@ -96,6 +96,6 @@ def with_multipliers(functions: Mapping[str, ca.Function], dependents: Sequence[
     _, jacobian, _ = constraints(*(letters[n] for n in constraints.name_in()))
     needed = ca.mtimes(mass, ca.vertcat(*(letters[f"{n}dd"] for n in q))) + bias - force
     mu = solved(jacobian[:, held].T, needed[held])
-    found = raw(**letters, **dict(zip(multipliers, ca.vertsplit(mu), strict=True)))
-    found |= {f"driving_{q[i]}": needed[i] - ca.mtimes(jacobian[:, [i]].T, mu) for i in rest}
-    return ca.Function("reactions", list(letters.values()), list(found.values()), names, list(found))
+    values = raw(**letters, **dict(zip(multipliers, ca.vertsplit(mu), strict=True)))
+    values |= {f"driving_{q[i]}": needed[i] - ca.mtimes(jacobian[:, [i]].T, mu) for i in rest}
+    return ca.Function("reactions", list(letters.values()), list(values.values()), names, list(values))

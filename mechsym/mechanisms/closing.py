@@ -134,11 +134,11 @@ def _point(X: Scalar, sine: ca.SX, gap: float) -> tuple[Scalar, Scalar]:
 
 
 def _median(values: list[ca.SX]) -> ca.SX:
-    found = list(values)
-    for end in range(len(found) - 1, 0, -1):
+    ordered = list(values)
+    for end in range(len(ordered) - 1, 0, -1):
         for i in range(end):
-            found[i], found[i + 1] = ca.fmin(found[i], found[i + 1]), ca.fmax(found[i], found[i + 1])
-    return found[len(found) // 2]
+            ordered[i], ordered[i + 1] = ca.fmin(ordered[i], ordered[i + 1]), ca.fmax(ordered[i], ordered[i + 1])
+    return ordered[len(ordered) // 2]
 
 
 DEAD_CENTRES = {"a+": 0.0, "b+": math.pi / 2, "a-": math.pi, "b-": 3 * math.pi / 2}

@@ -45,8 +45,8 @@ def close(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]
     if not _closed(mechanism, position, free) and guesses and free:
         # the guesses are meant for where the others start
         kept = {n: float(values.get(n, 0.0)) for i, n in enumerate(q) if i not in free}
-        found = loops.followed(mechanism, kept, guesses)
-        position = position if found is None else found
+        pose = loops.followed(mechanism, kept, guesses)
+        position = position if pose is None else pose
         _closed(mechanism, position, free)
     gap, jacobian, _ = _constraints(mechanism, position, np.zeros(len(q)))
     if not np.abs(gap).max() <= _TOLERANCE * max(1.0, np.abs(position).max()):
@@ -83,8 +83,8 @@ def _rates(mechanism: Mechanism, jacobian: np.ndarray, given: list[float | None]
 
 
 def _constraints(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    found = mechanism.functions["constraints"].call([float(v) for v in [*q, *u]])
-    gap, jacobian, bias = (np.asarray(v) for v in found)
+    values = mechanism.functions["constraints"].call([float(v) for v in [*q, *u]])
+    gap, jacobian, bias = (np.asarray(v) for v in values)
     return gap.ravel(), jacobian, bias.ravel()
 
 

@@ -37,15 +37,15 @@ def shapes(mechanism: str, parameters: Record, angle: Radian, bore: Metre | None
     angle: crank angle of every coordinate that is one. bore: diameter of the cylinders; else they are drawn in
     proportion to the stroke.
     """
-    found = (
+    painted = (
         tuple(plan_of(mechanism).shapes(parameters, angle, bore))
         if is_file(mechanism) or mechanism in packaged()
         else ()
     )
-    if not found:
+    if not painted:
         drawn = (name for name in packaged() if listing(plan_of(name).theory).get("sketch"))
         raise BadInput(f"mechanism {mechanism!r} has no drawing; there are {', '.join(drawn)}")
-    return found
+    return painted
 
 
 def drawn(
@@ -143,10 +143,10 @@ def _joints(found: Sequence[Json]) -> list[tuple[str, str]]:
     return list(dict.fromkeys((x, y) for link in links for x, y in link["points"]))
 
 
-def _inner(found: Mapping[str, float], names: Sequence[str]) -> tuple[tuple[float, float, float], ...]:
+def _inner(places: Mapping[str, float], names: Sequence[str]) -> tuple[tuple[float, float, float], ...]:
     """Places in space by the names of their first coordinates as they are seen; none of what is drawn in the plane."""
     inner = [[f"draw_in_{axis}{name.removeprefix('draw_x')}" for axis in "xyz"] for name in names]
-    return tuple((found[x], found[y], found[z]) for x, y, z in inner if x in found)
+    return tuple((places[x], places[y], places[z]) for x, y, z in inner if x in places)
 
 
 def _axes(places: Sequence[tuple[float, float, float]]) -> Shapes:
@@ -158,13 +158,13 @@ def _axes(places: Sequence[tuple[float, float, float]]) -> Shapes:
     return tuple(Line(role="frame", points=((0.0, 0.0), seen(e)), space=((0.0, 0.0, 0.0), e)) for e in ends)
 
 
-def _shape(said: Json, found: Mapping[str, float]) -> Line | Circle:
-    points: list[Point] = [(found[x], found[y]) for x, y in said["points"]]
-    space = _inner(found, [x for x, _ in said["points"]])
+def _shape(said: Json, places: Mapping[str, float]) -> Line | Circle:
+    points: list[Point] = [(places[x], places[y]) for x, y in said["points"]]
+    space = _inner(places, [x for x, _ in said["points"]])
     if said["kind"] == "circle":
-        return Circle(role=said["role"], centre=points[0], radius=found[said["radius"]], space=space)
+        return Circle(role=said["role"], centre=points[0], radius=places[said["radius"]], space=space)
     if said["kind"] == "box":
-        (x, y), a, b = points[0], found[said["width"]] / 2, found[said["height"]] / 2
+        (x, y), a, b = points[0], places[said["width"]] / 2, places[said["height"]] / 2
         points = [(x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), (x - a, y - b)]
         space = ()
     return Line(role=said["role"], points=tuple(points), space=space)

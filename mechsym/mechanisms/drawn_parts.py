@@ -117,7 +117,7 @@ def slider_crank(r: float, l: float, offset: float, angle: float, bore: float | 
 
 
 def turned(
-    found: Iterable[Line | Circle], angle: float, sense: float = 1.0, origin: Point = (0.0, 0.0)
+    shapes: Iterable[Line | Circle], angle: float, sense: float = 1.0, origin: Point = (0.0, 0.0)
 ) -> Iterable[Line | Circle]:
     """Shapes turned about the shaft by an angle [rad], mirrored for sense -1, and moved to an origin [m]."""
     c, s = math.cos(angle), math.sin(angle)
@@ -126,7 +126,7 @@ def turned(
         x, y = point[0], sense * point[1]
         return origin[0] + c * x - s * y, origin[1] + s * x + c * y
 
-    for shape in found:
+    for shape in shapes:
         if isinstance(shape, Line):
             yield dataclasses.replace(shape, points=tuple(place(point) for point in shape.points))
         else:
@@ -143,8 +143,8 @@ def _row(row: Json, letters: Mapping[str, float], bore: float | None) -> Iterabl
     points = tuple((float(amount(x, letters)), float(amount(y, letters))) for x, y in row["points"])
     sizes = {name: float(amount(text, letters)) for name, text in row["sizes"].items()}
     turn = float(amount(row["turned"], letters))
-    made = _KINDS[row["kind"]](row["role"], points, sizes, bore)
-    return turned(made, turn) if turn else made
+    shapes = _KINDS[row["kind"]](row["role"], points, sizes, bore)
+    return turned(shapes, turn) if turn else shapes
 
 
 _KINDS: Mapping[str, Callable[..., Iterable[Line | Circle]]] = {

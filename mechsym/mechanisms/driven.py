@@ -232,31 +232,31 @@ def _freely(
     return run.y[: len(f)], run.y[len(f) :]
 
 
-def outputs(one: DrivenMechanism, found: DrivenPath, inputs: Sequence[float]) -> dict[str, np.ndarray]:
+def outputs(one: DrivenMechanism, way: DrivenPath, inputs: Sequence[float]) -> dict[str, np.ndarray]:
     """Outputs, reactions, driving forces and their powers over time.
 
     inputs: as of `path` [SI]. Returns outputs: by name, shape (k,); the force along each driven coordinate, its
     power [W], and `power_residual`: drives, inputs and dampers less what the energies gain [W].
     """
     mechanism = one.mechanism
-    letters = dict(zip(mechanism.coordinates, found.q, strict=True))
-    letters |= dict(zip(velocities(mechanism), found.u, strict=True))
-    letters |= dict(zip(accelerations(mechanism), found.a, strict=True))
-    letters |= {n: np.full(len(found.t), float(w)) for n, w in zip(mechanism.inputs, inputs, strict=True)}
+    letters = dict(zip(mechanism.coordinates, way.q, strict=True))
+    letters |= dict(zip(velocities(mechanism), way.u, strict=True))
+    letters |= dict(zip(accelerations(mechanism), way.a, strict=True))
+    letters |= {n: np.full(len(way.t), float(w)) for n, w in zip(mechanism.inputs, inputs, strict=True)}
     values: dict[str, np.ndarray] = {}
     functions = [mechanism.functions["kinematics"]]
     if "reactions" in mechanism.functions:
         functions.append(reactions(one))
     for function in [*functions, *([_gain(mechanism)] if "energy" in mechanism.functions else ())]:
-        columns = function.map(len(found.t)).call([letters[n] for n in function.name_in()])
+        columns = function.map(len(way.t)).call([letters[n] for n in function.name_in()])
         values |= {n: np.asarray(x).ravel() for n, x in zip(function.name_out(), columns, strict=True)}
     values = {n: x for n, x in values.items() if not n.startswith("driving_")}
     powers = {}
-    for q, force in zip(one.driven, found.force, strict=True):
+    for q, force in zip(one.driven, way.force, strict=True):
         values[f"driving_{q}"] = force
         powers[f"power_{q}"] = force * letters[f"{q}d"]
     if "gain" in values:
-        values["power_residual"] = sum(powers.values(), np.zeros(len(found.t))) - values.pop("gain")
+        values["power_residual"] = sum(powers.values(), np.zeros(len(way.t))) - values.pop("gain")
     return values | powers
 
 

@@ -39,8 +39,8 @@ def equations(name: str) -> MechanismEquations:
     >>> equations("crosshead").rows[0]["latex"]
     'l = l_{1} + l_{2}'
     """
-    found = listing(plan_of(name).theory)["equations"]
+    listed = listing(plan_of(name).theory)["equations"]
     # names of several letters are words and stand upright; a single letter is a quantity
-    upright = [_WORD.sub(lambda word: rf"\mathrm{{{word[0]}}}", row["latex"]) for row in found]
-    rows = tuple({"title": row["title"], "latex": text} for row, text in zip(found, upright, strict=True))
+    upright = [_WORD.sub(lambda word: rf"\mathrm{{{word[0]}}}", row["latex"]) for row in listed]
+    rows = tuple({"title": row["title"], "latex": text} for row, text in zip(listed, upright, strict=True))
     return MechanismEquations(name=name, rows=rows)

@@ -104,13 +104,13 @@ def followed(mechanism: Mechanism, given: Mapping[str, Radian], guesses: Mapping
     """
     steps = max(1, round(max(abs(v) for v in given.values()) / _STRIDE)) if given else 1
     near: Mapping[str, float] = guesses
-    found = close(mechanism, dict.fromkeys(given, 0.0), near)
+    pose = close(mechanism, dict.fromkeys(given, 0.0), near)
     for k in range(1, steps + 1):
-        if found is None:
+        if pose is None:
             return None
-        near = dict(zip(mechanism.coordinates, found, strict=True))
-        found = close(mechanism, {n: v * k / steps for n, v in given.items()}, near)
-    return found
+        near = dict(zip(mechanism.coordinates, pose, strict=True))
+        pose = close(mechanism, {n: v * k / steps for n, v in given.items()}, near)
+    return pose
 
 
 def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple[np.ndarray, int]:
@@ -122,22 +122,22 @@ def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple
     """
     driver, *rest = mechanism.coordinates
     guesses = dict(mechanism.dependents)
-    found: list[np.ndarray] = []
+    poses: list[np.ndarray] = []
     for k in range(most * points + 1):
         phi = 2 * np.pi * k / points
         q = close(mechanism, {driver: phi}, guesses)
         if q is None:
             why = f"the loop opens at {driver} = {np.degrees(phi):.3f} deg"
             raise BadInput(f"{mechanism.name}: {why}; it locks there, or the guesses choose no branch")
-        if found and np.abs(q - found[-1])[1:].max() > 1.0:
+        if poses and np.abs(q - poses[-1])[1:].max() > 1.0:
             raise BadInput(
                 f"{mechanism.name}: the branch changes near {driver} = {np.degrees(phi):.3f} deg; it locks there"
             )
-        found.append(q)
-        steps = [q, found[-2] if len(found) > 1 else q]
+        poses.append(q)
+        steps = [q, poses[-2] if len(poses) > 1 else q]
         guesses = dict(zip(rest, (2 * steps[0] - steps[1])[1:], strict=True))
-        if k and k % points == 0 and _same(q, found[0]):
-            return np.array(found).T, k // points
+        if k and k % points == 0 and _same(q, poses[0]):
+            return np.array(poses).T, k // points
     raise BadInput(f"{mechanism.name} does not repeat within {most} turns of {driver}")
 
 
@@ -240,8 +240,8 @@ def _with_free(function: ca.Function, letters: Sequence[ca.SX]) -> ca.Function:
     """A function whose last inputs are letters that stay free."""
     names = function.name_in()[: function.n_in() - len(letters)]
     own = [ca.SX.sym(name) for name in names]
-    found = function.call([*own, *letters])
-    return ca.Function(function.name(), own, found, names, function.name_out(), {"allow_free": True})
+    values = function.call([*own, *letters])
+    return ca.Function(function.name(), own, values, names, function.name_out(), {"allow_free": True})
 
 
 def _call(mechanism: Mechanism, group: str, known: Mapping[str, ca.SX]) -> list[ca.SX]:
@@ -250,17 +250,17 @@ def _call(mechanism: Mechanism, group: str, known: Mapping[str, ca.SX]) -> list[
     letters |= dict(zip(velocities(mechanism), ca.vertsplit(known["u"]), strict=True))
     letters |= dict(zip(accelerations(mechanism), ca.vertsplit(known["a"]), strict=True))
     letters |= dict(zip(mechanism.inputs, ca.vertsplit(known["inputs"]), strict=True))
-    found = function.call([letters[n] for n in function.name_in()])
-    return list(found)
+    values = function.call([letters[n] for n in function.name_in()])
+    return list(values)
 
 
 def _kinematics(mechanism: Mechanism, q: ca.SX, phi: ca.SX, pose: ca.SX) -> ca.Function:
     driver, *rest = mechanism.coordinates
     T, _ = motion(mechanism, q, ca.SX(1, 1), tuple(mechanism.dependents))
     kinematics = mechanism.functions["kinematics"]
-    found = dict(zip(kinematics.name_out(), kinematics.call(ca.vertsplit(q)), strict=True))
-    partial = {f"d{s}_d{v}" for s in found for v in mechanism.coordinates}
-    base = {s: v for s, v in found.items() if not s.startswith("d") or not (s in partial or "_d" in s)}
+    values = dict(zip(kinematics.name_out(), kinematics.call(ca.vertsplit(q)), strict=True))
+    partial = {f"d{s}_d{v}" for s in values for v in mechanism.coordinates}
+    base = {s: v for s, v in values.items() if not s.startswith("d") or not (s in partial or "_d" in s)}
     outputs = dict(zip(rest, ca.vertsplit(q)[1:], strict=True)) | base
     mass = _call(
         mechanism,

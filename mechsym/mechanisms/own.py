@@ -75,12 +75,12 @@ def brought() -> dict[str, str]:
     """Names that installed packages bring, with their files."""
     import importlib.metadata
 
-    found = {}
+    files = {}
     for entry in importlib.metadata.entry_points(group=_GROUP):
         spec = importlib.util.find_spec(entry.value.partition(":")[0])
         if spec is not None and spec.origin:
-            found[entry.name] = f"{spec.origin}:{entry.attr}" if entry.attr else spec.origin
-    return found
+            files[entry.name] = f"{spec.origin}:{entry.attr}" if entry.attr else spec.origin
+    return files
 
 
 def _brought(name: str) -> str | None:

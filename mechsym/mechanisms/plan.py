@@ -95,12 +95,12 @@ class DeclaredMechanism:
 
     def rigid(self, parameters: Record, guesses: Mapping[str, float]) -> Mechanism:
         """The same on its first coordinate, loops closed along it."""
-        found = self.build(parameters)
-        if found.dependents:
-            return one_coordinate(found, guesses)
-        if len(found.coordinates) != 1:
-            raise BadInput(f"{found.name} has {len(found.coordinates)} coordinates; this command takes one")
-        return found
+        mechanism = self.build(parameters)
+        if mechanism.dependents:
+            return one_coordinate(mechanism, guesses)
+        if len(mechanism.coordinates) != 1:
+            raise BadInput(f"{mechanism.name} has {len(mechanism.coordinates)} coordinates; this command takes one")
+        return mechanism
 
     def listing(self, mechanism: Mechanism | None) -> "Listing":
         """As the derivation has stored it."""
@@ -114,8 +114,8 @@ class DeclaredMechanism:
         """The mechanism that the declaration names as alike, or itself."""
         for other in self.parts(parameters).alike:
             letters = dataclasses.asdict(parameters)
-            found = {letter: amount(text, letters) for letter, text in other.parameters.items()}
-            return other.name, plan_of(other.name).parameters(**found)
+            numbers = {letter: amount(text, letters) for letter, text in other.parameters.items()}
+            return other.name, plan_of(other.name).parameters(**numbers)
         return self.name, parameters
 
     def proportions(self, parameters: Record) -> Proportions | None:

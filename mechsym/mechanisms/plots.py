@@ -98,8 +98,8 @@ def _scale(axes: "Axes", drawn: Callable[[float], Shapes], degrees: str) -> None
     axes.plot([left, left + length], [y, y], color=INK, lw=1.5, marker="|")
     axes.set_ylim(bottom=y - pad)
     factor, unit = axis_unit("m", length)
-    told = f"{length * factor:.4g} {unit}, crank at {degrees}"
-    axes.text(left + length + pad, y, told, va="center", fontsize=8, color=INK)
+    label = f"{length * factor:.4g} {unit}, crank at {degrees}"
+    axes.text(left + length + pad, y, label, va="center", fontsize=8, color=INK)
 
 
 def animation(mechanism: str, parameters: Record, title: str, bore: float | None = None) -> str:

@@ -52,8 +52,8 @@ class Mechanism:
     @property
     def state_units(self) -> tuple[str, ...]:
         """Units of the coordinates, then of the velocities."""
-        found = tuple(self.units.get(q, "rad") for q in self.coordinates)
-        return (*found, *(f"{unit}/s" for unit in found))
+        units = tuple(self.units.get(q, "rad") for q in self.coordinates)
+        return (*units, *(f"{unit}/s" for unit in units))
 
     # a mechanism is itself: what is computed of it is kept by identity
     __hash__ = object.__hash__

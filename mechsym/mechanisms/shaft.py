@@ -85,12 +85,12 @@ def with_inertia(mechanism: Mechanism, inertia: Inertia) -> Mechanism:
         if function is None or first not in function.name_out():
             continue
         letters = [ca.SX.sym(function.name_in(i)) for i in range(function.n_in())]
-        found = dict(zip(function.name_out(), function.call(letters), strict=True))
-        share = ca.SX(*found[first].shape)
+        values = dict(zip(function.name_out(), function.call(letters), strict=True))
+        share = ca.SX(*values[first].shape)
         share[0, 0] = inertia * letters[count] ** 2 / 2 if group == "energy" else inertia
-        found[first] = found[first] + share
+        values[first] = values[first] + share
         functions[group] = ca.Function(
-            group, letters, list(found.values()), function.name_in(), list(found), {"allow_duplicate_io_names": True}
+            group, letters, list(values.values()), function.name_in(), list(values), {"allow_duplicate_io_names": True}
         )
     return replace(mechanism, functions=functions)
 
@@ -110,13 +110,13 @@ def with_torque(mechanism: Mechanism, name: str, sign: Pure = 1.0) -> Mechanism:
             continue
         function = functions[group]
         letters = [ca.SX.sym(n) for n in function.name_in()]
-        found = dict(zip(function.name_out(), function.call(letters), strict=True))
+        values = dict(zip(function.name_out(), function.call(letters), strict=True))
         if group == "dynamics":
-            share = ca.SX(*found["generalized_force"].shape)
+            share = ca.SX(*values["generalized_force"].shape)
             share[0] = sign * torque
-            found["generalized_force"] += share
-        functions[group] = ca.Function(group, [*letters, torque], list(found.values()), [*function.name_in(), name],
-                                       list(found), {"allow_duplicate_io_names": True})  # fmt: skip
+            values["generalized_force"] += share
+        functions[group] = ca.Function(group, [*letters, torque], list(values.values()), [*function.name_in(), name],
+                                       list(values), {"allow_duplicate_io_names": True})  # fmt: skip
     return replace(mechanism, inputs=(*mechanism.inputs, name), functions=functions)
 
 

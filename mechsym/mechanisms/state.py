@@ -48,12 +48,12 @@ def state(
 
     dynamics = mechanism.functions["dynamics"]
     mass, bias, force = (np.asarray(v) for v in dynamics.call(numbers(dynamics.name_in())))
-    found = dict(zip(accelerations(mechanism), qdd, strict=True)) | dict(values)
+    quantities = dict(zip(accelerations(mechanism), qdd, strict=True)) | dict(values)
     outputs: dict[str, float | None] = {**_named(mechanism.functions["kinematics"], numbers(q)), **joint_forces}
     outputs |= _inertia(mechanism, values) | dict.fromkeys(mechanism.undetermined)
     if "reactions" in mechanism.functions and not any(n.startswith("driving_") for n in joint_forces):
         reactions = mechanism.functions["reactions"]
-        outputs |= _named(reactions, [float(found.get(n, 0.0)) for n in reactions.name_in()])
+        outputs |= _named(reactions, [float(quantities.get(n, 0.0)) for n in reactions.name_in()])
     energies: dict[str, float | None] = {"kinetic_energy": None, "potential_energy": None}
     if "energy" in mechanism.functions:
         energies |= _named(mechanism.functions["energy"], numbers([*q, *u]))
@@ -61,10 +61,10 @@ def state(
     inertia, push, rate = _UNITS.get(kinds.pop(), _MIXED) if len(kinds) == 1 else _MIXED
     known = {**dict.fromkeys(outputs, ""), **_units(mechanism), **units}
     shown = {n: mechanism.shown.get(n, n) for n in known}
-    told = Columns({shown[n]: v for n, v in outputs.items()}, {shown[n]: unit for n, unit in known.items()})
+    columns = Columns({shown[n]: v for n, v in outputs.items()}, {shown[n]: unit for n, unit in known.items()})
     return MechanismState(
         mass_matrix=mass.tolist(), bias=bias.ravel().tolist(), generalized_force=force.ravel().tolist(),
-        acceleration=qdd.tolist(), outputs=told, **energies, inertia=inertia, push=push, rate=rate,
+        acceleration=qdd.tolist(), outputs=columns, **energies, inertia=inertia, push=push, rate=rate,
     )  # fmt: skip
 
 
@@ -72,8 +72,8 @@ def _units(mechanism: Mechanism) -> dict[str, str]:
     """Of what is no output of the declaration."""
     known: dict[str, str] = {}
     if "constraints" in mechanism.functions:
-        told = listing(mechanism.name)
-        known = {f"force_{c}": told["outputs"][name] for c, name in told.get("multipliers", {}).items()}
+        listed = listing(mechanism.name)
+        known = {f"force_{c}": listed["outputs"][name] for c, name in listed.get("multipliers", {}).items()}
         known |= {"constraint_rank": "-", "constraint_count": "-"}
     for q in mechanism.coordinates:
         inertia, push, _ = _UNITS[unit := mechanism.units.get(q, "rad")]

@@ -54,10 +54,10 @@ def _one_shaft(p: Scalar) -> bool:
 
 def _banks(p: Scalar) -> list[list[int]]:
     """Cylinders that would hide each other at the end, in the order along the shaft."""
-    found: dict[tuple[float, float], list[int]] = {}
+    banks: dict[tuple[float, float], list[int]] = {}
     for i in sorted(range(len(p.throw)), key=lambda i: (p.throw[i], each(p, "z_rod")[i])):
-        found.setdefault((round(each(p, "bank")[i], 6), each(p, "offset")[i]), []).append(i)
-    return list(found.values())
+        banks.setdefault((round(each(p, "bank")[i], 6), each(p, "offset")[i]), []).append(i)
+    return list(banks.values())
 
 
 def _at_the_end(p: Scalar, angle: float, bore: float | None) -> Iterable[Line | Circle]:

@@ -35,9 +35,9 @@ STYLES: dict[str, tuple[str, float, str]] = {
 _BODIES, _BODY = ("rod", "crank"), 4.0  # drawn by their middle lines; as wide as bodies in a page
 
 
-def ordered(found: Iterable[Line | Circle]) -> list[Line | Circle]:
+def ordered(shapes: Iterable[Line | Circle]) -> list[Line | Circle]:
     """Shapes by their role, what lies behind first."""
-    return sorted(found, key=lambda shape: list(STYLES).index(shape.role))
+    return sorted(shapes, key=lambda shape: list(STYLES).index(shape.role))
 
 
 def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames: int = FRAMES) -> Json:
@@ -143,8 +143,8 @@ def corners(shown: Json, role: str) -> Iterator[tuple[int, np.ndarray]]:
 
 def _pixels(shown: Json, at: np.ndarray) -> list[list[float]]:
     (left, top), scale = shown["origin"], shown["scale"]
-    found = np.rint([left + scale * at.real, top - scale * at.imag]).astype(int).T
-    once: list[list[float]] = found[:1].tolist() if (found == found[0]).all() else found.tolist()
+    pixels = np.rint([left + scale * at.real, top - scale * at.imag]).astype(int).T
+    once: list[list[float]] = pixels[:1].tolist() if (pixels == pixels[0]).all() else pixels.tolist()
     return once
 
 

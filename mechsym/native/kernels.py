@@ -234,4 +234,4 @@ def _labels(tape: Tape) -> list[set[int]]:
                 parent[c] = i
             below = {i}
         labels.append(below)
-    return [{root(c) for c in found} for found in labels]
+    return [{root(c) for c in group} for group in labels]

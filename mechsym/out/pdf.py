@@ -14,11 +14,11 @@ _LONGEST = 120  # that printing may take [s]
 
 def chromium() -> str:
     """Path of a Chromium. Raises BadInput: None is installed."""
-    found = next((path for path in map(shutil.which, NAMES) if path), None)
-    if found is None:
+    browser = next((path for path in map(shutil.which, NAMES) if path), None)
+    if browser is None:
         way = "install one (Debian: apt-get install chromium), or open the HTML report and print it from any browser"
         raise BadInput(f"--pdf needs a Chromium or Chrome, and none is found; {way}")
-    return found
+    return browser
 
 
 def to_pdf(text: str, path: Path) -> Path:

@@ -71,10 +71,10 @@ class ResultTable(Mapping[str, np.ndarray]):
         """A column by its heading, or by its name without the unit."""
         if name in self._columns:
             return self._columns[name]
-        found = [key for key in self._columns if key.partition(" [")[0] == name]
-        if not found:
+        keys = [key for key in self._columns if key.partition(" [")[0] == name]
+        if not keys:
             raise KeyError(name)
-        return self._columns[found[0]]
+        return self._columns[keys[0]]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -125,8 +125,8 @@ def _headed(name: str, values: Column, unit: str) -> tuple[str, Column]:
     stem, unit = (without_unit(name, unit), unit) if unit else stem_and_unit(name)
     if not unit or any(isinstance(v, str) for v in values):
         return name, values
-    shown, found = shown_in(values, unit, asked=True)
-    return f"{stem} [{found}]", shown
+    shown, chosen = shown_in(values, unit, asked=True)
+    return f"{stem} [{chosen}]", shown
 
 
 def _cells(values: np.ndarray, rows: int) -> list[str]:

@@ -45,22 +45,22 @@ def page(name: str, **values: object) -> str:
 def _environment() -> "jinja2.Environment":
     import jinja2
 
-    made = jinja2.Environment(
+    environment = jinja2.Environment(
         loader=jinja2.PackageLoader("mechsym", "templates"),
         undefined=jinja2.StrictUndefined,
         autoescape=True,
         trim_blocks=True,
     )
-    made.globals["version"] = mechsym.__version__
-    made.policies["json.dumps_kwargs"] = {"sort_keys": True, "separators": (",", ":")}
-    made.filters |= {
+    environment.globals["version"] = mechsym.__version__
+    environment.policies["json.dumps_kwargs"] = {"sort_keys": True, "separators": (",", ":")}
+    environment.filters |= {
         "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "plain": pretty,
         "pretty": typeset, "pieces": pieces,
         "words": key_words, "places": lambda text, said: _KEYED.sub(lambda found: f"{said(found[1])} = ", str(text)),
         "packed": packed,
         "quantity": lambda value, unit, digits=5: typeset(quantity_text(value, unit, digits)),
     }  # fmt: skip
-    return made
+    return environment
 
 
 def packed(scenes: Sequence[Json]) -> list[Json]:
@@ -111,18 +111,18 @@ def typeset(text: object) -> str:
     return Markup(_NAMED.sub(_set, _LETTER.sub(_letter, str(escape(pretty(text))))))  # noqa: S704 escaped before
 
 
-def _letter(found: re.Match[str]) -> str:
+def _letter(match: re.Match[str]) -> str:
     """A Greek letter with its index; a word that only begins as one stays."""
-    index = found[2].lstrip("_")
-    if found[2] and not (index.isdigit() or found[2][0] == "_" and len(index) <= _SYMBOL):
-        return found[0]
-    return _GREEK[found[1]] + (f"<sub>{index}</sub>" if index else "")
+    index = match[2].lstrip("_")
+    if match[2] and not (index.isdigit() or match[2][0] == "_" and len(index) <= _SYMBOL):
+        return match[0]
+    return _GREEK[match[1]] + (f"<sub>{index}</sub>" if index else "")
 
 
-def _set(found: re.Match[str]) -> str:
-    base, _, index = found[0].partition("_")
-    if "." in found[0] or len(base) > _SYMBOL:
-        return f"<code>{found[0]}</code>"
+def _set(match: re.Match[str]) -> str:
+    base, _, index = match[0].partition("_")
+    if "." in match[0] or len(base) > _SYMBOL:
+        return f"<code>{match[0]}</code>"
     return f"{base}<sub>{index.replace('_', ' ')}</sub>"
 
 
@@ -151,6 +151,6 @@ def pretty(text: object) -> str:
     >>> pretty("37810 kg*m^2")
     '37810 kg m²'
     """
-    found = _TIMES.sub(" ", str(text)).replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
-    found = _TWICE.sub(r"\1/(\2 \3)", found)
-    return found.replace("1e-9", "1e\u20119")  # a hyphen that does not break
+    words = _TIMES.sub(" ", str(text)).replace("^2", "²").replace("^3", "³").replace("^4", "⁴")
+    words = _TWICE.sub(r"\1/(\2 \3)", words)
+    return words.replace("1e-9", "1e\u20119")  # a hyphen that does not break

@@ -51,10 +51,10 @@ def card(kind: type, name: str, value: Scalar | None, about: str = "", of: str =
     >>> card(Wheel, "power_kw", 0.25).value
     '250 W'
     """
-    told = on_card(kind, name)
-    number, unit = in_si(math.nan if value is None else float(value), told["unit"])
-    shown = per_cent(number, told["digits"]) if unit == "-" else quantity_text(number, unit, told["digits"])
-    return Card(name=f"{told['card']} {of}".rstrip(), value=shown, about=about)
+    entry = on_card(kind, name)
+    number, unit = in_si(math.nan if value is None else float(value), entry["unit"])
+    shown = per_cent(number, entry["digits"]) if unit == "-" else quantity_text(number, unit, entry["digits"])
+    return Card(name=f"{entry['card']} {of}".rstrip(), value=shown, about=about)
 
 
 def cards(result: Record) -> tuple[Card, ...]:

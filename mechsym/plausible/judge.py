@@ -66,7 +66,7 @@ def _table() -> dict[str, tuple[Usual, ...]]:
                 why=row["why"],
             )
         )
-    return {name: tuple(found) for name, found in rows.items()}
+    return {name: tuple(usuals) for name, usuals in rows.items()}
 
 
 _ROWS = _table()
@@ -113,13 +113,13 @@ def inputs(values: Mapping[str, float], refusing: bool = True) -> tuple[Doubt, .
     >>> [d.code for d in inputs({"cycle.compression_ratio": 60.0, "cycle.bore": 0.08})]
     ['compression_ratio']
     """
-    found = []
+    doubts = []
     for key, value in values.items():
         for kind in _kinds_of_input(key):
             if refusing:
                 _refuse(key, value, kind)
-            found += [_doubt(key, value, kind)] if not kind.low <= value <= kind.high else []
-    return tuple(found)
+            doubts += [_doubt(key, value, kind)] if not kind.low <= value <= kind.high else []
+    return tuple(doubts)
 
 
 # the points of a sweep have the same keys

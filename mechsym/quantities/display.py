@@ -43,10 +43,10 @@ def heading(name: str, values: Scalar, asked: bool = False, unit: str | None = N
     stem, known = stem_and_unit(name) if unit is None else (without_unit(name, unit), unit)
     if not known or all(isinstance(v, str) for v in values):
         return name, values
-    changed, found = shown_in(values, known, asked or stem != name)
-    if asked and stem != name and found == known:
+    changed, unit_shown = shown_in(values, known, asked or stem != name)
+    if asked and stem != name and unit_shown == known:
         return name, values
-    return f"{stem} [{found}]", changed
+    return f"{stem} [{unit_shown}]", changed
 
 
 def stem_and_unit(name: str) -> tuple[str, str]:
@@ -66,8 +66,8 @@ def without_unit(name: str, unit: str) -> str:
     ('power', 'sfc', 'torque')
     """
     end = "_" + re.sub(r"[*^()]", "", unit.lower()).replace("/", "_")
-    head, found, rest = name.rpartition(end)
-    return head + rest if found and rest in ("", "_per_cylinder") else name
+    head, middle, rest = name.rpartition(end)
+    return head + rest if middle and rest in ("", "_per_cylinder") else name
 
 
 def choose(text: str | None) -> None:
@@ -135,8 +135,8 @@ def quantity_text(value: float | None, unit: str, digits: int = 5) -> str:
     """
     if value is None or not math.isfinite(value):
         return "-"
-    number, found = shown_in(float(value), unit)
-    return f"{figure(number, digits)} {found}" if found not in ("", "-") else figure(number, digits)
+    number, unit_shown = shown_in(float(value), unit)
+    return f"{figure(number, digits)} {unit_shown}" if unit_shown not in ("", "-") else figure(number, digits)
 
 
 def in_si(value: float, unit: str) -> tuple[float, str]:
@@ -214,8 +214,8 @@ def column_text(values: Sequence[object], least: int = _LEAST) -> list[str]:
 
 def _parts(numbers: list[float], digits: int) -> list[bool]:
     """Whether each number is another than the one before it, as it is printed."""
-    told = [figure(v, digits) for v in numbers]
-    return [a != b for a, b in pairwise(told)]
+    texts = [figure(v, digits) for v in numbers]
+    return [a != b for a, b in pairwise(texts)]
 
 
 def _cell(value: object, digits: int) -> str:
@@ -238,8 +238,8 @@ def _largest(values: Scalar) -> float:
     if isinstance(values, list) and set(map(type, values)) <= {float, type(None)}:  # a million go at once
         column = np.array(values, dtype=float)
         return float(np.abs(column).max(initial=0.0, where=np.isfinite(column)))
-    found = [abs(float(v)) for v in numbers if isinstance(v, (int, float, np.number)) and math.isfinite(v)]
-    return max(found, default=0.0)
+    sizes = [abs(float(v)) for v in numbers if isinstance(v, (int, float, np.number)) and math.isfinite(v)]
+    return max(sizes, default=0.0)
 
 
 def _kind(unit: str) -> tuple[int, ...]:

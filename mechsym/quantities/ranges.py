@@ -71,13 +71,13 @@ def values(text: str, unit: str, option: str, plain: str = "", key: str = "", mo
     >>> values("50,75%", "-", "--loads")
     [0.5, 0.75]
     """
-    found = read_range(text, option, plain or unit, key)
+    parsed = read_range(text, option, plain or unit, key)
     where = f"{option} {key}".strip()
-    if found.kind != "grid":
+    if parsed.kind != "grid":
         raise BadInput(f"{where}: {text.strip()} does not say how many; write {text.strip()}:5 or a list")
-    _check_count(where, len(found.values), most)
-    written = found.unit or plain
-    return [parse(f"{value!r} {written}" if written else value, unit, where) for value in found.values]
+    _check_count(where, len(parsed.values), most)
+    written = parsed.unit or plain
+    return [parse(f"{value!r} {written}" if written else value, unit, where) for value in parsed.values]
 
 
 def _written(text: str, where: str, head: str, unit: str) -> tuple[str, tuple[float, ...], int | None, set[str]]:

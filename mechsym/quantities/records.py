@@ -197,8 +197,8 @@ def _frozen(self: object, name: str, *_: object) -> NoReturn:
 class _Signature:
     """What `help` and editors show of a record: its fields."""
 
-    def __get__(self, made: object, cls: type) -> inspect.Signature:
-        if made is not None:
+    def __get__(self, instance: object, cls: type) -> inspect.Signature:
+        if instance is not None:
             raise AttributeError("__signature__")
         parameters = []
         for field in (field for field in dataclasses.fields(cls) if field.init):

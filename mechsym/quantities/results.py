@@ -186,13 +186,13 @@ def tell(value: object, only: Container[str] | None = None) -> Any:
     if type(value) in _PLAIN:
         return value
     if names := _names(value):
-        told: dict[str, object] = {}
+        data: dict[str, object] = {}
         for name, unit in names.items():
             if unit == _INLINE:
-                told |= tell(getattr(value, name), only)
+                data |= tell(getattr(value, name), only)
             elif only is None or name in only:
-                told[name] = tell(getattr(value, name))
-        return told
+                data[name] = tell(getattr(value, name))
+        return data
     if isinstance(value, Mapping):
         return {name: tell(inner) for name, inner in value.items()}
     if isinstance(value, (list, tuple)):
@@ -290,7 +290,7 @@ def entries_of(kind: type) -> Iterator[Entry]:
     for name, unit in _units(kind).items():
         if name in hints:
             # the comment beside a field, in the class that declares it
-            said = next((told[name] for parent in kind.__mro__ if name in (told := comments(parent))), "")
+            said = next((commented[name] for parent in kind.__mro__ if name in (commented := comments(parent))), "")
             about = (fields[name].metadata.get("about") if name in fields else "") or said
             hint = hints[name] if name in fields else typing.get_args(hints[name])[0]
         else:

@@ -43,8 +43,8 @@ def schema(kind: type) -> Json:
         else:
             properties[entry.name] = _of(entry.hint) | _said(entry)
             required += [] if entry.optional else [entry.name]
-    told = {"type": "object", "properties": properties, "required": required}
-    return told | ({"additionalProperties": {"anyOf": others}} if others else {})
+    data = {"type": "object", "properties": properties, "required": required}
+    return data | ({"additionalProperties": {"anyOf": others}} if others else {})
 
 
 def _said(entry: Entry) -> Json:

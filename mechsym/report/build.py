@@ -51,23 +51,24 @@ def case_report(
 
     names: parts that are wanted, of `PARTS`, all without a word; source: whose engine it is, by name and year.
     """
-    made = []
+    parts = []
     with inputs.reads() as read:
         for name in PARTS if names is None else names:
-            made.append(part(name, case))
+            parts.append(part(name, case))
             progress()
     return CaseReport(
-        case=case, parts=tuple(made), values=tuple(sourced(case)), digest=digest(case, read), source=source
+        case=case, parts=tuple(parts), values=tuple(sourced(case)), digest=digest(case, read), source=source
     )  # fmt: skip
 
 
-def combustion_html(case: Case, found: MeasuredDiagram) -> str:
+def combustion_html(case: Case, diagram: MeasuredDiagram) -> str:
     """The page of a combustion analysis as text."""
     with inputs.reads() as read:
         values = tuple(sourced(case))
     seen = {"cycle", "parameters", "operation", "combustion", "measured"}
     one = CaseReport(
-        case=case, parts=(combustion_part(found),), values=tuple(v for v in values if v.key.partition(".")[0] in seen),
+        case=case, parts=(combustion_part(diagram),),
+        values=tuple(v for v in values if v.key.partition(".")[0] in seen),
         digest=digest(case, read), source="",
     )  # fmt: skip
     return html([one])
@@ -75,9 +76,9 @@ def combustion_html(case: Case, found: MeasuredDiagram) -> str:
 
 def digest(case: Case, read: Mapping[str, str]) -> str:
     """Twelve hex digits that change with every value of a case, and with what was in the files `read` for it."""
-    told = [cases.text(case.path), *(f"{key}={value}" for key, value in sorted(case.overrides.items()))]
-    told += sorted(content for name, content in read.items() if name != case.path)
-    return hashlib.sha256("\n".join(told).encode()).hexdigest()[:12]
+    lines = [cases.text(case.path), *(f"{key}={value}" for key, value in sorted(case.overrides.items()))]
+    lines += sorted(content for name, content in read.items() if name != case.path)
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:12]
 
 
 def html(reports: Sequence[CaseReport], date: str = "") -> str:
@@ -87,25 +88,25 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
     """
     shown, number = [], 0
     for place, one in enumerate(reports, 1):
-        parts, told, scenes = [], list[str](), _turning(one)
+        parts, said, scenes = [], list[str](), _turning(one)
         seen = {"mechanism", "elastic_hinge"} if scenes else set()  # they turn at the head
         # the diagram of the gas once, with its events where it has them
         shown_of = (p for made in one.parts if made.view for p in made.view.pictures)
         of_gas = dict(zip(("indicator",), (p for p in shown_of if p.name == "pressure"), strict=False))
-        for found in one.parts:
-            if found.state in (LEFT_OUT, REFUSED) or found.view is None:
+        for section in one.parts:
+            if section.state in (LEFT_OUT, REFUSED) or section.view is None:
                 continue
             figures = []
-            for picture in (of_gas.get(drawn.name, drawn) for drawn in found.view.pictures if drawn.name not in seen):
+            for picture in (of_gas.get(drawn.name, drawn) for drawn in section.view.pictures if drawn.name not in seen):
                 number, seen = number + 1, seen | {picture.name}
                 drawn = picture.draw()
                 width, height = drawn.get_size_inches()
                 high, one_panel = height > 0.75 * width, len(drawn.axes) == 1
                 shape = "narrow" if high and one_panel else "tall" if high else ""
                 figures.append({"number": number, "see": picture.see, "svg": svg(drawn, str(number)), "shape": shape})
-            facts = [fact for fact in found.facts if fact not in told]
-            told += facts
-            parts.append({"part": found, "facts": facts, "figures": figures, "id": f"{found.name}-{place}"})
+            facts = [fact for fact in section.facts if fact not in said]
+            said += facts
+            parts.append({"part": section, "facts": facts, "figures": figures, "id": f"{section.name}-{place}"})
         first = answer(one.case, one.parts)
         derived = listing(plan_of(one.case.mechanism).theory).get("equations", ())
         equations = [row for row in derived if len(row["mathml"]) < _LONG]
@@ -120,7 +121,7 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
 
 def _turning(one: CaseReport) -> list[Json]:
     """What turns at the head of a report: the engine with its hinge, or the machine alone, and what presses in it."""
-    of_parts = next((scenes for found in one.parts if (scenes := found.turning())), None)
+    of_parts = next((scenes for section in one.parts if (scenes := section.turning())), None)
     return loaded(of_parts, one.case) if of_parts else turning(one.case)
 
 

@@ -43,7 +43,7 @@ class ReportNumbers:
 
 def numbers(reports: Sequence[CaseReport], files: Sequence[Path]) -> ReportNumbers:
     """Reports in numbers."""
-    told = [
+    each = [
         CaseNumbers(
             case=one.case.name,
             sha256=one.digest,
@@ -52,4 +52,4 @@ def numbers(reports: Sequence[CaseReport], files: Sequence[Path]) -> ReportNumbe
         )
         for one in reports
     ]
-    return ReportNumbers(reports=told, written=[str(file) for file in files])
+    return ReportNumbers(reports=each, written=[str(file) for file in files])

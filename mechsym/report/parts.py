@@ -45,37 +45,37 @@ from mechsym.torsion.shown import criticals, span
 _GIVES = "The engine gives"  # with which a sentence on the power at the shaft begins: it stands first
 
 
-def force_part(title: str, case: Case, found: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
+def force_part(title: str, case: Case, result: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
     """The part of a force analysis."""
-    numbers = told(case, found)
+    numbers = told(case, result)
     doubts += twist.doubts(numbers.vibration) if numbers.vibration else ()
-    reasons = tuple(found.unbalanced)
+    reasons = tuple(result.unbalanced)
     return ReportPart(
-        name="forces", title=title, view=found.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
-        verdict=f"{_friction(found)}.", facts=tuple(numbers.numbers.facts), grids=(_borne(found),),
+        name="forces", title=title, view=result.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
+        verdict=f"{_friction(result)}.", facts=tuple(numbers.numbers.facts), grids=(_borne(result),),
         decide=reasons, doubts=doubts, silent=("rigid links at constant speed; friction of the first order",),
         numbers=tell(numbers), beside=tuple(criticals(numbers.vibration)),
     )  # fmt: skip
 
 
-def _friction(found: Forces) -> str:
-    if found.losses is None:
+def _friction(result: Forces) -> str:
+    if result.losses is None:
         return "Bearings and guides are without friction: the case has no [friction]"
-    if not found.losses.places.keys() - {"rings"}:
+    if not result.losses.places.keys() - {"rings"}:
         return f"Friction is {NO_PLACE}"
-    power, share = quantity_text(sum(found.losses.places.values()), "W", 4), found.losses.mechanical_efficiency
-    told = "" if share is None else f": mechanical efficiency {figure(100 * share, 3)} %"
-    if share is not None and not half(found):
-        brake = quantity_text(share * found.losses.indicated_power, "W", 4)
-        return f"{_GIVES} {brake} at its shaft (brake), friction takes {power}{told}"
-    of = " of one piston" if half(found) else ""
-    whole = AUXILIARIES in found.losses.places
+    power, share = quantity_text(sum(result.losses.places.values()), "W", 4), result.losses.mechanical_efficiency
+    share_text = "" if share is None else f": mechanical efficiency {figure(100 * share, 3)} %"
+    if share is not None and not half(result):
+        brake = quantity_text(share * result.losses.indicated_power, "W", 4)
+        return f"{_GIVES} {brake} at its shaft (brake), friction takes {power}{share_text}"
+    of = " of one piston" if half(result) else ""
+    whole = AUXILIARIES in result.losses.places
     what = "Friction, that of auxiliaries included," if whole else "Friction of bearings and guides"
-    return f"{what}{of} takes {power}{told}"
+    return f"{what}{of} takes {power}{share_text}"
 
 
-def _borne(found: Forces) -> Grid:
-    rows = borne(found)
+def _borne(result: Forces) -> Grid:
+    rows = borne(result)
     several = any(row["of"] for row in rows)
     cells = [
         (named(row), *([row["of"]] if several else []), *_extremes(row), row["on"])
@@ -90,8 +90,8 @@ def _extremes(row: Json) -> list[str]:
     """Largest and smallest in one unit, that of the larger."""
     values, unit = shown_in([row["max"], row["min"]], row["unit"])
     least = 10.0 ** (math.floor(math.log10(max(map(abs, values)) or 1.0)) - 4)  # a digit beyond the last of the larger
-    told = [figure(round(value / least) * least, 4) for value in values]
-    return [text if unit in ("", "-") else f"{text} {unit}" for text in told]
+    texts = [figure(round(value / least) * least, 4) for value in values]
+    return [text if unit in ("", "-") else f"{text} {unit}" for text in texts]
 
 
 _MODEL, _CLOSED = "the cycle is a model: ", "the closed period only, gas exchange at constant pressure"
@@ -118,8 +118,8 @@ def part(name: str, case: Case) -> ReportPart:
     """A part of the report of a case; bad input and what is missing are told in it."""
     kind, facts = PARTS[name], facts_of(case.mechanism, case.sections)
     if missing := in_words(facts, lacking(facts).get(name, [])):
-        told = [f"the case lacks {what}" if what.startswith(("[", "drive.")) else what for what in missing]
-        return ReportPart(name=name, title=kind.title, state=LEFT_OUT, reason="; ".join(told))
+        lacks = [f"the case lacks {what}" if what.startswith(("[", "drive.")) else what for what in missing]
+        return ReportPart(name=name, title=kind.title, state=LEFT_OUT, reason="; ".join(lacks))
     try:
         return kind.made_of(case)
     except BadInput as error:
@@ -129,34 +129,34 @@ def part(name: str, case: Case) -> ReportPart:
 def _cycle(case: Case) -> ReportPart:
     if kind_of(case.need("cycle")).measured:
         return combustion_part(measured_combustion(case))
-    found = cycle(case)
-    view, acting = found.view, gas(case)
+    figures = cycle(case)
+    view, acting = figures.view, gas(case)
     pictures = () if acting is None else acting.view.pictures
-    power, rpm = float(found["power_kw"][0]), float(found["speed_rpm"][0])
-    many, each = found.get("cylinders", 1), found.get("each", "cylinder")
-    rubs = bool(np.any(found.get("friction_mep_kpa", 0.0)))
+    power, rpm = float(figures["power_kw"][0]), float(figures["speed_rpm"][0])
+    many, each = figures.get("cylinders", 1), figures.get("each", "cylinder")
+    rubs = bool(np.any(figures.get("friction_mep_kpa", 0.0)))
     at = f"at {figure(rpm, 4)} rpm" + (f", {many} {each}s" if many > 1 else "")
     gas_power = quantity_text(1e3 * abs(power), "W", 4)
     verdict = f"The gas {'takes' if power < 0 else 'gives'} {gas_power} (indicated) {at}"
     if rubs:
-        shaft = quantity_text(1e3 * float(found["brake_power_kw"][0]), "W", 4)
+        shaft = quantity_text(1e3 * float(figures["brake_power_kw"][0]), "W", 4)
         verdict = f"{_GIVES} {shaft} at its shaft (brake), {gas_power} in its cylinders (indicated), {at}"
-    told = CycleFigures({k: v for k, v in found.items() if rubs or k not in AFTER_FRICTION})
+    shown = CycleFigures({k: v for k, v in figures.items() if rubs or k not in AFTER_FRICTION})
     facts = () if acting is None else tuple(acting.pressure.facts)
     return ReportPart(
         name="cycle", title=PARTS["cycle"].title, view=dataclasses.replace(view, pictures=(*view.pictures, *pictures)),
-        verdict=f"{verdict}.", facts=facts, grids=(_work_grid(told, each, many), _beside(told)),
+        verdict=f"{verdict}.", facts=facts, grids=(_work_grid(shown, each, many), _beside(shown)),
         silent=(_MODEL + (_CLOSED if kind_of(case.need("cycle")).closed else _ASSUMES),),
-        numbers=dict(found), doubts=(*of_cycle(case, found, source(case).bound), *of_gas(case, acting)),
+        numbers=dict(figures), doubts=(*of_cycle(case, figures, source(case).bound), *of_gas(case, acting)),
     )  # fmt: skip
 
 
-def _work_grid(found: CycleFigures, each: str, many: int) -> Grid:
+def _work_grid(figures: CycleFigures, each: str, many: int) -> Grid:
     """Brake figures beside the indicated ones, of the engine and of one cylinder."""
-    rubs = "brake_mep_kpa" in found
-    rows = [(name, *(_value(found, key) for key in keys)) for name, keys in _PAIRS.items() if keys[1] in found]
+    rubs = "brake_mep_kpa" in figures
+    rows = [(name, *(_value(figures, key) for key in keys)) for name, keys in _PAIRS.items() if keys[1] in figures]
     if many > 1:
-        one = dict(found.get("per_cylinder") or {})
+        one = dict(figures.get("per_cylinder") or {})
         rows += [(f"{name} of one {each}", *(_value(one, key) for key in keys))
                  for name, keys in _PAIRS.items() if keys[1] in one]  # fmt: skip
     heads = ("", "brake", "indicated, net") if rubs else ("", "indicated, net")
@@ -165,37 +165,37 @@ def _work_grid(found: CycleFigures, each: str, many: int) -> Grid:
                 numbers=tuple(head != "" for head in heads))  # fmt: skip
 
 
-def _beside(found: CycleFigures) -> Grid:
-    rows = tuple((WORDS[key], _value(found, key)) for key in _BESIDE if key in found)
+def _beside(figures: CycleFigures) -> Grid:
+    rows = tuple((WORDS[key], _value(figures, key)) for key in _BESIDE if key in figures)
     return Grid(title="Mean pressures, combustion and peak", headings=("", "value"), rows=rows, numbers=(False, True))
 
 
-def _value(found: Json, key: str) -> str:
-    value = float(np.ravel(found.get(key, math.nan))[0])
+def _value(figures: Json, key: str) -> str:
+    value = float(np.ravel(figures.get(key, math.nan))[0])
     return "–" if math.isnan(value) else card(CycleColumns, key, value).value
 
 
-def combustion_part(found: MeasuredDiagram) -> ReportPart:
+def combustion_part(measured: MeasuredDiagram) -> ReportPart:
     """The part of a measured diagram: a combustion analysis."""
-    numbers, figures = tell(found), found.figures
+    numbers, figures = tell(measured), measured.figures
     heads = {name: unit for name, unit in units_of(MeasuredCycle).items() if unit != "-"}
     rows, each = numbers["cycles"], units_of(RecordAmongOthers)
     beside = [{**row, "file": Path(row["file"]).name, "imep_interval_bar": bars(*row["imep_interval_bar"])}
               for row in numbers["records"]]  # fmt: skip
-    view, centre, (low, high) = found.combustion.view, found.dead_centre, found.dead_centre.interval_deg
+    view, centre, (low, high) = measured.combustion.view, measured.dead_centre, measured.dead_centre.interval_deg
     cards = (
-        Card(name="exponent of compression", value=figure(found.n_compression, 4), about="-90 to -30 deg"),
-        Card(name="exponent of expansion", value=figure(found.n_expansion, 4), about="60 to 110 deg"),
+        Card(name="exponent of compression", value=figure(measured.n_compression, 4), about="-90 to -30 deg"),
+        Card(name="exponent of expansion", value=figure(measured.n_expansion, 4), about="60 to 110 deg"),
         Card(name="dead centre of the file", value=f"{centre.deg:.2f} deg", about=f"95 %: {low:.2f} to {high:.2f} deg"),
     )
     mean = f"a net IMEP of {bars(figures.imep_bar)}, 19 times in 20 within {bars(*figures.imep_interval_bar)}"
     return ReportPart(
         name="cycle", title="Combustion of the measured cycles",
         view=dataclasses.replace(view, cards=(*view.cards, *cards)),
-        verdict=f"The measured cycles give {mean}, at {figure(found.speed_rpm, 4)} rpm.", facts=found.facts,
+        verdict=f"The measured cycles give {mean}, at {figure(measured.speed_rpm, 4)} rpm.", facts=measured.facts,
         grids=(grid("Records of one encoder", beside, list(beside[0]) if beside else [], each),
                grid("Cycle by cycle", rows, list(rows[0]), heads)),
-        silent=("the gas is what was measured, at its speed and load",), numbers=numbers, doubts=found.doubts,
+        silent=("the gas is what was measured, at its speed and load",), numbers=numbers, doubts=measured.doubts,
     )  # fmt: skip
 
 
@@ -241,30 +241,30 @@ def _per_cent(share: float | None) -> str:
 def _forces(case: Case) -> ReportPart:
     if "motion" in case.sections:
         return over_time(PARTS["forces"].title, case)
-    found = forces(case)
-    return force_part(PARTS["forces"].title, case, found, of_forces(case, found))
+    result = forces(case)
+    return force_part(PARTS["forces"].title, case, result, of_forces(case, result))
 
 
 def _size(case: Case) -> ReportPart:
     printed = roles_of(case.mechanism).rules == "slider crank" and "part_crosshead" in case.sections
-    found = check_printed(case) if printed else size(case)
+    sizing = check_printed(case) if printed else size(case)
     # a reaction keeps its letter with the index
     rows = [{**row, "component": row["component"] if row["component"][:2] == "R_" else key_words(row["component"])}
-            for row in found.rows]  # fmt: skip
+            for row in sizing.rows]  # fmt: skip
     sizes = [_sized(row) for row in rows if row["limit"] is None]
     checks = [_sized(row) | {"": "" if row["holds"] else "BELOW"} for row in rows if row["limit"] is not None]
-    tight = [_tight(row) for row in tightest(found)[:3]]
-    bad = bool(found.failing) or not found.converged
-    state = f"{len(found.failing)} of {len(checks)} safety factors are too low" if found.failing else \
+    tight = [_tight(row) for row in tightest(sizing)[:3]]
+    bad = bool(sizing.failing) or not sizing.converged
+    state = f"{len(sizing.failing)} of {len(checks)} safety factors are too low" if sizing.failing else \
         f"All {len(checks)} safety factors hold" if checks else "Loads only: no rule sizes its parts"  # fmt: skip
     shown = ["component", "quantity", "value", "limit", "unit", "safety_factor", "wanted", "rule", ""]
     return ReportPart(
-        name="size", title=PARTS["size"].title, view=found.view, state=INFEASIBLE if bad else DONE, verdict=f"{state}.",
-        reason="" if not bad else state if found.failing else "masses and loads do not agree",
+        name="size", title=PARTS["size"].title, view=sizing.view, state=INFEASIBLE if bad else DONE,
+        verdict=f"{state}.", reason="" if not bad else state if sizing.failing else "masses and loads do not agree",
         grids=(grid("Sizes", sizes, ["component", "quantity", "value", "unit", "note"]), grid("Checks", checks, shown)),
-        limits=tuple(tight), numbers=found.rows,
+        limits=tuple(tight), numbers=sizing.rows,
         silent=("sizes follow standards; no finite elements",) if checks else (),
-        decide=tuple(f"{key_words(c.component)}: {c.quantity} is below the wanted factor" for c in found.failing),
+        decide=tuple(f"{key_words(c.component)}: {c.quantity} is below the wanted factor" for c in sizing.failing),
     )  # fmt: skip
 
 
@@ -286,19 +286,19 @@ def _tight(row: Json) -> str:
 
 
 def _simulate(case: Case) -> ReportPart:
-    found = run(case)
-    run_numbers = found.summary
+    result = run(case)
+    run_numbers = result.summary
     bad = run_numbers.status in ("failed", "not converged", "chaotic")
-    of = f" of the {found.engine.words}" if found.engine and found.engine.words else ""
-    speed = f"over the last period the speed{of} is {span(found.speed)}"
+    of = f" of the {result.engine.words}" if result.engine and result.engine.words else ""
+    speed = f"over the last period the speed{of} is {span(result.speed)}"
     numbers = {k: v for k, v in tell(run_numbers).items() if k != "wall_s"}  # another each time
     end = f"{_ENDS.get(run_numbers.end, 'ended by ' + run_numbers.end)} in {figure(run_numbers.t_end, 3)} s"
-    stall = tuple(text for text in found.findings if text.startswith("the shaft stops"))
+    stall = tuple(text for text in result.findings if text.startswith("the shaft stops"))
     return ReportPart(
-        name="simulate", title=PARTS["simulate"].title, view=found.view, state=INFEASIBLE if bad else DONE,
-        reason=run_numbers.reason if bad else "", facts=found.findings, decide=stall, numbers=numbers,
+        name="simulate", title=PARTS["simulate"].title, view=result.view, state=INFEASIBLE if bad else DONE,
+        reason=run_numbers.reason if bad else "", facts=result.findings, decide=stall, numbers=numbers,
         verdict=f"The run {end}" + (", the shaft stands." if stall else f"; {speed}."),
-        silent=("the load of the run is the case's, or a propeller that takes the mean torque",), doubts=found.doubts,
+        silent=("the load of the run is the case's, or a propeller that takes the mean torque",), doubts=result.doubts,
     )  # fmt: skip
 
 
@@ -319,9 +319,9 @@ PARTS: dict[str, PartKind] = {
 }
 
 
-def doubts_of(found: ReportPart) -> tuple[Doubt, ...]:
+def doubts_of(one: ReportPart) -> tuple[Doubt, ...]:
     """Doubts of a part: its own, and those that its numbers show."""
-    return (*found.doubts, *results(found.numbers or {}))
+    return (*one.doubts, *results(one.numbers or {}))
 
 
 @record
@@ -342,16 +342,16 @@ def answer(case: Case, parts: Sequence[ReportPart]) -> FirstPage:
     """The first page of a case."""
     doubts, accepted = sifted(tuple(dict.fromkeys([*case.doubts, *(d for p in parts for d in doubts_of(p))])),
                               case.acceptances)  # fmt: skip
-    told = [f"{d.quantity} = {figure(d.value, 4)}, usual is {d.usual}: {d.why}" for d in doubts]
-    made = [p for p in parts if p.view is not None]
+    notes = [f"{d.quantity} = {figure(d.value, 4)}, usual is {d.usual}: {d.why}" for d in doubts]
+    computed = [p for p in parts if p.view is not None]
     return FirstPage(
         findings=ranked(one for p in parts for one in p.findings),
         verdicts=tuple(("" if p.state == DONE else "no", _verdict(p)) for p in sorted(
             (p for p in parts if p.state != LEFT_OUT), key=lambda p: not p.verdict.startswith(_GIVES))),
-        cards=tuple(card for p in made for card in _cards(p)),
-        limits=tuple(text for p in made for text in p.limits),
-        decide=(*(text for p in made for text in p.decide), *told),
-        silent=tuple(dict.fromkeys(text for p in made for text in p.silent)),
+        cards=tuple(card for p in computed for card in _cards(p)),
+        limits=tuple(text for p in computed for text in p.limits),
+        decide=(*(text for p in computed for text in p.decide), *notes),
+        silent=tuple(dict.fromkeys(text for p in computed for text in p.silent)),
         absent=tuple(f"{p.title}: {p.reason}" for p in parts if p.state == LEFT_OUT),
         accepted=tuple(f"{d.quantity} = {figure(d.value, 4)}, usual is {d.usual}; accepted: "
                        f"{case.acceptances[d.code].why}" for d in accepted),
@@ -374,5 +374,5 @@ def _cards(part: ReportPart) -> tuple[Card, ...]:
 def side_by_side(reports: Sequence[tuple[str, Sequence[ReportPart]]]) -> list[Json]:
     """Rows of a quantity and its value in each case, for the first page of several."""
     cards = [{(p.title, c.name): c.value for p in parts for c in _cards(p)} for _, parts in reports]
-    keys = dict.fromkeys(key for found in cards for key in found)
-    return [{"part": key[0], "name": key[1], "values": [found.get(key, "–") for found in cards]} for key in keys]
+    keys = dict.fromkeys(key for shown in cards for key in shown)
+    return [{"part": key[0], "name": key[1], "values": [shown.get(key, "–") for shown in cards]} for key in keys]

@@ -86,9 +86,9 @@ def crossing(mechanism: Mechanism, q: np.ndarray, u: np.ndarray, held: tuple[str
     if not 0 < way * np.sign(u[i]) < _FAR:
         return None
     for reach in _REACH:
-        found = _through(_Branch(mechanism, i, others), q, way, reach)
-        if found is not None:
-            return found
+        way_through = _through(_Branch(mechanism, i, others), q, way, reach)
+        if way_through is not None:
+            return way_through
     return None
 
 

@@ -95,8 +95,8 @@ def rests(problem: Problem, case: str) -> RestPoses:
     ) == 1 and units[motion.free[0]] == "rad"  # fmt: skip
     sizes = np.array([1.0 if u == "rad" else max(abs(x), 0.1) for u, x in zip(units, start, strict=True)])
     poses, ends = _round(motion, start) if turning else (_from_many(motion, start, sizes, units), [])
-    told = [_judged(motion, pose, sizes) for pose in poses if motion.condition(pose) > _SINGULAR]
-    return RestPoses(case=case, rests=told, complete=turning and not ends, singular=ends)
+    judged = [_judged(motion, pose, sizes) for pose in poses if motion.condition(pose) > _SINGULAR]
+    return RestPoses(case=case, rests=judged, complete=turning and not ends, singular=ends)
 
 
 def _motion(problem: Problem) -> _Motion:
@@ -139,7 +139,7 @@ def _round(motion: _Motion, start: np.ndarray) -> tuple[list[np.ndarray], list[f
     poses = [*ways[0][:0:-1], *ways[1]]
     rows = [(p, motion.at(p)[0] if p is not None else math.nan) for p in poses]
     largest = max((abs(a) for _, a in rows if math.isfinite(a)), default=0.0)
-    found = []
+    rest_poses = []
     for (p, a), (r, b) in itertools.pairwise(rows):
         if p is None or r is None or not a * b <= 0 or a == b == 0 or (b == 0 and r is not rows[-1][0]):
             continue
@@ -149,9 +149,9 @@ def _round(motion: _Motion, start: np.ndarray) -> tuple[list[np.ndarray], list[f
             continue
         pose = motion.close(np.array([angle]), p)
         if pose is not None and abs(motion.at(pose)[0]) <= 1e-6 * largest:
-            found.append(pose)
-    same = len(found) > 1 and abs(found[-1][i] - found[0][i] - 2 * np.pi) < _SAME
-    return found[:-1] if same else found, [*ends[0], *ends[1]]
+            rest_poses.append(pose)
+    same = len(rest_poses) > 1 and abs(rest_poses[-1][i] - rest_poses[0][i] - 2 * np.pi) < _SAME
+    return rest_poses[:-1] if same else rest_poses, [*ends[0], *ends[1]]
 
 
 def _along(motion: _Motion, angle: float, near: np.ndarray) -> float:
@@ -166,7 +166,7 @@ def _from_many(motion: _Motion, start: np.ndarray, sizes: np.ndarray, units: lis
     size = max(1.0, *(np.abs(motion.at(q)).max() for q in starts if np.isfinite(motion.at(q)).all()))
     felt = np.array([any(np.abs(_slope(motion, q, j, sizes)).max() > _ZERO * size for q in starts[:4])
                      for j in range(len(motion.free))])  # fmt: skip
-    found: list[np.ndarray] = []
+    poses: list[np.ndarray] = []
     for guess in starts if felt.any() else ():
         values = start[motion.free]
 
@@ -181,10 +181,10 @@ def _from_many(motion: _Motion, start: np.ndarray, sizes: np.ndarray, units: lis
         if pose is None:
             continue
         pose = np.where(turns, np.mod(pose + np.pi, 2 * np.pi) - np.pi, pose)
-        away = (np.abs(pose - other) for other in found)
+        away = (np.abs(pose - other) for other in poses)
         if all((np.where(turns, np.minimum(d, 2 * np.pi - d), d) / sizes).max() > 1e3 * _SAME for d in away):
-            found.append(pose)
-    return found
+            poses.append(pose)
+    return poses
 
 
 def _slope(motion: _Motion, pose: np.ndarray, j: int, sizes: np.ndarray) -> np.ndarray:

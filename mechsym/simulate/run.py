@@ -255,12 +255,6 @@ def refuse_endless(problem: Problem, first: Result, tried: Result, settings: Set
     exponent = math.log(2) / math.log(whole / half)
     steps = TRIAL / whole**exponent
     if steps > _OFF * settings.max_steps:
-        places = np.array([tried.columns[q][-1] for q in problem.mechanism.coordinates])
-        if not problem.mechanism.dependents and at_pole(problem.mechanism, places):
-            raise BadInput(
-                f"{problem.mechanism.name} is at a pole of its angles near t = {tried.t[-1]:.3g} s, where two of them "
-                "turn about one axis; leave the sequence of the joint out: a quaternion has no pole"
-            )
         reach = whole * (settings.max_steps / TRIAL) ** (1 / exponent)
         asked, most = f"t_end = {problem.t_end:g} s", f"{reach * problem.t_end:.2g} s"
         if problem.turns is not None and by_turns >= by_time:

@@ -126,8 +126,8 @@ class GearPart:
 
     def __post_init__(self) -> None:
         if self.teeth_ring != 2 * self.teeth_pinion:
-            told = f"teeth_ring = {self.teeth_ring:g} is not twice teeth_pinion = {self.teeth_pinion:g}"
-            raise BadInput(f"{told}: the planet of a hypocycloid rolls in a ring of twice its size")
+            problem = f"teeth_ring = {self.teeth_ring:g} is not twice teeth_pinion = {self.teeth_pinion:g}"
+            raise BadInput(f"{problem}: the planet of a hypocycloid rolls in a ring of twice its size")
 
 
 @record

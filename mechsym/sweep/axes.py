@@ -157,12 +157,12 @@ class Ties:
         values: dict[str, Value] = {
             _name(self.places[key]): _si(self.places[key], value) for key, value in here.items()
         }
-        found = dict(here)
+        point = dict(here)
         for tie in self.ties:
             values[tie.key if tie.place is None else _name(tie.place)] = value = self._value(tie, values)
             if tie.place is not None:
-                found[_name(tie.place)] = value
-        return found
+                point[_name(tie.place)] = value
+        return point
 
     def _value(self, tie: Tie, values: Mapping[str, Value]) -> float:
         try:
@@ -191,7 +191,7 @@ def ties(case: str, overrides: Mapping[str, object], texts: tuple[str, ...], axe
     axes: keys that the sweep runs over. Raises BadInput: no formula, a name that neither the case nor a tie before it
     has, or a letter that nothing uses.
     """
-    places, letters, found = dict(axes), {"pi"}, []
+    places, letters, tied = dict(axes), {"pi"}, []
     for text in texts:
         key, tree, written = _split(text)
         place = _located(case, key, overrides)
@@ -200,12 +200,12 @@ def ties(case: str, overrides: Mapping[str, object], texts: tuple[str, ...], axe
                 places[name] = _number(cases.locate(case, name, overrides, option=f"--tie {key}:"), name)
         if place is None:
             letters.add(key)
-        found.append(Tie(key=key, text=written, place=place, tree=tree))
-    used = {name for tie in found for name in _names(tie.tree)}
-    for tie in found:
+        tied.append(Tie(key=key, text=written, place=place, tree=tree))
+    used = {name for tie in tied for name in _names(tie.tree)}
+    for tie in tied:
         if tie.place is None and tie.key not in used:
             cases.locate(case, tie.key, overrides, option="--tie")
-    return Ties(base=cases.load(case, overrides), ties=tuple(found), places=places)
+    return Ties(base=cases.load(case, overrides), ties=tuple(tied), places=places)
 
 
 def _split(text: str) -> tuple[str, ast.expr, str]:

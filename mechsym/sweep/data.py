@@ -45,9 +45,9 @@ def columns(result: Sweep) -> dict[str, np.ndarray]:
 
 def main_results(result: Sweep) -> dict[str, np.ndarray]:
     """The few numbers looked at first, asked for or the analysis' main ones [SI, or as the name says]."""
-    found = columns(result)
+    candidates = columns(result)
     wanted = MAIN[result.analysis] if not result.show or "all" in result.show else result.show
-    numbers = {n: found[n] for w in wanted for n in found if asked(n, w) and found[n].dtype.kind == "f"}
+    numbers = {n: candidates[n] for w in wanted for n in candidates if asked(n, w) and candidates[n].dtype.kind == "f"}
     # a limit that is never reached is as far away as a gap
     return {n: np.where(np.isfinite(v), v, math.nan) for n, v in numbers.items() if np.isfinite(v).any()}
 
@@ -228,13 +228,13 @@ def indices(result: Sweep) -> list[SobolIndex]:
     Returns rows: one for each result that varies and each axis; none where fewer than two base samples are whole.
     """
     count, d = result.sobol, len(result.axes)
-    found = []
+    rows = []
     for name, values in main_results(result).items():
         blocks = values.reshape(d + 2, count)
         whole = np.isfinite(blocks).all(axis=0)
         if whole.sum() > 1 and np.ptp(blocks[:, whole]) > 1e-12 * np.abs(blocks[:, whole]).max():
-            found += _of_one(name, result.axes, blocks[:, whole], int(count - whole.sum()))
-    return found
+            rows += _of_one(name, result.axes, blocks[:, whole], int(count - whole.sum()))
+    return rows
 
 
 def _of_one(name: str, axes: Sequence[Axis], blocks: np.ndarray, left_out: int) -> list[SobolIndex]:

@@ -70,7 +70,7 @@ def designed(show: Collection[str]) -> Callable[[Case], Columns]:
     return one
 
 
-def judged(found: Sequence[Case], show: Collection[str]) -> list[Outcome]:
+def judged(points: Sequence[Case], show: Collection[str]) -> list[Outcome]:
     """Guides and verdicts; what they run like is not asked.
 
     show: results that are wanted; none for those of `hinge.summary.QUICK`. Returns outcomes: keys of the command
@@ -82,7 +82,7 @@ def judged(found: Sequence[Case], show: Collection[str]) -> list[Outcome]:
     only = {name.partition(".")[0] for name in show} or QUICK
     outcomes: dict[int, Outcome] = {}
     groups: dict[Balance, list[tuple[int, _Wanted]]] = {}
-    for i, case in enumerate(found):
+    for i, case in enumerate(points):
         wanted = guarded(_wanted, case)
         if isinstance(wanted, Gap):
             outcomes[i] = wanted
@@ -95,7 +95,7 @@ def judged(found: Sequence[Case], show: Collection[str]) -> list[Outcome]:
             if not isinstance(one, Gap):
                 hinge = JudgedHinge(machine=w.machine, hinge=w.hinge, verdict=one)
                 outcomes[i] = guarded(lambda judged: some(HingeNumbers(judged=judged), only), hinge)
-    return [outcomes[i] for i in range(len(found))]
+    return [outcomes[i] for i in range(len(points))]
 
 
 def _wanted(case: Case) -> _Wanted:
@@ -153,10 +153,10 @@ def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[s
         at = {**overrides, **dict(rest)}
         free = [{key: heres[i][key] for key in numbers} for i in members]
         try:
-            found = _margins(cases.load(case, at), numbers, free)
+            rows = _margins(cases.load(case, at), numbers, free)
         except (BadInput, ArithmeticError, ValueError, RuntimeError) as error:
-            found = [known(error)] * len(members)
-        outcomes |= dict(zip(members, found, strict=True))
+            rows = [known(error)] * len(members)
+        outcomes |= dict(zip(members, rows, strict=True))
     return [outcomes[i] for i in range(len(heres))]
 
 
@@ -193,14 +193,14 @@ def _column(case: Case, given: Json, key: str, place: Place, texts: Sequence[Val
 
     def value(text: Value) -> float | Gap:
         try:
-            found = parse(f"{text} {place.written}" if place.written else text, place.unit or "-", key)
+            number = parse(f"{text} {place.written}" if place.written else text, place.unit or "-", key)
             # the records of these sections check each value by itself
-            return getattr(dataclasses.replace(given[place.section], **{place.field: found}), place.field)
+            return getattr(dataclasses.replace(given[place.section], **{place.field: number}), place.field)
         except BadInput as error:
             return known(BadInput(f"{case.file}: {error}"))
 
-    made = {text: value(text) for text in dict.fromkeys(texts)}
-    return [made[text] for text in texts]
+    values = {text: value(text) for text in dict.fromkeys(texts)}
+    return [values[text] for text in texts]
 
 
 def _design(given: Json, names: Sequence[str], values: Sequence[float]) -> Json:
@@ -209,7 +209,7 @@ def _design(given: Json, names: Sequence[str], values: Sequence[float]) -> Json:
     for name, value in zip(names, values, strict=True):
         section, _, field = name.partition(".")
         changed[section][field] = value
-    return {name: dataclasses.replace(found, **changed[name]) for name, found in given.items()}
+    return {name: dataclasses.replace(given_value, **changed[name]) for name, given_value in given.items()}
 
 
 def _one(wanted: "Balance", design: Json, limits: Sequence[str]) -> Outcome:

@@ -59,18 +59,18 @@ def flat(result: object) -> dict[str, float | str]:
 
     Returns numbers: None becomes not a number; longer lists and most words are left out.
     """
-    found: dict[str, float | str] = {}
+    values: dict[str, float | str] = {}
     for path, value, unit in walk(result):
         name = f"{path} [{unit}]" if unit else path
         if isinstance(value, str):
-            found |= {path: value} if path in WORDS else {}
+            values |= {path: value} if path in WORDS else {}
         elif path.rpartition(".")[2] in _NO_RESULT:
             continue
         elif value is None:
-            found[name] = math.nan
+            values[name] = math.nan
         elif (numbers := np.asarray(value)).size == 1 and numbers.dtype.kind in "bif":
-            found[name] = float(numbers.ravel()[0])
-    return found
+            values[name] = float(numbers.ravel()[0])
+    return values
 
 
 def kept(row: Mapping[str, float | str], show: Sequence[str]) -> dict[str, float | str]:
@@ -102,9 +102,9 @@ def size(case: Case) -> Json:
     """Rows of `mechsym size` as component.quantity with its unit, and .limit and .safety_factor of a check."""
     from mechsym.jobs.size import size as sized
 
-    found = sized(case)
-    numbers: dict[str, object] = {"failing [-]": len(found.failing), "converged [-]": found.converged}
-    for row in found.rows:
+    sizing = sized(case)
+    numbers: dict[str, object] = {"failing [-]": len(sizing.failing), "converged [-]": sizing.converged}
+    for row in sizing.rows:
         name = f"{row['component']}.{row['quantity']}".replace(" ", "_")
         # one quantity may be held against several rules
         unit = f" [{row['unit'] or '-'}]"
@@ -122,13 +122,13 @@ def codesign(case: Case) -> Columns:
     from mechsym.jobs.codesign import settings_of
 
     every = some(numbers_of(design(case, settings_of(case))), names_of(CoDesignNumbers))
-    found: dict[str, object] = {}
+    values: dict[str, object] = {}
     for name, value in every.items():
         numbers = [v for v in value if isinstance(v, float | int)] if isinstance(value, Sequence) else []
         several, unit = len(numbers) > 1 and not isinstance(value, str), every.units[name]
         ends = {"min": min(numbers), "max": max(numbers)} if several else {}
-        found[name] = Columns(ends, dict.fromkeys(ends, unit)) if several else value
-    return Columns(found, every.units)
+        values[name] = Columns(ends, dict.fromkeys(ends, unit)) if several else value
+    return Columns(values, every.units)
 
 
 _PEAKS = ("twist_peak", "torque_peak")

@@ -32,10 +32,10 @@ _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 def _shown(result: Sweep) -> dict[str, np.ndarray]:
     """The results that a picture has panels for; none for one point or two, or gaps only."""
     # main results, without those that stay the same or are round-off; all when none is left
-    found = main_results(result)
-    sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in found.items()}
-    lively = {n: found[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
-    chosen = found if result.show or not lively else lively
+    results = main_results(result)
+    sizes = {n: (np.nanmax(v) - np.nanmin(v), np.nanmax(np.abs(v))) for n, v in results.items()}
+    lively = {n: results[n] for n, (change, size) in sizes.items() if change > 1e-9 * size and size > _ROUND_OFF}
+    chosen = results if result.show or not lively else lively
     return dict(list(chosen.items())[:_MOST]) if len(result.points) > 2 else {}
 
 
@@ -64,18 +64,18 @@ def caption(result: Sweep) -> str:
     if result.sobol and (rows := indices(result)):
         names = list(dict.fromkeys(row.result for row in rows))[:_MOST]
         most = [max((row for row in rows if row.result == name), key=lambda row: row.total) for name in names]
-        told = [f"{key_words(row.result, WORDS)} hangs most on {said(row.key)}, "
+        parts = [f"{key_words(row.result, WORDS)} hangs most on {said(row.key)}, "
                 f"{figure(row.total, 3)} of its variance with the others" for row in most]  # fmt: skip
-        return "; ".join(told) + "; whiskers are intervals of 95 %."
-    told = []
+        return "; ".join(parts) + "; whiskers are intervals of 95 %."
+    parts = []
     for name, column in _shown(result).items():
         values, label = _scaled(name, column[np.isfinite(column)], result.units[name])
         words, _, unit = label.removesuffix("]").partition(" [")
         ends = " to ".join(dict.fromkeys(figure(float(end(values)), 4) for end in (np.min, np.max)))
         ends += f" {unit}".removesuffix(" -")
         truth = f": yes at {int(values.sum())} of {values.size}"
-        told.append(words + (truth if _truth(name, column) else f" {ends}"))
-    return "; ".join(told) + "." if told else ""
+        parts.append(words + (truth if _truth(name, column) else f" {ends}"))
+    return "; ".join(parts) + "." if parts else ""
 
 
 def _words(result: Sweep, axes: list[int]) -> bool:
@@ -100,8 +100,8 @@ def said(key: str) -> str:
     section, _, field = key.partition(".")
     if section not in schema.sections():
         return key_words(key, WORDS)
-    told = {row["about"] for row in keys(section) if row["key"] == field}
-    about = told.pop().partition(";")[0].replace("`", "") if len(told) == 1 else ""
+    abouts = {row["about"] for row in keys(section) if row["key"] == field}
+    about = abouts.pop().partition(";")[0].replace("`", "") if len(abouts) == 1 else ""
     about = about[:1].lower() + about[1:] if about[1:2].islower() else about
     return about if 0 < len(about) <= _LONGEST else field if section in schema.LETTERS else key_words(key, WORDS)
 
@@ -136,8 +136,8 @@ def _slice(result: Sweep, free: list[int], column: np.ndarray) -> np.ndarray:
     """A result over the free axes, the others at their middle value."""
     shape = tuple(len(a.values) for a in result.axes)
     at = tuple(slice(None) if i in free else n // 2 for i, n in enumerate(shape))
-    found = column.reshape(shape)[at]
-    return found if len(free) == 1 or free[0] < free[1] else found.T
+    values = column.reshape(shape)[at]
+    return values if len(free) == 1 or free[0] < free[1] else values.T
 
 
 def _title(result: Sweep, free: list[int]) -> str:
@@ -170,7 +170,7 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
     figure, axes = _panels(result, shown)
     figure.suptitle(_title(result, free), fontsize=10)
     for axis, (name, column) in zip(axes, shown.items(), strict=False):
-        drawn, told = _scaled(name, column, result.units[name])
+        drawn, axis_label = _scaled(name, column, result.units[name])
         values = np.atleast_2d(_slice(result, free, drawn).T)
         x, across = _ticks(axis, along)
         for k, y in enumerate(values):
@@ -189,7 +189,7 @@ def _lines(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int 
         if _changes_sign(values):
             axis.axhline(0, color=INK, linewidth=0.6)
         axis.set_xlabel(across)
-        axis.set_ylabel(textwrap.fill(told, _WIDE))
+        axis.set_ylabel(textwrap.fill(axis_label, _WIDE))
         _places(axis.yaxis, name, column)
     if other is not None:
         handles, labels = axes[0].get_legend_handles_labels()
@@ -203,7 +203,7 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
     figure.suptitle(_title(result, list(over)), fontsize=10)
     (x, across), (y, upwards) = (_scaled(a.key, np.array(a.values), a.unit) for a in (right, up))
     for axis, (name, column) in zip(axes, shown.items(), strict=False):
-        drawn, told = _scaled(name, column, result.units[name])
+        drawn, label = _scaled(name, column, result.units[name])
         values = _slice(result, list(over), drawn).T
         axis.set_facecolor(NOTHING)
         axis.grid(False)
@@ -220,7 +220,7 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
         gaps = np.argwhere(np.isnan(values))
         if gaps.size:
             axis.plot(x[gaps[:, 1]], y[gaps[:, 0]], "x", color=RED, markersize=4, clip_on=False)
-        axis.set_title(told, fontsize=9)
+        axis.set_title(label, fontsize=9)
         axis.set_xlabel(across)
         axis.set_ylabel(upwards)
     return figure
@@ -258,12 +258,12 @@ def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
     inputs = np.array(result.points, dtype=float).T
     for k, (name, column) in enumerate(shown.items()):
         there = np.isfinite(column)
-        y, told = _scaled(name, column[there], result.units[name])
+        y, label = _scaled(name, column[there], result.units[name])
         upper, lower = axes[k], axes[len(shown) + k]
         upper.hist(y, bins=min(40, max(5, round(np.sqrt(y.size)))), color=BLUE)
         upper.axvline(y.mean(), color=RED, linewidth=1)
         upper.set_title(f"{y.mean():.5g} ± {y.std():.2g}", fontsize=9)
-        upper.set_xlabel(told)
+        upper.set_xlabel(label)
         upper.set_ylabel("samples [-]")
         _places(upper.xaxis, name, column)
         i = int(np.argmax([_rank_correlation(values[there], y) for values in inputs]))
@@ -273,7 +273,7 @@ def _samples(result: Sweep, shown: Mapping[str, np.ndarray]) -> Figure:
             continue
         lower.plot(x, y, ".", color=BLUE, markersize=3)
         lower.set_xlabel(across)
-        lower.set_ylabel(told)
+        lower.set_ylabel(label)
     return figure
 
 

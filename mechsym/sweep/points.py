@@ -38,15 +38,15 @@ def single(case: Case) -> Columns:
     return _of_the_engine(cycle(case))
 
 
-def _of_the_engine(found: Mapping[str, object]) -> Columns:
+def _of_the_engine(result: Mapping[str, object]) -> Columns:
     inner = ("cylinders", "each", "per_cylinder", "pistons")
-    return Columns({name: values for name, values in found.items() if name not in inner}, UNITS)
+    return Columns({name: values for name, values in result.items() if name not in inner}, UNITS)
 
 
-def families(found: Sequence[Case]) -> list[list[int]]:
+def families(cases: Sequence[Case]) -> list[list[int]]:
     """Cases that one map may hold: all but numbers of the engine and the speed are equal."""
     families: dict[object, list[int]] = {}
-    for i, case in enumerate(found):
+    for i, case in enumerate(cases):
         from mechsym.cycle.friction import MechanismFriction
 
         friction, cycle = case.sections.get("friction_pressure"), case.need("cycle")
@@ -89,22 +89,22 @@ def map_of(family: Sequence[Case]) -> list[Outcome]:
         steps, reasons = steps_needed(functools.partial(closed_period, machine), design)
     outcomes: dict[int, Outcome] = {i: Gap(reason=reason, of_input=True) for i, reason in reasons.items()}
     for group in (np.flatnonzero(steps == count) for count in set(steps[steps > 0])):
-        found = columns(over_design(machine, {name: values[group] for name, values in design.items()}))
+        figures = columns(over_design(machine, {name: values[group] for name, values in design.items()}))
         for k, i in enumerate(group.tolist()):
-            outcomes[i] = _of_the_engine(of_engine(family[i], _at(found, k), design["omega"][[i]]))
+            outcomes[i] = _of_the_engine(of_engine(family[i], _at(figures, k), design["omega"][[i]]))
     return [outcomes[i] for i in range(len(family))]
 
 
 def _varied(seen: Sequence[Case]) -> dict[str, np.ndarray]:
     """Numbers of the engine that are not the same in all cases."""
-    found = {}
+    varied = {}
     for section in _SECTIONS:
         first = seen[0].sections.get(section)
         for field in dataclasses.fields(first) if first is not None else ():
             values = [getattr(case.sections[section], field.name) for case in seen]
             if isinstance(values[0], float) and len(set(values)) > 1:
-                found[f"{section}.{field.name}"] = np.array(values)
-    return found
+                varied[f"{section}.{field.name}"] = np.array(values)
+    return varied
 
 
 def _at(columns: Mapping[str, Scalar], index: int) -> Json:
@@ -187,11 +187,11 @@ def _each(one: Callable[[Case], object]) -> Callable[[Sequence[Case]], list[Outc
     return lambda found: [guarded(one, case) for case in found]
 
 
-def _maps(found: Sequence[Case]) -> list[Outcome]:
+def _maps(cases: Sequence[Case]) -> list[Outcome]:
     results: dict[int, Outcome] = {}
-    for members in families(found):
-        results |= dict(zip(members, _bisected([found[i] for i in members]), strict=True))
-    return [results[i] for i in range(len(found))]
+    for members in families(cases):
+        results |= dict(zip(members, _bisected([cases[i] for i in members]), strict=True))
+    return [results[i] for i in range(len(cases))]
 
 
 def _bisected(family: list[Case]) -> list[Outcome]:
@@ -205,20 +205,20 @@ def _bisected(family: list[Case]) -> list[Outcome]:
     return _bisected(family[:middle]) + _bisected(family[middle:])
 
 
-def _simulated(found: Sequence[Case]) -> list[Outcome]:
+def _simulated(cases: Sequence[Case]) -> list[Outcome]:
     from mechsym.cases.settings import settings_of
     from mechsym.jobs.problem import problem_of
     from mechsym.jobs.run import in_loop
     from mechsym.simulate import simulate, simulate_many
     from mechsym.simulate.constrained import LOCKED
 
-    looped = [i for i, case in enumerate(found) if in_loop(case)]
-    problems = {i: guarded(problem_of, case) for i, case in enumerate(found) if i not in looped}
+    looped = [i for i, case in enumerate(cases) if in_loop(case)]
+    problems = {i: guarded(problem_of, case) for i, case in enumerate(cases) if i not in looped}
     results: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
-    results |= {i: guarded(_by_itself, found[i]) for i in looped}
+    results |= {i: guarded(_by_itself, cases[i]) for i in looped}
     groups: dict[Settings, list[int]] = {}
     for i in (i for i in problems if i not in results):
-        groups.setdefault(settings_of(found[i]), []).append(i)
+        groups.setdefault(settings_of(cases[i]), []).append(i)
     for settings, members in groups.items():
         own = [problems[i] for i in members]
         try:
@@ -230,8 +230,8 @@ def _simulated(found: Sequence[Case]) -> list[Outcome]:
                 results[i] = result
                 continue
             ends = "sides" in problems[i].mechanism.functions and (result.end == LOCKED or result.status in _BAD)
-            results[i] = guarded(_by_itself, found[i]) if ends else _verdict(found[i], problems[i], result)
-    return [results[i] for i in range(len(found))]
+            results[i] = guarded(_by_itself, cases[i]) if ends else _verdict(cases[i], problems[i], result)
+    return [results[i] for i in range(len(cases))]
 
 
 def _by_itself(case: Case) -> Outcome:

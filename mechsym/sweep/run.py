@@ -102,13 +102,13 @@ class Sweep:
     @functools.cached_property
     def units(self) -> dict[str, str]:
         """Unit of each result, that its name carries or tells; `-` of a pure number, empty of a word."""
-        told = {name: name.partition(" [")[::2] for name in self._names}
-        return {stem: unit.rstrip("]") for stem, unit in told.values()}
+        units = {name: name.partition(" [")[::2] for name in self._names}
+        return {stem: unit.rstrip("]") for stem, unit in units.values()}
 
     @functools.cached_property
     def _names(self) -> list[str]:
-        found = (o for o in self.outcomes if not isinstance(o, Gap))
-        return list(dict.fromkeys(name for names in dict.fromkeys(map(tuple, found)) for name in names))
+        outcomes = (o for o in self.outcomes if not isinstance(o, Gap))
+        return list(dict.fromkeys(name for names in dict.fromkeys(map(tuple, outcomes)) for name in names))
 
 
 @record
@@ -125,8 +125,8 @@ def layout(plan: Plan) -> Layout:
     """The points of a plan, keys and units checked. Raises BadInput: an axis is wrong, or a value named twice."""
     taken = {}
     for key in plan.overrides:
-        found = cases.locate(plan.case, key, plan.overrides)
-        taken[found.section, found.field] = f"--set {key}"
+        located = cases.locate(plan.case, key, plan.overrides)
+        taken[located.section, located.field] = f"--set {key}"
     axes = []
     for text in plan.over:
         key = split(text)[0]
@@ -150,10 +150,10 @@ def layout(plan: Plan) -> Layout:
     return Layout(axes=tuple(axes), dims=dims, points=tuple(values), ties=tied)
 
 
-def ends(found: Layout) -> list[dict[str, str | float]]:
+def ends(laid: Layout) -> list[dict[str, str | float]]:
     """Overrides that set one value to its smallest or largest, for doubts about the case there."""
     overrides = []
-    for axis, values in zip(found.axes, zip(*found.points, strict=True), strict=True):
+    for axis, values in zip(laid.axes, zip(*laid.points, strict=True), strict=True):
         overrides += [{axis.key: override(axis, value)} for value in (min(values), max(values))]
     return overrides
 
@@ -202,11 +202,11 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
                         way = "the same command computes all points as it is now"
                         raise BadInput(f"{name} has changed while the sweep ran; {way}")
                 _check_shown(plan.show, done.outcomes)
-                found = [o if isinstance(o, Gap) else kept(o, plan.show) for o in done.outcomes]
-                for i, outcome in zip(done.members, found, strict=True):
+                kept_outcomes = [o if isinstance(o, Gap) else kept(o, plan.show) for o in done.outcomes]
+                for i, outcome in zip(done.members, kept_outcomes, strict=True):
                     outcomes[i] = outcome
                 if kept_in:
-                    store.keep(kept_in, done, found)
+                    store.keep(kept_in, done, kept_outcomes)
                 progress(len(done.members))
     interrupted = asked_to.is_set()  # in its last points too: a study would go on with the next sweep
     refused = [outcome for outcome in outcomes if isinstance(outcome, Gap) and outcome.of_input]
@@ -232,8 +232,8 @@ def _stored(plan: Plan, read: Mapping[str, str], means: Means) -> Iterator[store
         analysis=plan.analysis, samples=plan.samples, seed=plan.seed, show=sorted(set(plan.show)), sobol=plan.sobol,
         tied=plan.tied,
     )  # fmt: skip
-    with store.opened(means.folder, key, means.fresh) as found:
-        yield found
+    with store.opened(means.folder, key, means.fresh) as storage:
+        yield storage
 
 
 def _computed(
@@ -262,10 +262,10 @@ def _chunks(place: Layout, together: int) -> list[work.Chunk]:
     ]
 
 
-def _check_shown(show: tuple[str, ...], found: Sequence[Outcome]) -> None:
+def _check_shown(show: tuple[str, ...], outcomes: Sequence[Outcome]) -> None:
     """Refuse a name that no result has, before the time of the whole sweep is spent."""
-    told = (name for outcome in found if not isinstance(outcome, Gap) for name in outcome)
-    names = {name.partition(" [")[0] for name in told} if show else ()
+    shown = (name for outcome in outcomes if not isinstance(outcome, Gap) for name in outcome)
+    names = {name.partition(" [")[0] for name in shown} if show else ()
     for name in show if names else ():
         if name != "all" and not any(asked(n, name) for n in names):
             raise BadInput(f"--show {name} is no result here; {suggest(name, sorted(names))}")

@@ -125,12 +125,12 @@ def known(store: Store) -> dict[int, Outcome]:
     """Points that are finished, by index."""
     with _told(store.path):
         rows = store.connection.execute("select i, row from point").fetchall()
-    found: dict[int, Outcome] = {}
+    outcomes: dict[int, Outcome] = {}
     for i, text in rows:
         stored = json.loads(text)
         gap = "gap" in stored
-        found[i] = Gap(reason=stored["gap"], of_input=stored["of_input"]) if gap else dict(stored["row"])
-    return found
+        outcomes[i] = Gap(reason=stored["gap"], of_input=stored["of_input"]) if gap else dict(stored["row"])
+    return outcomes
 
 
 def files_read(store: Store) -> dict[str, str]:

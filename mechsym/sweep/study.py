@@ -99,11 +99,11 @@ def _study(tables: Json, beside: Path) -> Study:
         raise BadInput("a study has sweeps; write [[sweep]] and its name and over below it")
     if len(sweeps) > _MOST:
         raise BadInput(f"{len(sweeps)} sweeps; allowed are at most {_MOST}")
-    found = tuple(_sweep(common, table, i, beside) for i, table in enumerate(sweeps, 1))
-    names = [one.name for one in found]
+    studied = tuple(_sweep(common, table, i, beside) for i, table in enumerate(sweeps, 1))
+    names = [one.name for one in studied]
     if len(set(names)) < len(names):
         raise BadInput(f"two sweeps have the name {next(n for n in names if names.count(n) > 1)}; each has its folder")
-    return Study(title=_text_of(tables, "title", ""), about=_text_of(tables, "about", "", ""), sweeps=found)
+    return Study(title=_text_of(tables, "title", ""), about=_text_of(tables, "about", "", ""), sweeps=studied)
 
 
 def _sweep(common: Json, table: Json, number: int, beside: Path) -> StudySweep:

@@ -85,14 +85,14 @@ def tied(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcom
         return computed(order, chosen, heres)
     places = {key: cases.locate(order.case, key, order.overrides) for key in heres[0]}
     rules = ties(order.case, order.overrides, order.tied, places)
-    found: dict[int, Here] = {}
+    ready: dict[int, Here] = {}
     outcomes: dict[int, Outcome] = {}
     for i, here in enumerate(heres):
         try:
-            found[i] = rules.at(here)
+            ready[i] = rules.at(here)
         except BadInput as error:
             outcomes[i] = known(error)
-    outcomes |= dict(zip(found, computed(order, chosen, list(found.values())), strict=True))
+    outcomes |= dict(zip(ready, computed(order, chosen, list(ready.values())), strict=True))
     return [outcomes[i] for i in range(len(heres))]
 
 

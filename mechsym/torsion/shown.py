@@ -91,27 +91,27 @@ def span(speed: Columns) -> str:
 def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
     from mechsym.simulate.plots import met, speed
 
-    result, engine, starts, found = run.result, run.engine, run.start_ups, []
+    result, engine, starts, pictures = run.result, run.engine, run.start_ups, []
     if engine is not None and len(result.t) > 1:
         see = f"Speed over time with its mean over each period, and the last period over the angle: {span(run.speed)}."
-        found.append(Picture(name="speed", see=see, draw=lambda: speed(
+        pictures.append(Picture(name="speed", see=see, draw=lambda: speed(
             result, engine.coordinate, engine.period, engine.wanted, engine.words)))  # fmt: skip
     if result.happened.events:
         see = "The motion, and when each stop, contact and friction was met, left, stuck or slid."
-        found.append(Picture(name="events", see=see, draw=lambda: met(result)))
+        pictures.append(Picture(name="events", see=see, draw=lambda: met(result)))
     if run.twist:
         peak = quantity_text(max(section.twist_peak for section in run.twist), "rad", 4)
         see = f"Twist of each shaft section: the peak, {peak}, decides on the shaft."
-        found.append(Picture(name="twist", see=see, draw=lambda: twist(result, len(run.twist))))
+        pictures.append(Picture(name="twist", see=see, draw=lambda: twist(result, len(run.twist))))
     if starts:
         natural = quantity_text(starts[0].natural, "rad/s", 4)
         see = f"Where an order of the drive meets the natural frequency, {natural}, the start-up may be held."
-        found.append(Picture(name="campbell", see=see, draw=lambda: campbell(starts[0])))
+        pictures.append(Picture(name="campbell", see=see, draw=lambda: campbell(starts[0])))
         held = [f"at order {c.critical.order:g}, {quantity_text(c.critical.speed, 'rad/s', 4)}"
                 for start in starts for c in start.captures]  # fmt: skip
         see = f"The start-up beside a rigid shaft: {'held ' + '; '.join(held) if held else 'nothing holds it'}."
-        found.append(Picture(name="startup", see=see, draw=lambda: start_up(starts, starts[0].claim.claim_speed)))
-    return tuple(found)
+        pictures.append(Picture(name="startup", see=see, draw=lambda: start_up(starts, starts[0].claim.claim_speed)))
+    return tuple(pictures)
 
 
 NEAR = 0.1  #: A critical speed so close to the speed of operation is told before any figure [-]

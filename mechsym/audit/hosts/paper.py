@@ -215,8 +215,8 @@ class _Paper:
             question = question_of(replace(asked, given=other), statement(asked.text))
             if agreement(judges(question), question.formula.tree).exact:
                 names = [w.name for w in believed]
-                told = f"follows from {', '.join(f'({n})' for n in names)} as printed, and is no slip of its own"
-                return row | {"verdict": CARRIED, "note": joined(told, row["note"]), "follows": names}
+                why = f"follows from {', '.join(f'({n})' for n in names)} as printed, and is no slip of its own"
+                return row | {"verdict": CARRIED, "note": joined(why, row["note"]), "follows": names}
         return None
 
 
@@ -285,10 +285,10 @@ def summary(rows: Sequence[Row]) -> str:
     findings = sum(count[v] for v in FINDINGS)
     unread = sum(not r["read"] for r in rows)
     unmatched = sum(r["read"] and not r["matched"] for r in rows)
-    told = "; ".join(chains(rows))
+    text = "; ".join(chains(rows))
     return (
         f"{few(len(rows), 'equation')}: {few(findings, 'finding')}, {count[CARRIED]} carried"
-        f"{f': {told}' if told else ''}, {few(count[DEFINED], 'definition')}, {unread} not read, "
+        f"{f': {text}' if text else ''}, {few(count[DEFINED], 'definition')}, {unread} not read, "
         f"{unmatched} not matched"
     )
 

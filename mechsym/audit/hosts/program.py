@@ -71,8 +71,8 @@ def check_code(place: str, against: str, asked: Asked) -> list[Row]:
     # what was read and says nothing must not be taken for right
     silent = [k for k in dict.fromkeys(a.name for a in assigned) if k not in first]
     if silent:
-        told = f"read, and no quantity by name or numbers: {', '.join(silent)}"
-        chosen[-1] = chosen[-1] | {"note": joined(chosen[-1]["note"], told)}
+        note = f"read, and no quantity by name or numbers: {', '.join(silent)}"
+        chosen[-1] = chosen[-1] | {"note": joined(chosen[-1]["note"], note)}
     return [row | {"unmatched": silent} for row in chosen]
 
 
@@ -104,8 +104,8 @@ def _liked(place: str, candidates: Sequence[Assigned], theory: str, asked: Asked
             )
         like, other = near[0]
         row = _row(assigned, f"{other.name}.{like.quantity}", asked)
-        told = f"taken for {like.quantity} by its numbers; if it is another, name it with --against"
-        rows.append(row | {"note": joined(row["note"], told)})
+        note = f"taken for {like.quantity} by its numbers; if it is another, name it with --against"
+        rows.append(row | {"note": joined(row["note"], note)})
     return rows
 
 

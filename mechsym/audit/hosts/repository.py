@@ -126,14 +126,14 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
 
 def _placed(row: Row, claim: Claim, shown: str) -> Row:
     printed = f"{base(claim.name).replace(OF, '.')} = {_shown(claim.tree)}"
-    told = "|".join([shown, claim.scope, claim.name, row["claim"], printed])
+    key = "|".join([shown, claim.scope, claim.name, row["claim"], printed])
     return row | {
         "file": shown,
         "line": claim.line,
         "scope": claim.scope,
         "equation": claim.name,
         "printed": printed,
-        "fingerprint": hashlib.sha256(told.encode()).hexdigest()[:24],
+        "fingerprint": hashlib.sha256(key.encode()).hexdigest()[:24],
     }
 
 
@@ -302,11 +302,11 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
     row = _asked_once(to_python(slope), theory, "slope", {})
     if row["verdict"] in (*PASSED, "untestable"):
         return row | {"verdict": "agrees"}
-    told = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"
+    why = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"
     return row | {
         "verdict": "derivative",
         "claim": f"the derivative of {of} by {base(by)}",
-        "note": f"{told}; {row['note']}",
+        "note": f"{why}; {row['note']}",
     }
 
 

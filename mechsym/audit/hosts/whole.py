@@ -135,9 +135,9 @@ class _Judge:
         worst = next((v for v in said_all if v.verdict in (*FINDINGS, CARRIED)), None)
         if worst is not None:
             return worst
-        told = [v for v in said_all if v.verdict]
-        if told:
-            return self._carried(order, said, max(told, key=lambda v: PASSED.index(v.verdict)))
+        verdicts = [v for v in said_all if v.verdict]
+        if verdicts:
+            return self._carried(order, said, max(verdicts, key=lambda v: PASSED.index(v.verdict)))
         return Judged(verdict=DEFINED if own else "", note=f"the text's own {own.letter}" if own else "")
 
     def _pair(self, order: int, said: Said, i: int, k: int) -> Judged:
@@ -227,8 +227,8 @@ class _Judge:
 
     def _follows(self, names: Sequence[str]) -> Judged:
         sources = tuple(self.wrong[n][0] for n in names)
-        told = f"follows from {', '.join(f'({s})' for s in sources)} as printed, and is no slip of its own"
-        return Judged(verdict=CARRIED, matched="the text", note=told, follows=sources)
+        why = f"follows from {', '.join(f'({s})' for s in sources)} as printed, and is no slip of its own"
+        return Judged(verdict=CARRIED, matched="the text", note=why, follows=sources)
 
     def _carried(self, order: int, said: Said, verdict: Judged) -> Judged:
         # right by the text's own letters, one of which is wrong: not so with the right one

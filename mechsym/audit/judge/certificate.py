@@ -343,8 +343,8 @@ def _lemma(own: Script, name: str, one: CoqTerm, other: CoqTerm) -> str:
     used = [(i, q, r) for i, (q, r) in enumerate(zip(cofactors, relations, strict=False)) if q != 0]
     combination = " + ".join(f"({coq_text(q)}) * ({coq_text(r)})" for _, q, r in used) or "0"
     conditions = list(own.hypotheses)
-    told = " ".join([one.text, other.text, *map(coq_text, relations), *conditions])
-    letters = [k for k in dict.fromkeys(re.findall(r"\b(?:[A-Za-z]\w*_|[AEscDP]\d+)\b", told))]
+    proof = " ".join([one.text, other.text, *map(coq_text, relations), *conditions])
+    letters = [k for k in dict.fromkeys(re.findall(r"\b(?:[A-Za-z]\w*_|[AEscDP]\d+)\b", proof))]
     named = [f"H{i}" for i in range(len(relations))] + [f"N{i}" for i in range(len(conditions))]
     own.lemmas.append(
         "\n".join(

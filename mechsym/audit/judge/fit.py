@@ -105,18 +105,18 @@ def fits(world: World) -> list[Match]:
     """The theories that fit a text, those that say most of it first."""
     sides = list(_sides(world))
     used = {n.replace("_", "") for *_, tree in sides for n in letters(tree)}
-    found = []
+    matches = []
     for theory_name in names() if sides else ():
         if _UNFIT.search(theory_name) or not _alike(theory_name, used, world.angle):
             continue
         fit = replace(_states(theory_name), meant={}, met={}, strong=set())
         for order, side, tree in sides:
             _meet(fit, world, order, side, tree)
-        found.append(fit)
+        matches.append(fit)
     prose = world.paper.prose.lower()
-    strange = {f.theory.name: sum(w not in prose for w in f.theory.name.split("_")) for f in found}
+    strange = {f.theory.name: sum(w not in prose for w in f.theory.name.split("_")) for f in matches}
     kept: list[Match] = []
-    for fit in sorted(found, key=lambda f: (strange[f.theory.name], -len(f.strong), len(f.theory.name))):
+    for fit in sorted(matches, key=lambda f: (strange[f.theory.name], -len(f.strong), len(f.theory.name))):
         # what says nothing new fits by chance
         if len(fit.strong - {o for f in kept for o in f.strong}) > 1:
             kept.append(fit)

@@ -107,7 +107,7 @@ class Lexicon:
     def _meanings(self, name: str, about: str) -> list[tuple[int, str]]:
         own, said = _word_list(name), _word_list(about)
         tail = _word_list(name.rpartition(OF)[2])
-        found: dict[str, int] = {}
+        counts: dict[str, int] = {}
         for phrase, meaning in self.phrases:
             rank, whole = 0, _joined(phrase)
             if whole in (_joined(own), _joined(tail)):
@@ -117,9 +117,9 @@ class Lexicon:
                 rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
             if len(phrase) > 1 and len(whole) > 4 and _stands_in(phrase, said):
                 rank = max(rank, 4)
-            if rank > found.get(meaning, 0):
-                found[meaning] = rank
-        return sorted(((r, m) for m, r in found.items()), reverse=True)
+            if rank > counts.get(meaning, 0):
+                counts[meaning] = rank
+        return sorted(((r, m) for m, r in counts.items()), reverse=True)
 
     def meaning(self, name: str, about: str) -> tuple[int, str]:
         """The one thing that a name means; empty where it means none or several alike."""
@@ -149,10 +149,10 @@ def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
         for letter in letters(tree):
             if letter in meanings or letter == "pi":
                 continue
-            told, meaning = vocabulary.meaning(base(letter), claim.abouts.get(base(letter), ""))
+            shared, meaning = vocabulary.meaning(base(letter), claim.abouts.get(base(letter), ""))
             if meaning and base(meaning) not in called:
                 meanings[letter] = meaning
-                strong += told > 1
+                strong += shared > 1
             elif letter in claim.values:
                 put_in[letter] = claim.values[letter]
             else:

@@ -281,8 +281,8 @@ class Powers:
 
 def powers(expansion: Expansion, tree: Node) -> Powers:
     """Compare the coefficients of a formula with the derived ones."""
-    told = expansion.told
-    derived, printed = expansion.derived[:told], expansion.printed(tree)[:told]
+    known = expansion.told
+    derived, printed = expansion.derived[:known], expansion.printed(tree)[:known]
     with mpmath.workdps(ORDER_DIGITS):
         if any(mpmath.isnan(c) for row in printed for c in row):
             return Powers(honest=False)
@@ -291,7 +291,7 @@ def powers(expansion: Expansion, tree: Node) -> Powers:
         errors = [max(abs(a - b) for a, b in zip(*rows, strict=True)) for rows in zip(derived, printed, strict=True)]
         own = [max(abs(c) for c in row) for row in printed]
     leading = next(k for k, size in enumerate(sizes) if size > small)
-    off = [k for k in range(told) if errors[k] > small]
+    off = [k for k in range(known) if errors[k] > small]
     if not off or off[0] <= leading:
         return Powers(honest=False, first=off[0] - _SHIFT if off else None)
     # a derived series that ends before this power has no term to compare with: then its first one
@@ -308,11 +308,11 @@ def powers(expansion: Expansion, tree: Node) -> Powers:
 
 def changed_powers(expansion: Expansion, one: Node, other: Node) -> set[int]:
     """Powers, counted from the leading one, in which two formulas differ."""
-    told = expansion.told
-    derived, first, second = expansion.derived[:told], expansion.printed(one), expansion.printed(other)
+    known = expansion.told
+    derived, first, second = expansion.derived[:known], expansion.printed(one), expansion.printed(other)
     with mpmath.workdps(ORDER_DIGITS):
         sizes = [max(abs(c) for c in row) for row in derived]
         small = max(sizes) * mpmath.mpf(10) ** -8
         leading = next(k for k, size in enumerate(sizes) if size > small)
-        gaps = [max(abs(a - b) for a, b in zip(first[k], second[k], strict=True)) for k in range(told)]
+        gaps = [max(abs(a - b) for a, b in zip(first[k], second[k], strict=True)) for k in range(known)]
     return {k - leading for k, gap in enumerate(gaps) if not gap <= small}

@@ -155,8 +155,8 @@ def reach(judged: Judges, tree: Node) -> Reach:
     """Compare a formula with its quantity over the whole domain."""
     if judged.wide is None:
         return Reach(everywhere=True)
-    strict, told = judged.wide.strict, judged.wide.told(tree)
-    same = is_same(value(strict, tree), strict.expected, judged.angle) | (~told if told.any() else False)
+    strict, within = judged.wide.strict, judged.wide.told(tree)
+    same = is_same(value(strict, tree), strict.expected, judged.angle) | (~within if within.any() else False)
     if same.all():
         return Reach(everywhere=True)
     # whoever writes |x| means that x may be negative

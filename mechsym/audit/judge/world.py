@@ -176,9 +176,9 @@ class World:
 
     def _called(self, word: str) -> list[str]:
         alike = {"travel": ("travel", "displacement", "position")}.get(word, (word,))
-        told = [k for k, about in self.paper.named.items() if any(w in about.meaning.lower() for w in alike)]
-        angular = {k for k in told if "angular" in self.paper.named[k].meaning.lower()}
-        return [k for k in told if k not in angular]
+        fitting = [k for k, about in self.paper.named.items() if any(w in about.meaning.lower() for w in alike)]
+        angular = {k for k in fitting if "angular" in self.paper.named[k].meaning.lower()}
+        return [k for k in fitting if k not in angular]
 
     def turns(self, letter: str) -> bool:
         """Whether a defined letter changes with the angle."""

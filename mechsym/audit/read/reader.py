@@ -219,8 +219,8 @@ def _read_python(text: str) -> Node:
             tree = ast.parse(source.strip(), mode="eval").body
     except (SyntaxError, ValueError) as error:
         reason = getattr(error, "msg", None) or "not an expression"
-        told = f"the formula {text.strip()[:60]!r} cannot be read: {reason}{_near(source.strip(), error)}"
-        raise BadInput(f"{told}; {_hint(source)}") from None
+        message = f"the formula {text.strip()[:60]!r} cannot be read: {reason}{_near(source.strip(), error)}"
+        raise BadInput(f"{message}; {_hint(source)}") from None
     except (RecursionError, MemoryError):
         raise BadInput("the formula is nested too deep to be read; split it and check the parts") from None
     check_size(tree)

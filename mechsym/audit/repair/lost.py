@@ -77,8 +77,8 @@ def candidate_words(question: Question, tree: Node) -> list[Node]:
     circular = [call(f, m) for m in multiples for f in ("sin", "cos")]
     authors = [name(k) for k, value in own.items() if needed & dependencies(theory, letters(value))]
     # what the formula's own names are made of may have been lost, too: v for v/omega
-    made = needed | dependencies(theory, used_names(question.formula))
-    free = [name(k) for k in theory.letters if k in made and k not in own and k not in question.hold]
+    allowed = needed | dependencies(theory, used_names(question.formula))
+    free = [name(k) for k in theory.letters if k in allowed and k not in own and k not in question.hold]
     results = [name(k) for k in theory.results if k in needed and k != question.quantity and k not in own]
     near = dict.fromkeys([*letters(tree), *own, *(k for k in theory.letters if k in needed)])
     pure = [k for k in near if k != "pi" and kind_of_letter(question, k) == NUMBER]

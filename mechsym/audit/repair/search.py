@@ -191,8 +191,8 @@ def _mixed(exam: Examination, start: Repair) -> str:
 
 def _powers(orders: set[int]) -> str:
     few = sorted(orders)[:4]
-    told = ", ".join(f"lam^{k}" for k in few) + (" .." if len(orders) > 4 else "")
-    return f"the relative power{'s' if len(few) > 1 else ''} {told}" if few else "powers of lam"
+    words = ", ".join(f"lam^{k}" for k in few) + (" .." if len(orders) > 4 else "")
+    return f"the relative power{'s' if len(few) > 1 else ''} {words}" if few else "powers of lam"
 
 
 def rounded_constant(exam: Examination, tree: Node) -> str:
@@ -260,8 +260,8 @@ def paired_repair(exam: Examination, start: Repair) -> tuple[Repair | None, str]
     for _, first, second in sorted(pairs, key=lambda f: f[0])[:60]:
         once = apply(start.tree, first)
         tree = apply(once, second)
-        told = description(start.tree, first) + description(once, second) + 2 * np.log2(count)
-        if told > LONGEST * length(tree):
+        bits = description(start.tree, first) + description(once, second) + 2 * np.log2(count)
+        if bits > LONGEST * length(tree):
             continue
         if is_exact(exam.judged, tree):
             return standing(exam, tidy(tree, start.tree), (*start.edits, first, second)), ""

@@ -114,9 +114,9 @@ def _check(engine: BreathingEngine) -> None:
         raise BadInput("combustion starts before the inlet closes; change cycle.ignition or breathing.inlet_closes")
 
 
-def pressure(found: BreathingRun) -> Pressure:
+def pressure(breathed: BreathingRun) -> Pressure:
     """Pressure in the cylinder over the angle, at the first speed."""
-    breath, b, c = found.breaths[0], found.engine.breathing, found.engine.cycle
+    breath, b, c = breathed.breaths[0], breathed.engine.breathing, breathed.engine.cycle
     absolute = _curve(breath)
     events = (b.exhaust_opens, b.exhaust_closes, b.inlet_opens, b.inlet_closes, c.ignition, c.ignition + c.duration)
     kinks = tuple(sorted(float(np.remainder(angle, PERIOD)) for angle in events))
@@ -127,7 +127,7 @@ def pressure(found: BreathingRun) -> Pressure:
         "exhaust",
         f"mass and energy closed to {ratio_text(max(breath.mass_residual, breath.energy_residual), 1)}",
     )
-    return pressure_over("gas-exchange", absolute, PERIOD, kinks, found.chamber, facts=facts)
+    return pressure_over("gas-exchange", absolute, PERIOD, kinks, breathed.chamber, facts=facts)
 
 
 def _curve(breath: Breath) -> Callable[[Scalar], Scalar]:
@@ -140,27 +140,27 @@ def _curve(breath: Breath) -> Callable[[Scalar], Scalar]:
     )
 
 
-def figures(found: BreathingRun) -> Json:
+def figures(breathed: BreathingRun) -> Json:
     """Figures over the speeds under the names of `mechsym cycle`, of one cylinder.
 
     Returns columns: as `engine.columns`; and the mean pressure of the two strokes of gas exchange, the filling, the
     residual gas, the temperature of the exhaust, and what the turbocharger leaves before and behind the engine, shape
     (n,).
     """
-    rows = [_at(found, breath) for breath in found.breaths]
+    rows = [_at(breathed, breath) for breath in breathed.breaths]
     columns: Json = {key: np.array([row[key] for row in rows]) for key in rows[0]}
     columns["fractions"] = {name: columns.pop(name) for name in ("heat", "work", "exhaust", "unburnt")}
-    n, around = len(rows), found.around
-    if found.boosted is not None:
+    n, around = len(rows), breathed.around
+    if breathed.boosted is not None:
         columns["t_turbine_k"] = columns["t_exhaust_k"]
-        columns["compressor_efficiency"] = found.boosted.efficiency
+        columns["compressor_efficiency"] = breathed.boosted.efficiency
     outside = {"p_in_kpa": np.asarray(around.p_in) / 1e3, "t_in_k": around.T_in,
                "p_out_kpa": np.asarray(around.p_out) / 1e3}  # fmt: skip
     return columns | {name: np.broadcast_to(value, n).astype(float) for name, value in outside.items()} | {"loads": {}}
 
 
-def _at(found: BreathingRun, breath: Breath) -> dict[str, float]:
-    engine, room, omega, c = found.engine, found.chamber, breath.omega, found.engine.cycle
+def _at(breathed: BreathingRun, breath: Breath) -> dict[str, float]:
+    engine, room, omega, c = breathed.engine, breathed.chamber, breath.omega, breathed.engine.cycle
     fuel = breath.drawn / (1 + c.air_fuel_ratio)
     energy = fuel * c.heating_value
     p = breath.pressures["cylinder"]
@@ -183,7 +183,7 @@ def _at(found: BreathingRun, breath: Breath) -> dict[str, float]:
         "pumping_mep_kpa": breath.pumping / room.displacement / 1e3,
         "volumetric_efficiency": breath.volumetric_efficiency, "residual_gas": breath.residual,
         "trapping_efficiency": breath.trapping_efficiency,
-        "knock": _knock(found, breath),
+        "knock": _knock(breathed, breath),
         "t_max_k": float(breath.temperature.max()), "t_exhaust_k": breath.T_exhaust,
         "air_kg_h": fuel * c.air_fuel_ratio * per_second * 3600,
         "heat": breath.wall_heat / energy, "work": share, "exhaust": 1 - share - unburnt - breath.wall_heat / energy,
@@ -191,20 +191,20 @@ def _at(found: BreathingRun, breath: Breath) -> dict[str, float]:
     }  # fmt: skip
 
 
-def _knock(found: BreathingRun, breath: Breath) -> float:
-    c, closes = found.engine.cycle, found.engine.breathing.inlet_closes
+def _knock(breathed: BreathingRun, breath: Breath) -> float:
+    c, closes = breathed.engine.cycle, breathed.engine.breathing.inlet_closes
     temperature = scipy.interpolate.CubicSpline(breath.phi, breath.temperature)
     angles = (closes, PERIOD + c.ignition, PERIOD + c.ignition + c.duration)
     return knock_along((_curve(breath), temperature), angles, breath.omega, (c.gamma - 1) / c.gamma, c.octane)
 
 
-def curves(found: BreathingRun) -> dict[str, np.ndarray]:
+def curves(breathed: BreathingRun) -> dict[str, np.ndarray]:
     """The cycle at the first speed, curve by curve over the angle from firing top dead centre.
 
     Returns curves: `phi_deg` from -180 to 540, `p_pa`, `t_k`, `v_m3`, `p_plenum_pa`, `p_manifold_pa`, `force_n` and
     `torque_nm` of one piston, shape (k,).
     """
-    breath, room = found.breaths[0], found.chamber
+    breath, room = breathed.breaths[0], breathed.chamber
     phi = np.remainder(breath.phi[:-1] + math.pi, PERIOD) - math.pi
     order = np.argsort(phi)
     force = piston_force(room, phi, breath.omega, breath.pressures["cylinder"][:-1])
@@ -217,8 +217,8 @@ def curves(found: BreathingRun) -> dict[str, np.ndarray]:
     return {name: values[order] for name, values in columns.items()}
 
 
-def _closing(found: Json) -> str:
-    mass, energy = (float(found[f"{name}_residual"].max()) for name in ("mass", "energy"))
+def _closing(data: Json) -> str:
+    mass, energy = (float(data[f"{name}_residual"].max()) for name in ("mass", "energy"))
     return f"mass closed to {ratio_text(mass, 1)} of the charge, first law to {ratio_text(energy, 1)} of its energy"
 
 
@@ -257,8 +257,8 @@ class BreathingGas:
 
     def at(self, omega: float) -> Gas:
         """Gas at a speed [rad/s]."""
-        found = self._run((omega,))
-        return Gas(pressure=pressure(found), chamber=found.chamber)
+        breathed = self._run((omega,))
+        return Gas(pressure=pressure(breathed), chamber=breathed.chamber)
 
     def figures(self, omega: np.ndarray, progress: Progress = unseen) -> Json:
         """Figures of one cylinder over speeds [rad/s]."""

@@ -184,12 +184,12 @@ def _charge(engine: _Engine, p_s: float) -> _Charge:
 def _by_pressure(cycle: TwoStrokeMarine, room: Chamber) -> tuple[tuple[float, float], tuple[float, float]]:
     """The pressures of the cycle are all proportional to p_evc, and linear in the temperature of the expansion."""
     solve(cycle, room)  # what is wrong with the cycle itself is said in its own words
-    p_evc, found = scavenging_pressure(cycle.p_s), []
+    p_evc, rows = scavenging_pressure(cycle.p_s), []
     for ratio in (1.0, 2.0):
         p = absolute_pressure(cycle, room, ratio)
         mean = mean_indicated_pressure(p, 2 * math.pi, kinks(cycle), room)
-        found.append((mean / p_evc, float(p(cycle.evo)) / p_evc))
-    (mean_1, evo_1), (mean_2, evo_2) = found
+        rows.append((mean / p_evc, float(p(cycle.evo)) / p_evc))
+    (mean_1, evo_1), (mean_2, evo_2) = rows
     return (mean_1, mean_2 - mean_1), (evo_1, evo_2 - evo_1)
 
 
@@ -213,8 +213,8 @@ def _receiver(engine: _Engine, c: _Charge) -> float | None:
     low, high = engine.behind, c.p_s * (1 - 1e-9)
 
     def rest(p_r: float) -> float:
-        found = _flow(engine, c, p_r)
-        return found.air + found.fuel - found.through
+        flow = _flow(engine, c, p_r)
+        return flow.air + flow.fuel - flow.through
 
     return (
         float(scipy.optimize.brentq(rest, low, high, xtol=1e-9, rtol=1e-15)) if low < high and rest(high) < 0 else None
@@ -227,33 +227,33 @@ def _surplus(engine: _Engine, p_s: float) -> float:
     p_r = _receiver(engine, c) if c.needed > 0 else None  # a cycle that needs no fuel gives none to the turbine
     if p_r is None:
         return -1.0
-    found = _flow(engine, c, p_r)
-    return engine.s.shaft_efficiency * _turbine(engine, p_r, found) - found.air * _CP * (c.T_2 - engine.ambient[1])
+    flow = _flow(engine, c, p_r)
+    return engine.s.shaft_efficiency * _turbine(engine, p_r, flow) - flow.air * _CP * (c.T_2 - engine.ambient[1])
 
 
-def _turbine(engine: _Engine, p_r: float, found: _Flow) -> float:
+def _turbine(engine: _Engine, p_r: float, flow: _Flow) -> float:
     drop = 1 - (engine.behind / p_r) ** ((_GAMMA_E - 1) / _GAMMA_E)
-    return found.through * _CP_E * found.T_r * engine.s.turbine_efficiency * drop
+    return flow.through * _CP_E * flow.T_r * engine.s.turbine_efficiency * drop
 
 
 def _state(engine: _Engine, c: _Charge) -> ScavengeState:
     s, (p_1, T_1), p_r = engine.s, engine.ambient, _receiver(engine, c)
     assert p_r is not None
-    found, lhv = _flow(engine, c, p_r), engine.cycle.lhv
-    if found.T_evc >= _HOTTEST:
+    flow, lhv = _flow(engine, c, p_r), engine.cycle.lhv
+    if flow.T_evc >= _HOTTEST:
         raise BadInput(
-            f"scavenging: {found.delivery:.2g} times the cylinder's volume of air goes through it in a turn, which "
+            f"scavenging: {flow.delivery:.2g} times the cylinder's volume of air goes through it in a turn, which "
             "leaves it full of burnt gas; widen port_width, valve_diameter or valve_lift, or the turbine"
         )
     cold = c.T_s - c.lift
     state = ScavengeState(
-        p_1=p_1, T_1=T_1, p_s=c.p_s, T_s=c.T_s, p_r=p_r, T_r=found.T_r, p_b=engine.behind, T_evc=found.T_evc,
-        ratio=c.ratio, air=found.air, fuel=found.fuel, delivery=found.delivery,
-        residual=remaining(found.delivery, s.displaced),
-        indicated=engine.indicated, compressor=found.air * _CP * (c.T_2 - T_1), turbine=_turbine(engine, p_r, found),
-        blower=found.air * _CP * c.lift, cooler=found.air * _CP * (c.T_2 - cold), 
-        walls=s.heat_share * found.fuel * lhv,
-        heat=found.fuel * lhv, mass_residual=abs(1 - (found.air + found.fuel) / found.through),
+        p_1=p_1, T_1=T_1, p_s=c.p_s, T_s=c.T_s, p_r=p_r, T_r=flow.T_r, p_b=engine.behind, T_evc=flow.T_evc,
+        ratio=c.ratio, air=flow.air, fuel=flow.fuel, delivery=flow.delivery,
+        residual=remaining(flow.delivery, s.displaced),
+        indicated=engine.indicated, compressor=flow.air * _CP * (c.T_2 - T_1), turbine=_turbine(engine, p_r, flow),
+        blower=flow.air * _CP * c.lift, cooler=flow.air * _CP * (c.T_2 - cold), 
+        walls=s.heat_share * flow.fuel * lhv,
+        heat=flow.fuel * lhv, mass_residual=abs(1 - (flow.air + flow.fuel) / flow.through),
         energy_residual=0.0, dew=dew_point(c.p_s, engine.ambient, s.humidity) if s.humidity > 0 else None,
     )  # fmt: skip
     return dataclasses.replace(state, energy_residual=_left_over(state, s.shaft_efficiency))

@@ -169,9 +169,9 @@ def breathe(cylinder: Cylinder, around: Surroundings, omega: Sequence[RadPerSeco
     outside = np.array([np.broadcast_to(v, speeds.shape) for v in (around.p_in, around.T_in, around.p_out)])
     steps = _STEPS * max(1, math.ceil(_SLOW / float(speeds.min())))
     for finer in _FINER:
-        found = _breathed(cylinder, outside, speeds, finer * steps)
-        if found is not None:
-            return found
+        breaths = _breathed(cylinder, outside, speeds, finer * steps)
+        if breaths is not None:
+            return breaths
     raise BadInput("gas exchange is too fast for its steps, or swings from cycle to cycle; widen the plenum or the "
                    "manifold of [breathing], or narrow the throttle or the tail pipe")  # fmt: skip
 
@@ -239,9 +239,9 @@ def _given(cylinder: Cylinder, state: np.ndarray, closed: float, speeds: np.ndar
     """What stays the same over a cycle, in the order of `GIVEN`, shape (values, speeds)."""
     c = cylinder.charge
     p, T = (c.gamma - 1) * state[4] / closed, state[4] * (c.gamma - 1) / (c.R * state[3])
-    found = np.vstack([speeds, state[3] - state[5], p, T, outside])
-    assert found.shape[0] == len(GIVEN)
-    return found
+    given = np.vstack([speeds, state[3] - state[5], p, T, outside])
+    assert given.shape[0] == len(GIVEN)
+    return given
 
 
 def _ahead(past: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
@@ -249,7 +249,7 @@ def _ahead(past: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
     (last, gain), following = past[-1], past[-1][0] + past[-1][1]
     if len(past) < 3:
         return following
-    found = following.copy()
+    leading = following.copy()
     scale = np.abs(last) + 1e-12
     for k in range(last.shape[1]):
         steps = np.array([(x[:, k] - last[:, k]) / scale[:, k] for x, _ in past[:-1]]).T
@@ -257,8 +257,8 @@ def _ahead(past: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
         weights = np.linalg.lstsq(turns, gain[:, k] / scale[:, k], rcond=1e-8)[0]
         ahead = following[:, k] - (steps + turns) @ weights * scale[:, k]
         if np.all(ahead[[0, 1, 3, 4, 6, 7]] > 0.3 * last[[0, 1, 3, 4, 6, 7], k]) and np.all(ahead[[2, 5, 8]] >= 0):
-            found[:, k] = ahead
-    return found
+            leading[:, k] = ahead
+    return leading
 
 
 def _summed(

@@ -48,15 +48,15 @@ def map_efficiency(points: Sequence[Sequence[float]], flow: MassFlow[Array], rat
     flows, ratios, values = (np.asarray(p, float) for p in points)
     scale = np.array([flows.max(), ratios.max()])
     surface = scipy.interpolate.LinearNDInterpolator(np.column_stack([flows, ratios]) / scale, values)
-    found = np.asarray(surface(np.column_stack([flow, np.full(len(flow), ratio)]) / scale))
-    if np.isnan(found).any():
-        out = float(flow[int(np.argmax(np.isnan(found)))])
+    efficiency = np.asarray(surface(np.column_stack([flow, np.full(len(flow), ratio)]) / scale))
+    if np.isnan(efficiency).any():
+        out = float(flow[int(np.argmax(np.isnan(efficiency)))])
         raise BadInput(
             f"boost.map_flow: the engine asks for {out:.4g} kg/s at a pressure ratio of {ratio:.3g}, outside the map "
             f"(flows {flows.min():.4g} to {flows.max():.4g} kg/s, ratios {ratios.min():.3g} to {ratios.max():.3g}): "
             "surge or choke; change boost.pressure, boost.cylinders or the compressor"
         )
-    return found
+    return efficiency
 
 
 _GAMMA_AIR, _CP_AIR = 1.4, 1005.0
@@ -193,11 +193,11 @@ def boosted(
             p_1=p_1, T_1=T_1, p_2=p_2, T_2=hot - boost.intercooler * (hot - T_1), efficiency=efficiency,
             p_3=p_1 * turbine_ratio(boost, T_1, T_3, ratio, efficiency), T_3=T_3,
         )  # fmt: skip
-        found, air = engine(state)
+        demand, air = engine(state)
         better = _efficiency(boost, corrected_flow(air * boost.cylinders, p_1, T_1), ratio)
-        if np.all(np.abs(found - T_3) <= _SETTLED * T_3) and np.all(np.abs(better - efficiency) <= _SETTLED):
+        if np.all(np.abs(demand - T_3) <= _SETTLED * T_3) and np.all(np.abs(better - efficiency) <= _SETTLED):
             return state
-        T_3, efficiency = found, better
+        T_3, efficiency = demand, better
     raise BadInput("the exhaust's temperature and the turbocharger do not settle; lower boost.pressure")
 
 

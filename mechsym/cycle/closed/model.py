@@ -77,11 +77,11 @@ def open_period(build: Build, design: Mapping[str, np.ndarray], t_end: np.ndarra
     """
     values = np.array(np.broadcast_arrays(*(np.atleast_1d(np.asarray(v, float)) for v in design.values()), t_end))
     function = open_function(build, tuple(design))
-    found = {k: np.asarray(v) for k, v in function.call({"design": values[:-1], "t_end": values[-1:]}).items()}
+    outputs = {k: np.asarray(v) for k, v in function.call({"design": values[:-1], "t_end": values[-1:]}).items()}
     n = values.shape[1]
     return OpenPeriod(
-        phi=found["phi"].T.reshape(n, -1), p=found["p"].T.reshape(n, -1), work=found["work"].ravel(),
-        pumping=found["pumping"].ravel(), gamma=found["gamma"].ravel(),
+        phi=outputs["phi"].T.reshape(n, -1), p=outputs["p"].T.reshape(n, -1), work=outputs["work"].ravel(),
+        pumping=outputs["pumping"].ravel(), gamma=outputs["gamma"].ravel(),
     )  # fmt: skip
 
 

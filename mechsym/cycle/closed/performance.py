@@ -179,8 +179,8 @@ def _forces(engine: ClosedEngine, room: Chamber, omega: Scalar, phi: Scalar, p: 
     if loads is None:
         return outputs
     net = (p - room.back_pressure) * room.area
-    found = loads.call([phi, ca.vertcat(*engine.motion.parameters.values()), omega, net])
-    return outputs | {name: ca.fabs(value) for name, value in zip(loads.name_out(), found, strict=True)}
+    forces = loads.call([phi, ca.vertcat(*engine.motion.parameters.values()), omega, net])
+    return outputs | {name: ca.fabs(value) for name, value in zip(loads.name_out(), forces, strict=True)}
 
 
 STEPS = 120
@@ -224,16 +224,16 @@ def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STE
     return ca.Function("engine", [design], list(outputs.values()), ["design"], list(outputs))
 
 
-def _scalars(found: Mapping[str, ca.MX], friction: Friction) -> dict[str, ca.MX]:
-    omega, fuel, displacement = found["omega"], found["fuel"], found["displacement"]
-    work = found["work"] + found["exchange_work"]
-    speed = found["stroke"] * omega / np.pi
-    brake = work - displacement * friction_pressure(friction, ca.mmax(found["p"]), speed, omega)
-    outputs = {"displacement": displacement, "piston_speed": speed, "stroke": found["stroke"]}
+def _scalars(values: Mapping[str, ca.MX], friction: Friction) -> dict[str, ca.MX]:
+    omega, fuel, displacement = values["omega"], values["fuel"], values["displacement"]
+    work = values["work"] + values["exchange_work"]
+    speed = values["stroke"] * omega / np.pi
+    brake = work - displacement * friction_pressure(friction, ca.mmax(values["p"]), speed, omega)
+    outputs = {"displacement": displacement, "piston_speed": speed, "stroke": values["stroke"]}
     for prefix, energy in (("", work), ("brake_", brake)):
         torque = energy / (4 * np.pi)
         outputs |= {
-            f"{prefix}efficiency": energy / found["fuel_heat"],
+            f"{prefix}efficiency": energy / values["fuel_heat"],
             "brake_torque" if prefix else "torque_avg": torque,
             f"{prefix}power": torque * omega,
             f"{prefix}mep": energy / displacement,

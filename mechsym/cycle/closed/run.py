@@ -124,16 +124,16 @@ def closed_map(build: Build, names: Sequence[str]) -> Map:
     nodes = compiled_all({phase: parts[phase].node for phase in PHASES})
 
     def run(designs: np.ndarray, steps: int) -> dict[str, np.ndarray]:
-        state, found = np.array(start(designs)), []
+        state, rows = np.array(start(designs)), []
         for phase in PHASES:
             history = np.concatenate([state[None], folds[phase](state, designs, steps_of(phase, steps))])
             # nodes at all states, shape (nodes, steps + 1, designs)
             count, _, n = history.shape
             s = np.repeat(np.arange(count) / (count - 1), n)
             states = history.transpose(1, 0, 2).reshape(history.shape[1], -1)
-            found.append(nodes[phase].batch(*np.tile(designs, count), s, *states).reshape(-1, count, n))
+            rows.append(nodes[phase].batch(*np.tile(designs, count), s, *states).reshape(-1, count, n))
             state = history[-1]
-        curves = dict(zip(NODES, np.concatenate(found, axis=1).transpose(0, 2, 1), strict=True))
+        curves = dict(zip(NODES, np.concatenate(rows, axis=1).transpose(0, 2, 1), strict=True))
         sums = dict(zip(("work", "wall_heat"), state[1:, :, None], strict=True))
         return curves | sums | dict(zip(SCALARS, np.array(books(designs, state[:1]))[:, :, None], strict=True))
 
@@ -304,17 +304,17 @@ def at_angles(result: ClosedRun, step: Radian) -> tuple[Radian[Array], Pascal[Ar
 
 
 def _run(build: Build, names: tuple[str, ...], values: np.ndarray, steps: int) -> ClosedRun:
-    found = _mapped(build, names)(values, steps) if values.shape[1] >= MANY else _called(build, names, values, steps)
-    scalars = {k: v[:, 0] for k, v in found.items() if k not in NODES}
+    outputs = _mapped(build, names)(values, steps) if values.shape[1] >= MANY else _called(build, names, values, steps)
+    scalars = {k: v[:, 0] for k, v in outputs.items() if k not in NODES}
     gain = scalars["energy_end"] - scalars["energy_start"] + scalars["work"] + scalars["wall_heat"]
     with np.errstate(divide="ignore", invalid="ignore"):  # where nothing burns, `run` refuses
         residual = (gain - scalars["heat_released"] - scalars["fuel_energy"]) / scalars["heat_released"]
-    return ClosedRun(**{k: found[k] for k in NODES}, scalars=scalars, residual=residual)
+    return ClosedRun(**{k: outputs[k] for k in NODES}, scalars=scalars, residual=residual)
 
 
 def _called(build: Build, names: tuple[str, ...], values: np.ndarray, steps: int) -> dict[str, np.ndarray]:
-    found = _function(build, names, steps).call({"design": values})
-    return {k: np.asarray(v).reshape(values.shape[1], -1) for k, v in found.items()}
+    outputs = _function(build, names, steps).call({"design": values})
+    return {k: np.asarray(v).reshape(values.shape[1], -1) for k, v in outputs.items()}
 
 
 @functools.lru_cache(maxsize=8)

@@ -164,7 +164,7 @@ def performance_printed(engine: ClosedEngine, omega: RadPerSecond[Array]) -> Per
         "omega": omega, "work": 4 * np.pi * torque, "fuel": result.fuel, "fuel_heat": fuel_heat,
         "displacement": room.displacement, "stroke": room.stroke,
     }  # fmt: skip
-    found = figures(engine.friction_pressure, scalars, p_max) | {"mep": _TWO_PI * 2 * torque / room.displacement}
+    printed = figures(engine.friction_pressure, scalars, p_max) | {"mep": _TWO_PI * 2 * torque / room.displacement}
     work = np.sum((result.p[1:] + result.p[:-1]) / 2 * np.diff(result.v)[:, None], axis=0)
     shares = {
         "heat": (result.wall_heat + result.latent_heat)[:_LAST].sum(axis=0) / fuel_heat,
@@ -176,7 +176,7 @@ def performance_printed(engine: ClosedEngine, omega: RadPerSecond[Array]) -> Per
     energy = (result.p[-1] * result.v[-1] - result.p[0] * result.v[0]) / (gas.gamma - 1)
     heat = result.heat_released - result.wall_heat - result.latent_heat
     return Performance(
-        **found, **shares, unburnt=1 - sum(shares.values()), p_max=p_max, p_max_angle=angle[top, 0],
+        **printed, **shares, unburnt=1 - sum(shares.values()), p_max=p_max, p_max_angle=angle[top, 0],
         pumping_mep=np.zeros(omega.shape), burnt=burnt_angles(engine.cycle, omega),
         t_max=result.t.max(axis=0), knock=np.full(omega.shape, np.nan),
         torque_max=crank_torque(room, result).max(axis=0), force_max=force.max(axis=0),
@@ -197,6 +197,6 @@ def _loads(engine: ClosedEngine, angle: np.ndarray, omega: np.ndarray, result: M
     net = (result.p - engine.chamber.back_pressure) * np.pi / 4 * engine.chamber.bore**2
     rows = [np.broadcast_to(a, net.shape).reshape(1, -1) for a in (angle, omega, net)]
     parameters = np.array(list(engine.motion.parameters.values())).reshape(-1, 1)
-    found = loads.call([rows[0], parameters, rows[1], rows[2]])
-    largest = (np.abs(np.asarray(v)).reshape(net.shape).max(axis=0) for v in found)
+    forces = loads.call([rows[0], parameters, rows[1], rows[2]])
+    largest = (np.abs(np.asarray(v)).reshape(net.shape).max(axis=0) for v in forces)
     return dict(zip(loads.name_out(), largest, strict=True))

@@ -98,29 +98,29 @@ class StirlingEngine:
 
 def _columns(engine: StirlingEngine, omega: float) -> Json:
     """Figures of one turn under the names of `mechsym cycle`; `losses` is a mapping [W]."""
-    found, per_second = engine.turn, omega / (2 * math.pi)
+    whole, per_second = engine.turn, omega / (2 * math.pi)
     second = engine.losses
-    power = found.work * per_second if second is None else second.power
-    heat_in = found.heat_in * per_second if second is None else second.heat_in
+    power = whole.work * per_second if second is None else second.power
+    heat_in = whole.heat_in * per_second if second is None else second.heat_in
     figures = {
-        "torque_avg": power / omega, "power_kw": power / 1e3, "mep_kpa": found.mean_indicated / 1e3,
-        "sfc_g_kwh": math.nan, "efficiency": _share(power, heat_in), "p_max_mpa": float(found.p.max()) / 1e6,
-        "p_max_angle_deg": math.degrees(math.remainder(float(found.phi[np.argmax(found.p)]), 2 * math.pi)),
-        "energy_residual": found.residual, "work_j": found.work, "work_hot_j": found.sums["W_e"],
-        "work_cold_j": found.sums["W_c"], "heat_in_j": found.heat_in,
-        "heat_out_j": -found.sums["Q_k"] - found.sums["Q_c"],
-        "heat_regenerator_j": float(np.ptp(found.stored)),
-        "indicated_efficiency": _share(found.work, found.heat_in), "heat_in_kw": heat_in / 1e3, "gas_kg": found.mass,
+        "torque_avg": power / omega, "power_kw": power / 1e3, "mep_kpa": whole.mean_indicated / 1e3,
+        "sfc_g_kwh": math.nan, "efficiency": _share(power, heat_in), "p_max_mpa": float(whole.p.max()) / 1e6,
+        "p_max_angle_deg": math.degrees(math.remainder(float(whole.phi[np.argmax(whole.p)]), 2 * math.pi)),
+        "energy_residual": whole.residual, "work_j": whole.work, "work_hot_j": whole.sums["W_e"],
+        "work_cold_j": whole.sums["W_c"], "heat_in_j": whole.heat_in,
+        "heat_out_j": -whole.sums["Q_k"] - whole.sums["Q_c"],
+        "heat_regenerator_j": float(np.ptp(whole.stored)),
+        "indicated_efficiency": _share(whole.work, whole.heat_in), "heat_in_kw": heat_in / 1e3, "gas_kg": whole.mass,
     }  # fmt: skip
     temperatures = {
         f"T_{side}_{name}_k": float(getattr(curve, name)())
-        for side, curve in (("e", found.T_e), ("c", found.T_c))
+        for side, curve in (("e", whole.T_e), ("c", whole.T_c))
         for name in ("min", "max")
     }
     if second is not None:
         temperatures |= {"T_h_k": second.T_h, "T_k_k": second.T_k, "regenerator_effectiveness": second.effectiveness}
         flow = sum(lost for name, lost in second.work_losses.items() if name.startswith("flow_"))
-        figures |= {"flow_share": _share(flow, found.work * per_second), "screen_reynolds": second.screen_reynolds,
+        figures |= {"flow_share": _share(flow, whole.work * per_second), "screen_reynolds": second.screen_reynolds,
                     "seal_reynolds": second.seal_reynolds}  # fmt: skip
     losses = {} if second is None else second.work_losses | {f"{k}_heat": v for k, v in second.heat_losses.items()}
     return figures | temperatures | {"losses": losses}
@@ -131,8 +131,8 @@ def _share(part: float, whole: float) -> float:
     return part / whole if whole > 0 else math.nan
 
 
-def _closing(found: Json) -> str:
-    worst = float(abs(found["energy_residual"]).max())
+def _closing(figures: Json) -> str:
+    worst = float(abs(figures["energy_residual"]).max())
     return f"first law closed to {ratio_text(worst, 1)} of the heat from the hot side"
 
 
@@ -189,12 +189,12 @@ class StirlingGas:
     def curves(self, omega: np.ndarray, operating: float) -> dict[str, np.ndarray]:
         """One turn at the first of the speeds [rad/s], from the first dead centre on."""
         speed = float(omega[0])
-        found = self.engine(speed).turn
-        order = np.argsort(np.remainder(found.phi, 2 * np.pi), kind="stable")
+        whole = self.engine(speed).turn
+        order = np.argsort(np.remainder(whole.phi, 2 * np.pi), kind="stable")
         curves = {
-            "phi_deg": np.degrees(np.remainder(found.phi, 2 * np.pi)), "p_pa": found.p, "v_e_m3": found.V_e,
-            "v_c_m3": found.V_c, "t_e_k": found.T_e, "t_c_k": found.T_c, "flow_e_kg_s": found.flow_e * speed,
-            "flow_c_kg_s": found.flow_c * speed,
+            "phi_deg": np.degrees(np.remainder(whole.phi, 2 * np.pi)), "p_pa": whole.p, "v_e_m3": whole.V_e,
+            "v_c_m3": whole.V_c, "t_e_k": whole.T_e, "t_c_k": whole.T_c, "flow_e_kg_s": whole.flow_e * speed,
+            "flow_c_kg_s": whole.flow_c * speed,
         }  # fmt: skip
         return {name: values[order] for name, values in curves.items()}
 
@@ -216,18 +216,18 @@ class StirlingGas:
 
     def _pressure(self, omega: float) -> Pressure:
         """Pressure over the shaft angle, by cubics with the exact slopes."""
-        found = self.engine(omega).turn
-        once = np.append(True, np.diff(found.phi) > 0)  # a cut stands twice among the nodes
-        curve = scipy.interpolate.CubicHermiteSpline(found.phi[once], found.p[once], found.dp_dphi[once])
-        best = int(np.argmax(found.p))
+        whole = self.engine(omega).turn
+        once = np.append(True, np.diff(whole.phi) > 0)  # a cut stands twice among the nodes
+        curve = scipy.interpolate.CubicHermiteSpline(whole.phi[once], whole.p[once], whole.dp_dphi[once])
+        best = int(np.argmax(whole.p))
         return Pressure(
             kind=self.kind,
             period=2 * math.pi,
-            kinks=tuple(sorted(found.cuts.tolist())),
-            absolute=periodic(curve, 2 * math.pi, float(found.phi[0])),
-            p_max=float(found.p[best]),
-            phi_p_max=float(math.remainder(found.phi[best], 2 * math.pi)),
-            mean_indicated=found.mean_indicated,
+            kinks=tuple(sorted(whole.cuts.tolist())),
+            absolute=periodic(curve, 2 * math.pi, float(whole.phi[0])),
+            p_max=float(whole.p[best]),
+            phi_p_max=float(math.remainder(whole.phi[best], 2 * math.pi)),
+            mean_indicated=whole.mean_indicated,
             facts=(self.fact,),
         )
 
@@ -262,5 +262,5 @@ class SecondOrderGas(StirlingGas):
     )
 
     def _engine(self, volumes: Volumes, omega: float) -> StirlingEngine:
-        found = second_order(self.cycle, self.parts.section("stirling"), volumes, omega)
-        return StirlingEngine(turn=found.turn, losses=found)
+        order = second_order(self.cycle, self.parts.section("stirling"), volumes, omega)
+        return StirlingEngine(turn=order.turn, losses=order)

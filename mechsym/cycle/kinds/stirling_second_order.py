@@ -123,10 +123,10 @@ def second_order(cycle: StirlingCylinders, losses: StirlingLosses, volumes: Volu
     solve = solver(lambda z: five_spaces(cycle, volumes, z[0], z[1]), temperatures)
     for _ in range(_ROUNDS):
         tried = _Tried(cycle, losses, solve(temperatures), omega, temperatures)
-        found = tried.with_losses()
-        change = tried.wall_side(found) - temperatures
+        order = tried.with_losses()
+        change = tried.wall_side(order) - temperatures
         if float(np.abs(change).max()) < _SETTLED * cycle.T_e:
-            return found
+            return order
         temperatures = temperatures + _DAMPED * change
         if temperatures[0] < 1.02 * temperatures[1]:
             raise BadInput(
@@ -222,10 +222,10 @@ class _Tried:
             seal_reynolds=loss.seal_reynolds(math.sqrt(push), *seal, rho, mu),
         )  # fmt: skip
 
-    def wall_side(self, found: SecondOrder) -> np.ndarray:
+    def wall_side(self, order: SecondOrder) -> np.ndarray:
         """Temperatures of the gas in heater and cooler, from the walls and what goes through the films [K]."""
         names = ("regenerator", "matrix", "pumping", "gap", "leakage_displacer")
-        by_gas = sum(found.heat_losses[name] for name in names)
+        by_gas = sum(order.heat_losses[name] for name in names)
         drops = []
         for place, heat, beyond in (
             (0, self.turn.sums["Q_h"], self.losses.heater_resistance),

@@ -69,8 +69,8 @@ def evaluated(volumes: Callable[[Scalar], tuple[Scalar, Scalar]], phi: Radian[Ar
     """Both volumes and their slopes, each of shape (2, n) [m^3, m^3/rad]."""
     angle = ca.SX.sym("phi")
     both = ca.vertcat(*volumes(angle))
-    found = ca.Function("volumes", [angle], [both, ca.jacobian(both, angle)])(phi.reshape(1, -1))
-    return np.asarray(found[0]), np.asarray(found[1])
+    values = ca.Function("volumes", [angle], [both, ca.jacobian(both, angle)])(phi.reshape(1, -1))
+    return np.asarray(values[0]), np.asarray(values[1])
 
 
 def regenerator_temperature(T_h: Kelvin[Scalar], T_k: Kelvin[Scalar]) -> Kelvin[Scalar]:
@@ -273,7 +273,7 @@ def swept(cycle: StirlingCylinders, travels: tuple[Travel, Travel]) -> Volumes:
 def _smallest(free: Callable[[Scalar], list[Scalar]]) -> list[float]:
     # the least of a smooth periodic curve: the best of many points, then three steps of Newton
     angle = ca.SX.sym("phi")
-    found = []
+    smallest = []
     for volume in free(angle):
         slope = ca.gradient(volume, angle)
         curve = ca.Function("curve", [angle], [volume, slope, ca.gradient(slope, angle)])
@@ -282,8 +282,8 @@ def _smallest(free: Callable[[Scalar], list[Scalar]]) -> list[float]:
         for _ in range(3):
             _, first, second = (float(part) for part in curve(at))
             at -= first / second if second > 0 else 0.0
-        found.append(float(curve(at)[0]))
-    return found
+        smallest.append(float(curve(at)[0]))
+    return smallest
 
 
 def five_spaces(

@@ -99,14 +99,14 @@ def _order(inward: np.ndarray, phi: np.ndarray) -> tuple[Order, np.ndarray, int]
     start = float(angles[longest] + gaps[longest] / 2)
     first = round(start / (2 * math.pi) * _STEPS)
     ordered = [cuts[(longest + 1 + i) % len(cuts)] for i in range(len(cuts))]
-    found = tuple(start + (angle - start) % (2 * math.pi) for angle, _ in ordered)
+    in_order = tuple(start + (angle - start) % (2 * math.pi) for angle, _ in ordered)
     directions = [(bool(inward[first % _STEPS, 0]), bool(inward[first % _STEPS, 1]))]
     for _, j in ordered:
         e, c = directions[-1]
         directions.append((not e, c) if j == 0 else (e, not c))
     start = first * 2 * math.pi / _STEPS
     order = Order(start=start, inward=tuple(directions), turning=tuple(j for _, j in ordered))
-    return order, np.array(found), first % _STEPS
+    return order, np.array(in_order), first % _STEPS
 
 
 def _cuts(inward: np.ndarray, phi: np.ndarray) -> Iterator[tuple[float, int]]:
@@ -174,10 +174,10 @@ def turn(spaces: FiveSpaces, steps: int = STEPS) -> StirlingTurn:
 
 def solver(build: Build, design: np.ndarray, steps: int = STEPS) -> Callable[[np.ndarray], StirlingTurn]:
     """A function of the design to its turn, each started from the one before. design: where it starts [any]."""
-    found = build(ca.DM(design))
+    spaces = build(ca.DM(design))
     names = [f.name for f in dataclasses.fields(FiveSpaces) if f.name != "volumes"]
-    numbers: dict[str, Scalar] = {name: float(getattr(found, name)) for name in names}
-    order, unknown = first_guess(dataclasses.replace(found, **numbers))
+    numbers: dict[str, Scalar] = {name: float(getattr(spaces, name)) for name in names}
+    order, unknown = first_guess(dataclasses.replace(spaces, **numbers))
     parts = _functions(build, len(design), order, steps)
     last = [unknown]
 

@@ -268,15 +268,19 @@ def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
     hottest = float(np.max(absolute(closed) * volume(cylinder, closed))) / (state.mass * cycle.R)
     trapped = float(volume(cylinder, cycle.evc)) / cylinder.clearance
     burnt = double_wiebe(1.0, cycle.a_p, cycle.m_p, cycle.a_d, cycle.m_d, cycle.b)
-    found = []
+    pieces = []
     if state.excess_air < 1.3:
-        found.append(f"the mean pressure needs {state.excess_air:.2f} times the stoichiometric air; a diesel needs 1.3")
+        pieces.append(
+            f"the mean pressure needs {state.excess_air:.2f} times the stoichiometric air; a diesel needs 1.3"
+        )
     if state.T_comp + state.dT > 3000:
-        found.append(f"reference temperature {state.T_comp + state.dT:.0f} K is above any flame of oil in air (3000 K)")
+        pieces.append(
+            f"reference temperature {state.T_comp + state.dT:.0f} K is above any flame of oil in air (3000 K)"
+        )
     if state.efficiency > 0.65:
-        found.append(f"indicated efficiency {state.efficiency:.2f} is above what marine engines reach (0.55)")
+        pieces.append(f"indicated efficiency {state.efficiency:.2f} is above what marine engines reach (0.55)")
     if state.p_evo < state.p_evc:
-        found.append("the pressure is below the scavenge pressure when the exhaust opens")
+        pieces.append("the pressure is below the scavenge pressure when the exhaust opens")
     facts = (
         f"compression ratio {cycle.compression_ratio:g} is read as geometric; from exhaust closing it is {trapped:.2f}",
         f"pressures at top dead centre, absolute: compression {_pressure(state.p_comp)}, "
@@ -291,7 +295,7 @@ def two_stroke_pressure(cycle: TwoStrokeMarine, cylinder: Chamber) -> Pressure:
     )
     return pressure_over(
         "two-stroke-marine", absolute, 2 * math.pi, kinks(cycle), cylinder, t_max=hottest,
-        phases=events(cycle), facts=facts, doubts=tuple(found),
+        phases=events(cycle), facts=facts, doubts=tuple(pieces),
         formulas=formulas(cycle, cylinder, state.p_ref / state.p_comp),
     )  # fmt: skip
 

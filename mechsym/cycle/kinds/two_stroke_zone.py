@@ -109,12 +109,12 @@ class ZoneGas(CylinderGas):
     def pressure(self, room: Chamber, omega: float) -> tuple[Pressure, dict[str, float]]:
         """Pressure at a speed [rad/s], with the fuel for the wanted mean pressure, and the figures of that fuel."""
         zone = two_stroke_zone(self.cycle, room, omega, self.parts.section("heat_transfer"))
-        found = shares(self.cycle, zone)
+        parts = shares(self.cycle, zone)
         fuel = {
-            "sfc_g_kwh": 3.6e9 / (found["work"] * self.cycle.lhv), "efficiency": found["work"],
+            "sfc_g_kwh": 3.6e9 / (parts["work"] * self.cycle.lhv), "efficiency": parts["work"],
             "energy_residual": float(zone.result.residual[0]), **burnt_angles(self.cycle, 1.0),
         }  # fmt: skip
-        return _pressure(self.cycle, zone), fuel | found
+        return _pressure(self.cycle, zone), fuel | parts
 
 
 def as_diagram(cycle: TwoStrokeZone) -> dict[str, str | float]:
@@ -124,11 +124,11 @@ def as_diagram(cycle: TwoStrokeZone) -> dict[str, str | float]:
 
 def _pressure(cycle: TwoStrokeZone, zone: Zone) -> Pressure:
     p_max, phi_p_max = peak(zone.absolute, _TURN, zone.kinks)
-    found, result = shares(cycle, zone), zone.result
+    parts, result = shares(cycle, zone), zone.result
     excess = result.scalars["mass"][0] / zone.fuel / _STOICHIOMETRIC
     facts = (
-        f"fuel {zone.fuel * 1e3:.4g} g a cycle, excess air {excess:.2f}, indicated efficiency {found['work']:.3f}",
-        f"heat to the walls {100 * found['heat']:.1f} % of the fuel ({_of_walls(zone.walls)}), highest mean "
+        f"fuel {zone.fuel * 1e3:.4g} g a cycle, excess air {excess:.2f}, indicated efficiency {parts['work']:.3f}",
+        f"heat to the walls {100 * parts['heat']:.1f} % of the fuel ({_of_walls(zone.walls)}), highest mean "
         f"temperature {result.t.max():.0f} K",
         f"first law closed to {abs(result.residual[0]):.1g} of the heat released",
     )

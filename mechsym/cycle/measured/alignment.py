@@ -110,20 +110,20 @@ def is_motored(angle: Radian[Array], mean: Pascal[Array], cylinder: Chamber, pri
     return math.sqrt(max(fit.rms**2 - sigma**2, 0.0)) < _MOTORED * float(np.ptp(mean))
 
 
-def carried(found: DeadCentre, angle: Radian[Array], mean: Pascal[Array]) -> DeadCentre:
+def carried(centre: DeadCentre, angle: Radian[Array], mean: Pascal[Array]) -> DeadCentre:
     """The dead centre of a motored record on the angles of a fired one of the same encoder.
 
     angle: ascending angles of one period of the fired record; mean: its measured pressure.
     """
     # an encoder knows whole turns: the one is taken whose dead centre lies just before the peak of combustion
     expected = peak_angle(angle, mean) - 12 * _DEG
-    moved = 2 * math.pi * round((expected - found.angle) / (2 * math.pi))
-    return dataclasses.replace(found, angle=found.angle + moved, low=found.low + moved, high=found.high + moved)
+    moved = 2 * math.pi * round((expected - centre.angle) / (2 * math.pi))
+    return dataclasses.replace(centre, angle=centre.angle + moved, low=centre.low + moved, high=centre.high + moved)
 
 
-def widened(found: DeadCentre, by: Radian) -> DeadCentre:
+def widened(centre: DeadCentre, by: Radian) -> DeadCentre:
     """The same dead centre in an interval that is wider. by: on both sides."""
-    return dataclasses.replace(found, low=found.low - by, high=found.high + by)
+    return dataclasses.replace(centre, low=centre.low - by, high=centre.high + by)
 
 
 def peak_angle(angle: Radian[Array], mean: Pascal[Array]) -> Radian:
@@ -200,11 +200,11 @@ def align(
         own, line = from_motored(at, mean, cylinder, prior, "motored record")
     else:
         own, line = from_compression(at, mean, cylinder, between(diagram), prior)
-    found = carried(shared[0], at, mean) if shared else _named(diagram, cylinder, at, mean)
-    chosen = own if found is None else found
+    centre = carried(shared[0], at, mean) if shared else _named(diagram, cylinder, at, mean)
+    chosen = own if centre is None else centre
     _refuse_far(diagram, chosen, peak_angle(at, mean))
     phi, ordered = in_one_piece(angle - chosen.angle, rows.mean(axis=0), period, start=-math.pi - 0.5)
-    if found is not None:
+    if centre is not None:
         pinned = dataclasses.replace(shared[1] if shared else prior, tdc=(0.0, _PINNED))
         line = joint_fit(phi, ordered, cylinder, between(diagram), noise(ordered), pinned, [0.0])
     line = dataclasses.replace(line, tdc=0.0)
@@ -213,7 +213,7 @@ def align(
     spread = None if turns is None else spread_error(turns, phi, ordered - line.offset, cylinder, -chosen.angle)
     if spread is not None and diagram.alignment != "given" and not shared:
         chosen = widened(chosen, spread)
-    return Alignment(dead_centre=chosen, fit=line, own=None if found is None else own, motored=motored, spread=spread)
+    return Alignment(dead_centre=chosen, fit=line, own=None if centre is None else own, motored=motored, spread=spread)
 
 
 def _named(diagram: Diagram, cylinder: Chamber, at: np.ndarray, mean: np.ndarray) -> DeadCentre | None:
@@ -228,8 +228,8 @@ def _named(diagram: Diagram, cylinder: Chamber, at: np.ndarray, mean: np.ndarray
     return carried(motored_file(diagram, cylinder), at, mean) if diagram.motored else None
 
 
-def _refuse_far(diagram: Diagram, found: DeadCentre, top: float) -> None:
-    behind = top - found.angle
+def _refuse_far(diagram: Diagram, centre: DeadCentre, top: float) -> None:
+    behind = top - centre.angle
     if -15 * _DEG < behind < 60 * _DEG:
         return
     mend = (
@@ -240,7 +240,7 @@ def _refuse_far(diagram: Diagram, found: DeadCentre, top: float) -> None:
     )
     raise BadInput(
         f"{diagram.file}: the highest pressure lies {math.degrees(behind):.1f} deg behind the dead centre "
-        f"({found.method}), which no cylinder has; {mend}"
+        f"({centre.method}), which no cylinder has; {mend}"
     )
 
 

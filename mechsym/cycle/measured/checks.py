@@ -48,14 +48,14 @@ def diagram_doubts(
     diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles, phi_p_max: Radian
 ) -> tuple[Doubt, ...]:
     """What is unusual in a measured diagram. phi_p_max: angle of the highest pressure, from firing TDC."""
-    found = [_scale(diagram, measured), *_of_sensor(diagram, cylinder, measured), _agreement(measured)]
-    found += [_free(diagram, cylinder, measured), *_of_angles(measured), _geometry(diagram, cylinder, measured)]
+    doubts = [_scale(diagram, measured), *_of_sensor(diagram, cylinder, measured), _agreement(measured)]
+    doubts += [_free(diagram, cylinder, measured), *_of_angles(measured), _geometry(diagram, cylinder, measured)]
     if not measured.alignment.motored:
         usual = (_PEAK[0] / _DEG, _PEAK[1] / _DEG)
         why = "no combustion peaks there: the dead centre is wrong, or most cycles misfire"
-        found.append(_doubt("peak_angle", "crank angle of the highest pressure [deg]", phi_p_max / _DEG, usual, why))
-        found += _combustion(diagram, cylinder, measured)
-    return tuple(doubt for doubt in found if doubt is not None)
+        doubts.append(_doubt("peak_angle", "crank angle of the highest pressure [deg]", phi_p_max / _DEG, usual, why))
+        doubts += _combustion(diagram, cylinder, measured)
+    return tuple(doubt for doubt in doubts if doubt is not None)
 
 
 def _doubt(code: str, quantity: str, value: float, usual: tuple[float, float], why: str) -> Doubt | None:
@@ -112,13 +112,13 @@ def _of_angles(measured: MeasuredCycles) -> Iterator[Doubt | None]:
 
 
 def _agreement(measured: MeasuredCycles) -> Doubt | None:
-    own, found = measured.alignment.own, measured.alignment.dead_centre
+    own, centre = measured.alignment.own, measured.alignment.dead_centre
     if own is None:
         return None
-    apart = own.angle - found.angle
+    apart = own.angle - centre.angle
     apart -= 2 * math.pi * round(apart / (2 * math.pi))
-    limit = math.hypot((own.high - own.low) / 2, (found.high - found.low) / 2) / _DEG
-    why = f"the record's own compression line has it elsewhere than {found.method}: another encoder zero or engine?"
+    limit = math.hypot((own.high - own.low) / 2, (centre.high - centre.low) / 2) / _DEG
+    why = f"the record's own compression line has it elsewhere than {centre.method}: another encoder zero or engine?"
     return _doubt(
         "dead_centre", "compression line's dead centre less the one used [deg]", apart / _DEG, (-limit, limit), why
     )
@@ -204,7 +204,7 @@ def _by_sensor(line: JointFit, cylinder: Chamber, ends: np.ndarray, p: np.ndarra
     return line.swing * math.sqrt(float(slope @ line.covariance[6:, 6:] @ slope))
 
 
-def exponent_doubts(compression: Pure, expansion: Pure | None, told: Sequence[Doubt]) -> list[Doubt]:
+def exponent_doubts(compression: Pure, expansion: Pure | None, doubts: Sequence[Doubt]) -> list[Doubt]:
     """The exponents that are told, as far as no other check has doubted the same line.
 
     A gas that only loses heat to its walls compresses with less than its gamma and expands with more. Air and mixture
@@ -212,17 +212,17 @@ def exponent_doubts(compression: Pure, expansion: Pure | None, told: Sequence[Do
     or walls are cold. Burnt gas has 1.18 to 1.3, the least hot and rich: an expansion below that of the gas takes heat
     in all along, and one near 1 as much as its work; none does but a gas that still burns. Heat and mass that are lost
     raise it, in a small engine by up to 0.2. compression, expansion: no expansion of a motored record, which expands
-    with more the more it has lost; told: doubts of the same record so far.
+    with more the more it has lost; doubts: doubts of the same record so far.
     """
     why = "dead centre, offset or compression ratio is wrong"
     burning = "it still burns there, or the dead centre, the offset or the scale is wrong, or the sensor drifts"
-    found = [_doubt("compression_exponent", "exponent of the compression as told [-]", compression, _EXPONENT, why)]
+    raised = [_doubt("compression_exponent", "exponent of the compression as told [-]", compression, _EXPONENT, why)]
     if expansion is not None:
-        found.append(
+        raised.append(
             _doubt("expansion_exponent", "exponent of the expansion as told [-]", expansion, _EXPANSION_TOLD, burning)
         )
-    known = {doubt.code for doubt in told}
-    return [doubt for doubt in found if doubt is not None and doubt.code not in known]
+    known = {doubt.code for doubt in doubts}
+    return [doubt for doubt in raised if doubt is not None and doubt.code not in known]
 
 
 def speed_doubt(read: RadPerSecond, wanted: RadPerSecond) -> Doubt | None:
@@ -240,5 +240,5 @@ def brake_doubt(torque: NewtonMetre, p_mi: Pascal, swept: Volume, period: Radian
     period: T: 2 pi or 4 pi.
     """
     why = "the brake gives more than the gas, or far less: dead centre, scale or torque is wrong"
-    found = torque * period / (p_mi * swept)
-    return _doubt("mechanical_efficiency", "brake work by indicated work [-]", found, (0.5, 0.98), why)
+    ratio = torque * period / (p_mi * swept)
+    return _doubt("mechanical_efficiency", "brake work by indicated work [-]", ratio, (0.5, 0.98), why)

@@ -77,16 +77,16 @@ def least_squares_fit(
     names: names of the parameters with their units; start: where to begin [units of the parameters], shape (k,).
     Returns fit: values with confidence; a parameter that the data do not determine has infinite confidence.
     """
-    found = scipy.optimize.least_squares(
+    solution = scipy.optimize.least_squares(
         residuals, start, "3-point", bounds, x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12
     )
-    left, freedom = found.fun, max(found.fun.size - found.x.size, 1)
+    left, freedom = solution.fun, max(solution.fun.size - solution.x.size, 1)
     centred = left - left.mean()
     power = float(centred @ centred)
     r = min(max(float(centred[:-1] @ centred[1:]) / power, 0.0), 0.999) if power > 0 else 0.0
-    spread = np.sqrt(_variances(found.jac) * (left @ left) / freedom * (1 + r) / (1 - r))
+    spread = np.sqrt(_variances(solution.jac) * (left @ left) / freedom * (1 + r) / (1 - r))
     return Fit(
-        names=tuple(names), units=tuple(names.values()), values=tuple(float(v) for v in found.x),
+        names=tuple(names), units=tuple(names.values()), values=tuple(float(v) for v in solution.x),
         confidence=tuple(float(_QUANTILE * s) for s in spread), rms=float(np.sqrt(np.mean(left**2))),
     )  # fmt: skip
 
@@ -270,11 +270,11 @@ def diagram_combustion(
     )
 
 
-def _said(found: Combustion, burns: bool) -> Combustion:
+def _said(burning: Combustion, burns: bool) -> Combustion:
     """What a cycle says, without the heat and burn points of one in which nothing burns."""
     if burns:
-        return found
-    return dataclasses.replace(found, heat=0.0, burn_angles=(math.nan,) * len(found.burn_angles))
+        return burning
+    return dataclasses.replace(burning, heat=0.0, burn_angles=(math.nan,) * len(burning.burn_angles))
 
 
 def _line(measured: MeasuredCycles, cylinder: Chamber, closed: float) -> Fit:

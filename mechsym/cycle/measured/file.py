@@ -134,11 +134,11 @@ def _column(file: str, header: tuple[int, list[str]], si: str, wanted: str) -> t
     what, key = ("crank angle", "angle_column") if si == "rad" else ("pressure", "pressure_column")
     if wanted and wanted not in names:
         raise BadInput(f"{file}, line {line}: no column {wanted!r}; columns are {', '.join(names)}; change {key}")
-    found = [(i, _unit(n)) for i, n in enumerate(names) if _unit(n) in _UNITS[si] and wanted in ("", n)]
-    if len(found) == 1:
-        return found[0]
-    if found:
-        choices = ", ".join(names[i] for i, _ in found)
+    columns = [(i, _unit(n)) for i, n in enumerate(names) if _unit(n) in _UNITS[si] and wanted in ("", n)]
+    if len(columns) == 1:
+        return columns[0]
+    if columns:
+        choices = ", ".join(names[i] for i, _ in columns)
         raise BadInput(f"{file}, line {line}: several {what} columns ({choices}); name one with {key}")
     raise BadInput(
         f"{file}, line {line}: no column has the unit of a {what} ({', '.join(_UNITS[si])}); columns are "
@@ -308,9 +308,9 @@ def turn_speeds(recording: Recording) -> RadPerSecond[Array] | None:
         if np.abs(level + slope * (time - time[0]) - angle).max() > _STRAIGHT:
             return None
         speeds.append(slope)
-    found = np.array(speeds)
-    kinked = found.size >= 3 and float(np.median(np.abs(np.diff(found)) / found.mean())) > _KINK
-    return found if kinked else None
+    by_turn = np.array(speeds)
+    kinked = by_turn.size >= 3 and float(np.median(np.abs(np.diff(by_turn)) / by_turn.mean())) > _KINK
+    return by_turn if kinked else None
 
 
 def spread_error(

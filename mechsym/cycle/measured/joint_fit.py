@@ -178,8 +178,8 @@ def cycle_lines(
     rise = np.exp(log_pressure(cylinder, at, shape)[0])
     columns = np.stack([np.ones_like(at), rise], axis=-1) * root[inside, None]
     measured = (rows[:, inside] - drift * (at - REFERENCE)) * root[inside]
-    found = np.linalg.lstsq(columns, measured.T, rcond=None)[0]
-    return found[0], found[1]
+    lines = np.linalg.lstsq(columns, measured.T, rcond=None)[0]
+    return lines[0], lines[1]
 
 
 def pulls(fit: JointFit, prior: Prior) -> np.ndarray:

@@ -54,8 +54,8 @@ class MeasuredCycles:
     @property
     def tdc_uncertainty(self) -> float | None:
         """Half the 95 % interval of the dead centre; None for a given one [rad]."""
-        found = self.alignment.dead_centre
-        return None if found.method == "given" else (found.high - found.low) / 2
+        centre = self.alignment.dead_centre
+        return None if centre.method == "given" else (centre.high - centre.low) / 2
 
 
 def measured_cycles(
@@ -71,15 +71,15 @@ def measured_cycles(
         )
     period = period_of(diagram)
     recording, angle, read = sound_cycles(diagram.file, diagram, cylinder)
-    found = align(diagram, cylinder, recording, angle, read, shared)
+    aligned = align(diagram, cylinder, recording, angle, read, shared)
     # the row starts before TDC and ends behind it, whatever the file calls its angles
-    phi = angle - found.dead_centre.angle
+    phi = angle - aligned.dead_centre.angle
     phi = phi - period * math.ceil(phi[0] / period)
     raw = read
     if diagram.scale == "swing" and diagram.inlet_pressure is not None:
         inlet, exhaust = (_behind(phi, at, reach) for at, reach in (_INLET, _EXHAUST))
         raw = without_swing(read, 2, inlet, exhaust, diagram.exhaust_pressure - diagram.inlet_pressure)
-    shape, drift = _pegging_line(diagram, found.fit)
+    shape, drift = _pegging_line(diagram, aligned.fit)
     on_line, levels = cycle_lines(*around_compression(phi, raw, period), cylinder, between(diagram), shape, drift)
     offsets, level = _offsets(diagram, phi, raw, on_line), float(levels.mean())
     bottom = level * math.exp(float(log_pressure(cylinder, _BDC, shape)[0][0]))
@@ -98,7 +98,7 @@ def measured_cycles(
         phi=phi,
         cycles=cycles,
         raw_mean=read.mean(axis=0),
-        alignment=found,
+        alignment=aligned,
         offsets=offsets,
         scale=scale,
         level=scale * level,
@@ -216,7 +216,7 @@ def diagram_facts(
     p_mi = cycle_work(measured, cylinder)
     smoothed = [] if residual is None else [_smoothing_fact(diagram, measured, residual)]
     shape = measured.alignment.fit.shape
-    found = mean_exponent(cylinder, shape, *between(diagram))
+    exponent = mean_exponent(cylinder, shape, *between(diagram))
     how = {
         "none": "none, the file is taken as absolute",
         "gauge": f"the file is taken as gauge, over {_pressure(diagram.p_back)} absolute",
@@ -232,7 +232,7 @@ def diagram_facts(
         _alignment_fact(measured, work_per_angle(measured, cylinder) * math.radians(1.0)),
         f"pegging: {how}; {_pressures(measured.offsets)} were taken off the cycles",
         _scale_fact(diagram, measured),
-        f"compression exponent {found:.3f} (expected {diagram.n_c:.2f} +- {_Z * Prior().n0[1]:.2f}), losses "
+        f"compression exponent {exponent:.3f} (expected {diagram.n_c:.2f} +- {_Z * Prior().n0[1]:.2f}), losses "
         f"{100 * shape.loss:.0f} % of the pressure per radian at TDC (expected {100 * Prior().loss[0]:.0f} +- "
         f"{100 * _Z * Prior().loss[1]:.0f} %)",
         *smoothed,
@@ -243,17 +243,17 @@ def diagram_facts(
 
 def read_and_used(diagram: Diagram, measured: MeasuredCycles) -> str:
     """What was read and what was used, in one line."""
-    found = measured.alignment.dead_centre
+    centre = measured.alignment.dead_centre
     by = "as read" if measured.scale == 1.0 else f"scaled {measured.scale:.3g} by scale = {diagram.scale}"
     shifted = _pressures(-measured.offsets)
     speeds = "" if measured.speeds is None else f", {_range(measured.speeds / RPM, '.0f')} rpm by time_s"
-    turns = 360 * (math.degrees(found.angle) // 360)
-    angle, low, high = (math.degrees(value) - turns for value in (found.angle, found.low, found.high))
+    turns = 360 * (math.degrees(centre.angle) // 360)
+    angle, low, high = (math.degrees(value) - turns for value in (centre.angle, centre.low, centre.high))
     read, used = _pressure(measured.raw_mean.max()), _pressure(measured.cycles.mean(axis=0).max(), 3)
     return (
         f"peak {read} read, {used} absolute used: shifted by {shifted}, pegging = {diagram.pegging}, "
         f"{by}, dead centre {angle:.2f} deg ({low:.2f} to {high:.2f}) by "
-        f"{found.method}{speeds}"
+        f"{centre.method}{speeds}"
     )
 
 
@@ -272,16 +272,16 @@ def _range(values: np.ndarray, form: str) -> str:
 
 
 def _alignment_fact(measured: MeasuredCycles, per_degree: float) -> str:
-    found, spread = measured.alignment.dead_centre, measured.tdc_uncertainty
-    ends = f"95 %: {math.degrees(found.low):.2f} to {math.degrees(found.high):.2f} deg"
+    centre, spread = measured.alignment.dead_centre, measured.tdc_uncertainty
+    ends = f"95 %: {math.degrees(centre.low):.2f} to {math.degrees(centre.high):.2f} deg"
     known = "not estimated" if spread is None else ends
-    assumed = "" if found.prior_share is None else f", {100 * found.prior_share:.0f} % of it assumed and not measured"
-    loss = "" if found.loss_angle is None else f", {math.degrees(found.loss_angle):.2f} deg behind the motored peak"
+    assumed = "" if centre.prior_share is None else f", {100 * centre.prior_share:.0f} % of it assumed and not measured"
+    loss = "" if centre.loss_angle is None else f", {math.degrees(centre.loss_angle):.2f} deg behind the motored peak"
     even = measured.alignment.spread
     uneven = "" if even is None else f"; up to {math.degrees(even):.1f} deg of it: angles spread evenly over each turn"
     return (
-        f"firing dead centre at {math.degrees(found.angle):.2f} deg of the file, the sensor's lag in it, "
-        f"{known}{assumed}: {found.method}{loss}{uneven}; one degree changes the work by {100 * per_degree:+.1f} %"
+        f"firing dead centre at {math.degrees(centre.angle):.2f} deg of the file, the sensor's lag in it, "
+        f"{known}{assumed}: {centre.method}{loss}{uneven}; one degree changes the work by {100 * per_degree:+.1f} %"
     )
 
 

@@ -140,12 +140,12 @@ def lag_of(measured: MeasuredCycles, cylinder: Chamber, diagram: Diagram) -> Sen
     return sensor_lag(cycle_fits(phi, rows, cylinder, ends, prior), speeds, prior)
 
 
-def without_lag(found: DeadCentre, lag: SensorLag) -> tuple[Radian, Radian]:
+def without_lag(centre: DeadCentre, lag: SensorLag) -> tuple[Radian, Radian]:
     """Dead centre of a record less the lag in it.
 
-    found: of the mean cycle, by its own line. Returns angle, half: angle of the file and half its 95 % interval.
+    centre: of the mean cycle, by its own line. Returns angle, half: angle of the file and half its 95 % interval.
     """
-    return found.angle - lag.lag * lag.omega, math.hypot((found.high - found.low) / 2, lag.half * lag.omega)
+    return centre.angle - lag.lag * lag.omega, math.hypot((centre.high - centre.low) / 2, lag.half * lag.omega)
 
 
 def _differ(speeds: np.ndarray) -> bool:

@@ -27,60 +27,67 @@ _CLOUD = 8  # cycles below which points are no scatter
 
 
 @shows(DiagramCombustion)
-def combustion_view(found: DiagramCombustion) -> View:
+def combustion_view(result: DiagramCombustion) -> View:
     """Answer first: mean pressures, variation, burn angles; then pressure, heat, loop and scatter."""
-    burns = found.wiebe is not None
+    burns = result.wiebe is not None
     pictures = [
-        Picture(name="pressure", see="Every measured cycle and, in colour, their mean.", draw=lambda: _pressure(found)),
+        Picture(name="pressure", see="Every measured cycle and, in colour, their mean.",
+                draw=lambda: _pressure(result)),
         Picture(name="loop", see="Straight lines are polytropes; a bend before burning points at dead centre, "
-                "offset or compression ratio.", draw=lambda: _loop(found)),
+                "offset or compression ratio.", draw=lambda: _loop(result)),
     ]  # fmt: skip
     if burns:
         see = "Burnt share of the mean cycle with its Wiebe function, and the net heat that is released."
-        pictures.insert(1, Picture(name="burning", see=see, draw=lambda: _burning(found)))
-    if len(found.cycles) >= _CLOUD:
+        pictures.insert(1, Picture(name="burning", see=see, draw=lambda: _burning(result)))
+    if len(result.cycles) >= _CLOUD:
         pictures.append(Picture(name="cycles", see="Every point is a cycle: what varies from one to the next.",
-                                draw=lambda: _cloud(found)))  # fmt: skip
+                                draw=lambda: _cloud(result)))  # fmt: skip
     return View(
-        title="Measured diagram", cards=figure_cards(found.figures), pictures=tuple(pictures),
-        columns=lambda: _columns(found),
+        title="Measured diagram", cards=figure_cards(result.figures), pictures=tuple(pictures),
+        columns=lambda: _columns(result),
     )  # fmt: skip
 
 
-def figure_cards(told: CombustionFigures) -> tuple[Card, ...]:
+def figure_cards(figures: CombustionFigures) -> tuple[Card, ...]:
     """Cards of a combustion analysis, each with its interval in one notation."""
-    cycles = f"{told.cycles_counted} cycle{'s' * (told.cycles_counted != 1)}"
+    cycles = f"{figures.cycles_counted} cycle{'s' * (figures.cycles_counted != 1)}"
     cards = [
-        Card(name="IMEP net", value=bars(told.imep_bar), about=f"95 %: {bars(*told.imep_interval_bar)}"),
-        Card(name="IMEP gross", value=bars(told.imep_gross_bar), about=f"95 %: {bars(*told.imep_gross_interval_bar)}"),
-        Card(name="PMEP", value=bars(told.pmep_bar), about="net less gross"),
+        Card(name="IMEP net", value=bars(figures.imep_bar), about=f"95 %: {bars(*figures.imep_interval_bar)}"),
+        Card(
+            name="IMEP gross",
+            value=bars(figures.imep_gross_bar),
+            about=f"95 %: {bars(*figures.imep_gross_interval_bar)}",
+        ),
+        Card(name="PMEP", value=bars(figures.pmep_bar), about="net less gross"),
     ]
     for name, value, ends in (
-        ("COV of net IMEP", told.cov_imep, told.cov_imep_interval),
-        ("COV of largest pressure", told.cov_p_max, told.cov_p_max_interval),
+        ("COV of net IMEP", figures.cov_imep, figures.cov_imep_interval),
+        ("COV of largest pressure", figures.cov_p_max, figures.cov_p_max_interval),
     ):
         if value is not None and ends is not None:
             low, high = (figure(100 * end, 2) for end in ends)
             cards.append(Card(name=name, value=per_cent(value, 3), about=f"95 %: {low} to {high} %, of {cycles}"))
-    for name, value in (("CA10", told.ca10_deg), ("CA50", told.ca50_deg), ("CA90", told.ca90_deg)):
+    for name, value in (("CA10", figures.ca10_deg), ("CA50", figures.ca50_deg), ("CA90", figures.ca90_deg)):
         if value is not None:
             about = "behind firing dead centre"
-            if name == "CA50" and told.ca50_interval_deg is not None:
-                about = f"95 %: {degrees(*told.ca50_interval_deg)}"
+            if name == "CA50" and figures.ca50_interval_deg is not None:
+                about = f"95 %: {degrees(*figures.ca50_interval_deg)}"
             cards.append(Card(name=name, value=degrees(value), about=about))
     cards += [
         Card(
             name="largest pressure",
-            value=bars(told.p_max_bar),
-            about=f"mean of {cycles}, highest {bars(told.p_max_highest_bar)}",
+            value=bars(figures.p_max_bar),
+            about=f"mean of {cycles}, highest {bars(figures.p_max_highest_bar)}",
         ),
-        Card(name="angle of largest pressure", value=degrees(told.p_max_deg), about="behind firing dead centre"),
+        Card(name="angle of largest pressure", value=degrees(figures.p_max_deg), about="behind firing dead centre"),
         Card(
-            name="rate of rise", value=f"{figure(told.rise_bar_deg, 3)} bar/deg", about="steepest of each cycle, mean"
+            name="rate of rise",
+            value=f"{figure(figures.rise_bar_deg, 3)} bar/deg",
+            about="steepest of each cycle, mean",
         ),
     ]
-    if told.wall_heat_j is not None:
-        heat = quantity_text(told.wall_heat_j, "J", 3)
+    if figures.wall_heat_j is not None:
+        heat = quantity_text(figures.wall_heat_j, "J", 3)
         cards.append(Card(name="wall heat", value=heat, about="Hohenberg's law, walls at an assumed temperature"))
     return tuple(cards)
 
@@ -97,14 +104,14 @@ def degrees(*values: float) -> str:
     return f"{' to '.join(figure(float(value), 3) for value in shown)} {unit}"
 
 
-def _rows(found: DiagramCombustion) -> tuple[np.ndarray, np.ndarray]:
-    measured = found.measured
+def _rows(result: DiagramCombustion) -> tuple[np.ndarray, np.ndarray]:
+    measured = result.measured
     return around_compression(measured.phi, measured.cycles, measured.period)
 
 
-def _columns(found: DiagramCombustion) -> Columns:
-    phi, rows = _rows(found)
-    columns = {"phi": phi, "volume": volume(found.cylinder, phi), "pressure": rows.mean(axis=0)}
+def _columns(result: DiagramCombustion) -> Columns:
+    phi, rows = _rows(result)
+    columns = {"phi": phi, "volume": volume(result.cylinder, phi), "pressure": rows.mean(axis=0)}
     columns |= {"pressure_low": rows.min(axis=0), "pressure_high": rows.max(axis=0)}
     units = {"phi": "rad", "volume": "m^3"} | dict.fromkeys(("pressure", "pressure_low", "pressure_high"), "Pa")
     return Columns(columns, units)
@@ -122,13 +129,13 @@ def _angles(axis: "Axes") -> float:
     return over_angle(axis, _TO, "angle from firing dead centre", start=_FROM, steps=6)
 
 
-def _pressure(found: DiagramCombustion) -> "Figure":
+def _pressure(result: DiagramCombustion) -> "Figure":
     from matplotlib.collections import LineCollection
 
     from mechsym.style import BLUE, GREY, panels
 
     figure, (axis,) = panels(8, 3.6, title="Pressure of every cycle over the crank angle")
-    phi, rows = _rows(found)
+    phi, rows = _rows(result)
     inside = (phi >= _FROM) & (phi <= _TO)
     (factor, unit), angle = _pressure_unit(rows), _angles(axis)
     if len(rows) <= _READ:
@@ -145,35 +152,35 @@ def _pressure(found: DiagramCombustion) -> "Figure":
     return figure
 
 
-def _loop(found: DiagramCombustion) -> "Figure":
+def _loop(result: DiagramCombustion) -> "Figure":
     from mechsym.style import BLUE, GREY, axis_unit, panels
 
     figure, (axis,) = panels(5.5, 4.4, title="Pressure over volume, both logarithmic")
-    phi, rows = _rows(found)
-    v, mean = volume(found.cylinder, phi), rows.mean(axis=0)
+    phi, rows = _rows(result)
+    v, mean = volume(result.cylinder, phi), rows.mean(axis=0)
     (factor, unit), (room, room_unit) = _pressure_unit(mean), axis_unit("m^3", v)
     seen = np.where(mean > 0, mean, math.nan)
     axis.loglog(v * room, seen * factor, color=GREY, linewidth=0.8)
-    closed = (phi >= found.analysis.inlet_closes) & (phi <= found.analysis.exhaust_opens)
+    closed = (phi >= result.analysis.inlet_closes) & (phi <= result.analysis.exhaust_opens)
     axis.loglog(v[closed] * room, seen[closed] * factor, color=BLUE)
     axis.set(xlabel=f"volume [{room_unit}]", ylabel=f"absolute pressure [{unit}]")
     both_logarithmic(axis)
     return figure
 
 
-def _burning(found: DiagramCombustion) -> "Figure":
+def _burning(result: DiagramCombustion) -> "Figure":
     from mechsym.cycle.wiebe import wiebe
     from mechsym.style import BLUE, INK, RED, axis_unit, legend, panels
 
     figure, (left, right) = panels(9, 3.4, 1, 2, "Burnt share and heat released over the crank angle")
-    phi, rows = _rows(found)
-    inside = (phi >= found.analysis.inlet_closes) & (phi <= found.analysis.exhaust_opens)
-    at, p, gamma = phi[inside], rows.mean(axis=0)[inside], found.analysis.gamma
-    q = heat_release(at, p, found.cylinder, gamma)
+    phi, rows = _rows(result)
+    inside = (phi >= result.analysis.inlet_closes) & (phi <= result.analysis.exhaust_opens)
+    at, p, gamma = phi[inside], rows.mean(axis=0)[inside], result.analysis.gamma
+    q = heat_release(at, p, result.cylinder, gamma)
     angle = _angles(left)
     left.plot(at * angle, 100 * burnt_fraction(at, q), color=BLUE, label="measured")
-    if found.wiebe is not None:
-        start, duration, m = found.wiebe.values
+    if result.wiebe is not None:
+        start, duration, m = result.wiebe.values
         y = np.clip((at - start) / duration, 0.0, 1.0)
         share = np.asarray(wiebe(y, 5.0, m), dtype=float).ravel() / (1 - math.exp(-5.0))
         left.plot(at * angle, 100 * share, "--", color=RED, label="Wiebe")
@@ -181,7 +188,7 @@ def _burning(found: DiagramCombustion) -> "Figure":
     legend(left)
     _angles(right)
     slope = np.gradient(p, at)
-    v, v_slope = volume(found.cylinder, at), dvolume_dphi(found.cylinder, at)
+    v, v_slope = volume(result.cylinder, at), dvolume_dphi(result.cylinder, at)
     rate = gamma / (gamma - 1) * p * v_slope + v * slope / (gamma - 1)
     smooth = np.convolve(rate, np.ones(3) / 3, mode="same")
     right.plot(at * angle, smooth / angle, color=BLUE)
@@ -190,12 +197,12 @@ def _burning(found: DiagramCombustion) -> "Figure":
     return figure
 
 
-def _cloud(found: DiagramCombustion) -> "Figure":
+def _cloud(result: DiagramCombustion) -> "Figure":
     from mechsym.style import BLUE, axis_unit, panels
 
     figure, (left, right) = panels(9, 3.4, 1, 2, "Net mean pressure, largest pressure and half-burnt angle by cycle")
-    work = cycle_work(found.measured, found.cylinder)
-    peaks, half = np.array([c.p_max for c in found.cycles]), np.array([c.burn_angles[1] for c in found.cycles])
+    work = cycle_work(result.measured, result.cylinder)
+    peaks, half = np.array([c.p_max for c in result.cycles]), np.array([c.burn_angles[1] for c in result.cycles])
     (factor, unit), (of_peak, peak_unit), (angle, angle_unit) = (
         _pressure_unit(work), _pressure_unit(peaks), axis_unit("rad", half),
     )  # fmt: skip

@@ -289,9 +289,9 @@ def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParamete
         between=wanted.torque(middle / ratio) / ratio, x=x,
         top=spring.A * (spring.H - (parameters.z_margin if placed else 0.0)), placed=placed,
     )  # fmt: skip
-    kept, found = _periodic(task)
-    z, force = spring.H - found.volume / spring.A, spring.A * (found.pressure - spring.pa)
-    status, reason = _status(task, z, found, parameters)
+    kept, last = _periodic(task)
+    z, force = spring.H - last.volume / spring.A, spring.A * (last.pressure - spring.pa)
+    status, reason = _status(task, z, last, parameters)
     if status != "cut":
         return TrackPath(status=status, reason=reason)
     rho, gap = parameters.rho0 - z / count, abs(float(z[-1] - z[0])) / count
@@ -350,9 +350,9 @@ def _march(task: _Task, temperature: float, volume: float, kept: float, share: f
     return _March(temperature=states[:, 0], volume=V, pressure=full * states[:, 0] / V)
 
 
-def _status(task: _Task, z: np.ndarray, found: _March, parameters: GuideParameters) -> tuple[str, str]:
+def _status(task: _Task, z: np.ndarray, march: _March, parameters: GuideParameters) -> tuple[str, str]:
     spring, gap = task.spring, abs(float(z[-1] - z[0]))
-    if not np.all(np.isfinite(z)) or gap > _CLOSED * spring.H or float(found.pressure.min()) <= _LEAST * spring.pa:
+    if not np.all(np.isfinite(z)) or gap > _CLOSED * spring.H or float(march.pressure.min()) <= _LEAST * spring.pa:
         return "spring_pulls", "the gas would have to give more work than it holds; raise p0, A, H or z_margin"
     if z.max() >= FULL * spring.H:
         why = "the spring would have to close fully; make it stiffer or longer"

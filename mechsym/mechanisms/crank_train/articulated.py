@@ -67,8 +67,8 @@ class _Hung:
         self.weight = p["g"] * ca.vertcat(-ca.sin(p["axis_tilt"]), -ca.cos(p["axis_tilt"]))
 
     def group(self, name: str) -> ca.Function:
-        found = ca.vertcat(*getattr(self, name)())
-        placed = ca.substitute(found, self.d, ca.DM.zeros(len(_JOINTS)))
+        values = ca.vertcat(*getattr(self, name)())
+        placed = ca.substitute(values, self.d, ca.DM.zeros(len(_JOINTS)))
         return ca.Function(f"hung_{name}", [self.state, self.letters], [placed])
 
     def _by_angle(self, value: ca.SX) -> tuple[ca.SX, ca.SX]:
@@ -135,12 +135,12 @@ def top(letters: Mapping[str, float]) -> tuple[Radian, Metre]:
         _, slope, curve, *_rest = ca.vertsplit(hung("kinematics")(ca.vertcat(phi, 0, 0, 0), values))
         phi = phi - slope / curve
     away: Any = -hung("kinematics")(ca.vertcat(phi, 0, 0, 0), values)[0]
-    found: tuple[Any, Any] = (phi, away) if isinstance(phi, ca.SX) else (float(phi), float(away))
-    return found
+    place: tuple[Any, Any] = (phi, away) if isinstance(phi, ca.SX) else (float(phi), float(away))
+    return place
 
 
 def pose(letters: Mapping[str, float], angle: Radian) -> tuple[tuple[Metre, Metre], tuple[Metre, Metre]]:
     """Knuckle pin and piston pin along and across the slave's cylinder [m]; angle: of the crank from the master's."""
     values = [letters[name] for name in LETTERS if name != "top"]
-    found = np.asarray(hung("pose")([angle, 0, 0, 0], [*values, 0.0, 0.0])).ravel().tolist()
-    return (found[0], found[1]), (found[2], found[3])
+    place = np.asarray(hung("pose")([angle, 0, 0, 0], [*values, 0.0, 0.0])).ravel().tolist()
+    return (place[0], place[1]), (place[2], place[3])

@@ -80,8 +80,8 @@ def _throw(group: str) -> ca.Function:
     given = dict(zip((*_STATE, *module.PARAMETERS, "shift"), symbols, strict=True)) | {"M": ca.SX(0)}
     given["phi"] += given["shift"]
     arguments, _ = module.FUNCTIONS[group]
-    found: list[ca.SX] = list(getattr(module, group)(**{n: given[n] for n in arguments}))
-    return ca.Function(group, [state, letters], [ca.vertcat(*found)])
+    values: list[ca.SX] = list(getattr(module, group)(**{n: given[n] for n in arguments}))
+    return ca.Function(group, [state, letters], [ca.vertcat(*values)])
 
 
 def _tables(
@@ -140,8 +140,8 @@ def _mechanism(
         return summed.reactions(throws("reactions")) | sections
 
     def momentum() -> Outputs:
-        found, flywheel = summed.momentum(throws("momentum")), each(p, "sense")[-1] * p.I_f * s.a[-1]
-        return found | {"angular_momentum_rate": found["angular_momentum_rate"] + flywheel}
+        rates, flywheel = summed.momentum(throws("momentum")), each(p, "sense")[-1] * p.I_f * s.a[-1]
+        return rates | {"angular_momentum_rate": rates["angular_momentum_rate"] + flywheel}
 
     q, u, a = (values[: len(s.names)] for values in (s.q, s.u, s.a))
     groups: dict[str, tuple[list[ca.SX], Callable[[], Outputs]]] = {
@@ -162,9 +162,9 @@ def _mechanism(
 
 
 def _made(p: CrankTrainParameters, name: str, inputs: list[ca.SX], outputs: Callable[[], Outputs]) -> ca.Function:
-    made, free = outputs(), [v for v in vars(p).values() if isinstance(v, ca.SX)]
+    values, free = outputs(), [v for v in vars(p).values() if isinstance(v, ca.SX)]
     letters = [*inputs, *free]
-    return ca.Function(name, letters, list(made.values()), [str(v) for v in letters], list(made))
+    return ca.Function(name, letters, list(values.values()), [str(v) for v in letters], list(values))
 
 
 def listing(mechanism: Mechanism | None = None) -> "Listing":

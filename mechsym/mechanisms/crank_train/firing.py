@@ -70,12 +70,12 @@ def even_firing(parameters: CrankTrainParameters, period: Radian) -> tuple[Radia
     """
     tops = [(top - shift) % _TURN for top, shift in zip(dead_centre(parameters), local_shift(parameters), strict=True)]
     turns = round(period / _TURN)
-    found = [tops[0]]
+    angles = [tops[0]]
     # the next cylinder fires in the turn that leaves it furthest from those that are placed
     for top in tops[1:]:
         places = [top + k * _TURN for k in range(turns)]
-        found.append(max(places, key=lambda angle: _room(angle, found, period)))
-    return tuple(found)
+        angles.append(max(places, key=lambda angle: _room(angle, angles, period)))
+    return tuple(angles)
 
 
 def _room(angle: float, others: Sequence[float], period: float) -> tuple[float, ...]:

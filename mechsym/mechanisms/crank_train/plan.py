@@ -166,14 +166,14 @@ def unequal(p: CrankTrainParameters) -> dict[str, float]:
 
 def span(p: CrankTrainParameters) -> float | None:
     """Distance of the shafts of opposed pistons over the length of both rods and throws; None without such [-]."""
-    found = []
+    places = []
     for i, j in combinations(range(len(p.throw)), 2):
         facing = math.cos(each(p, "bank")[i] - each(p, "bank")[j]) < -0.99
         apart = math.dist(_shaft(p, i), _shaft(p, j))
         if facing and apart > 0 and _along(p, i, j) and each(p, "z")[p.throw[i] - 1] == each(p, "z")[p.throw[j] - 1]:
-            found.append(apart / (_reach(p, i) + _reach(p, j)))
+            places.append(apart / (_reach(p, i) + _reach(p, j)))
     # the one that is farthest off
-    return max(found, key=lambda ratio: abs(math.log(ratio)), default=None)
+    return max(places, key=lambda ratio: abs(math.log(ratio)), default=None)
 
 
 def _along(p: CrankTrainParameters, i: int, j: int) -> bool:

@@ -32,11 +32,11 @@ class ThrowPart:
 def parts(p: CrankTrainParameters) -> list[ThrowPart]:
     """The instances: one a throw, then one a cylinder, those whose rods hang on others last."""
     nothing = dict.fromkeys((*_CRANK, *_CYLINDER), 0.0)
-    found = []
+    throws_here = []
     for k in range(max(p.throw)):
         # a throw without rod and piston; its lengths do not matter
         letters = nothing | {"r": 1.0, "l1": 1.0, "l2": 1.0} | {n: each(p, n)[k] for n in _CRANK}
-        found.append(_part(p, 0, k, each(p, "u_phase")[k], 0.0, letters))
+        throws_here.append(_part(p, 0, k, each(p, "u_phase")[k], 0.0, letters))
     shifts, banks, hung = local_shift(p), each(p, "bank"), []
     for i, (k, master) in enumerate(zip(p.throw, each(p, "master"), strict=True)):
         if master:  # in the axes of the cylinder that carries it
@@ -45,8 +45,8 @@ def parts(p: CrankTrainParameters) -> list[ThrowPart]:
             hung.append(dataclasses.replace(part, master=m + 1))
         else:
             letters = nothing | {n: each(p, n)[i] for n in _CYLINDER}
-            found.append(_part(p, i + 1, k - 1, shifts[i], banks[i], letters))
-    return found + hung
+            throws_here.append(_part(p, i + 1, k - 1, shifts[i], banks[i], letters))
+    return throws_here + hung
 
 
 def _part(
@@ -83,15 +83,19 @@ def kinematics(throws: Instances, names: tuple[str, ...]) -> Outputs:
     turn of its pin.
     """
     outputs: Outputs = {}
-    for part, found in throws:
+    for part, values in throws:
         if part.cylinder:
             i = part.cylinder
             q = names[part.throw] if len(names) > 1 else names[0]
             twice = f"d{q}_d{q}" if len(names) > 1 else f"d{q}2"
-            outputs |= {f"x_{i}": found["x"], f"dx_{i}_d{q}": found["dx_dphi"], f"d2x_{i}_{twice}": found["d2x_dphi2"]}
-            outputs |= {f"psi_{i}": found["psi"], f"dpsi_{i}_d{q}": found["dpsi_dphi"]}
+            outputs |= {
+                f"x_{i}": values["x"],
+                f"dx_{i}_d{q}": values["dx_dphi"],
+                f"d2x_{i}_{twice}": values["d2x_dphi2"],
+            }
+            outputs |= {f"psi_{i}": values["psi"], f"dpsi_{i}_d{q}": values["dpsi_dphi"]}
             if part.master:
-                outputs |= {f"knuckle_{i}": found["knuckle"], f"dknuckle_{i}_d{q}": found["dknuckle_dphi"]}
+                outputs |= {f"knuckle_{i}": values["knuckle"], f"dknuckle_{i}_d{q}": values["dknuckle_dphi"]}
     return outputs
 
 
@@ -106,33 +110,33 @@ def reactions(throws: Instances) -> Outputs:
     """
     outputs: Outputs = {}
     bearings: Outputs = {}
-    for part, found in throws:
+    for part, values in throws:
         i, k = part.cylinder, part.throw + 1
-        for axis, force in zip("xy", _common(part, found["R_x_O"], found["R_y_O"]), strict=True):
+        for axis, force in zip("xy", _common(part, values["R_x_O"], values["R_y_O"]), strict=True):
             name = f"main_bearing_force_{axis}_{k}"
             bearings[name] = bearings.get(name, ca.SX(0)) + force
         if part.master:
-            outputs |= _hung(part, found, outputs)
+            outputs |= _hung(part, values, outputs)
         elif i:
-            pin = _common(part, found["R_x_A"], found["R_y_A"])
+            pin = _common(part, values["R_x_A"], values["R_y_A"])
             outputs |= {f"pin_force_x_{i}": pin[0], f"pin_force_y_{i}": pin[1]}
-            outputs |= {f"piston_pin_force_along_{i}": found["R_x_B"], f"piston_pin_force_across_{i}": found["R_y_B"]}
-            outputs[f"side_force_{i}"] = found["R_y_G"]
+            outputs |= {f"piston_pin_force_along_{i}": values["R_x_B"], f"piston_pin_force_across_{i}": values["R_y_B"]}
+            outputs[f"side_force_{i}"] = values["R_y_G"]
     return outputs | bearings
 
 
-def _hung(part: ThrowPart, found: Outputs, before: Outputs) -> Outputs:
+def _hung(part: ThrowPart, values: Outputs, before: Outputs) -> Outputs:
     """Forces at a rod that hangs on another, and those of the other with what it carries."""
     i, m = part.cylinder, part.master
-    pin, knuckle = (_common(part, found[f"R_x_{joint}"], found[f"R_y_{joint}"]) for joint in "AK")
+    pin, knuckle = (_common(part, values[f"R_x_{joint}"], values[f"R_y_{joint}"]) for joint in "AK")
     carried = {
-        f"pin_force_x_{m}": pin[0], f"pin_force_y_{m}": pin[1], f"piston_pin_force_across_{m}": found["R_y_Bm"],
-        f"side_force_{m}": found["R_y_Gm"],
+        f"pin_force_x_{m}": pin[0], f"pin_force_y_{m}": pin[1], f"piston_pin_force_across_{m}": values["R_y_Bm"],
+        f"side_force_{m}": values["R_y_Gm"],
     }  # fmt: skip
     return {name: before[name] + force for name, force in carried.items()} | {
         f"knuckle_force_x_{i}": knuckle[0], f"knuckle_force_y_{i}": knuckle[1],
-        f"piston_pin_force_along_{i}": found["R_x_B"], f"piston_pin_force_across_{i}": found["R_y_B"],
-        f"side_force_{i}": found["R_y_G"],
+        f"piston_pin_force_along_{i}": values["R_x_B"], f"piston_pin_force_across_{i}": values["R_y_B"],
+        f"side_force_{i}": values["R_y_G"],
     }  # fmt: skip
 
 
@@ -144,9 +148,9 @@ def momentum(throws: Instances) -> Outputs:
     """
     names = ("momentum_rate_x", "momentum_rate_y", "angular_momentum_rate", "rocking_rate_x", "rocking_rate_y")
     totals = {name: ca.SX(0) for name in names}
-    for part, found in throws:
-        x, y = _common(part, found["momentum_rate_x"], found["momentum_rate_y"])
-        about_own = part.sense * found["angular_momentum_rate"]
+    for part, values in throws:
+        x, y = _common(part, values["momentum_rate_x"], values["momentum_rate_y"])
+        about_own = part.sense * values["angular_momentum_rate"]
         rates = (x, y, about_own + part.axis[0] * y - part.axis[1] * x, -part.z * y, part.z * x)
         totals = {name: totals[name] + rate for name, rate in zip(names, rates, strict=True)}
     return totals

@@ -74,18 +74,18 @@ def _curve(
     half = np.diff(knots)[:, None] / 2
     places, weights = (knots[:-1, None] + half * (x + 1)).ravel(), (half * w).ravel()
     at = [tool.derivatives([t], 1) for t in places]
-    rows = np.array([[(d.x, d.y) for d in next(iter(found))] for found in at]) * 1e-3
+    rows = np.array([[(d.x, d.y) for d in next(iter(points))] for points in at]) * 1e-3
     z, dz = (rows[:, k, 0] + 1j * rows[:, k, 1] for k in (0, 1))
     z, dz = z * np.exp(-1j * turned), dz * np.exp(-1j * turned)
     ends = [complex(p.x, p.y) * 1e-3 for p in tool.points([0.0, tool.max_t])]
     length, area = np.sum(weights * np.abs(dz)), np.sum(weights * np.imag(np.conj(z) * dz)) / 2
     true_length, true_area = true_size(rho, side * radius)
-    told = stated.get(layer.removesuffix("_2"), (math.nan, math.nan))
+    claimed = stated.get(layer.removesuffix("_2"), (math.nan, math.nan))
     return DrawnCurve(
         layer=layer, points=len(entity.control_points), gap=abs(ends[1] - ends[0]),
         deviation=float(np.max(np.abs(distance(z, rho) - side * radius))), length=float(length), area=float(area),
         length_error=abs(float(length) / true_length - 1), area_error=abs(float(area) / true_area - 1),
-        stated_error=max(abs(told[0] / true_length - 1), abs(told[1] / true_area - 1)),
+        stated_error=max(abs(claimed[0] / true_length - 1), abs(claimed[1] / true_area - 1)),
     )  # fmt: skip
 
 

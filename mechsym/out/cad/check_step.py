@@ -65,8 +65,8 @@ def _named(document: "TDocStd.TDocStd_Document") -> "Iterator[tuple[str, TopoDS_
     tool.GetFreeShapes(labels)
     for i in range(1, labels.Length() + 1):
         label, name = labels.Value(i), TDataStd_Name()
-        found = label.FindAttribute(TDataStd_Name.GetID_s(), name)
-        yield name.Get().ToExtString() if found else "", tool.GetShape_s(label)
+        attribute = label.FindAttribute(TDataStd_Name.GetID_s(), name)
+        yield name.Get().ToExtString() if attribute else "", tool.GetShape_s(label)
 
 
 def _measured(name: str, shape: object) -> StepBody:
@@ -114,8 +114,8 @@ def _walls(shape: object) -> Iterator[tuple[np.ndarray, float]]:
         if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_SurfaceOfExtrusion:
             middle = (surface.FirstVParameter() + surface.LastVParameter()) / 2
             along = np.linspace(surface.FirstUParameter(), surface.LastUParameter(), _POINTS)
-            found = [surface.Value(float(u), middle) for u in along]
-            yield _MM * np.array([(p.X(), p.Y()) for p in found]), _MM * found[0].Z()
+            points = [surface.Value(float(u), middle) for u in along]
+            yield _MM * np.array([(p.X(), p.Y()) for p in points]), _MM * points[0].Z()
         faces.Next()
 
 
@@ -123,13 +123,13 @@ def main(arguments: list[str]) -> int:
     """Measure the file of the first argument against the guide of the case of the second."""
     path, name, *settings = arguments
     guide, rollers = guide_named(name, dict(text.split("=", 1) for text in settings))
-    found = read(Path(path))
-    for body in found:
+    bodies = read(Path(path))
+    for body in bodies:
         box = " x ".join(f"{1e3 * (high - low):.6g}" for low, high in zip(body.low, body.high, strict=True))
         print(f"{body.name}: {'valid' if body.valid else 'NOT valid'}, {body.volume:.10g} m^3, {box} mm")
-    walls, deviation = wall_deviation(found[0], centre_path(guide), rollers.radius, tracks_of(guide))
+    walls, deviation = wall_deviation(bodies[0], centre_path(guide), rollers.radius, tracks_of(guide))
     print(f"{walls} walls, at most {1e6 * deviation:.3g} um from exact")
-    return int(not all(body.valid for body in found))
+    return int(not all(body.valid for body in bodies))
 
 
 if __name__ == "__main__":

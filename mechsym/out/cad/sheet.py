@@ -124,8 +124,8 @@ def _radii(axis: "Axes", shop: Workshop, scale: float, along: float) -> None:
         away = 2.0 * scale * (1 if side == "bottom" else -1)
         normal = away * np.array([-math.sin(math.radians(turned)), math.cos(math.radians(turned))])
         x, y = along * end / (_MM * rho) + normal
-        told = f"{word} rho {_MM * rho:.3f} at {math.degrees(angle):.2f}°"
-        axis.text(x, y, told, rotation=turned, rotation_mode="anchor", ha="center", va=side, color="#b5342b",
+        label = f"{word} rho {_MM * rho:.3f} at {math.degrees(angle):.2f}°"
+        axis.text(x, y, label, rotation=turned, rotation_mode="anchor", ha="center", va=side, color="#b5342b",
                   fontsize=7.5, bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0}, zorder=2.5)  # fmt: skip
 
 
@@ -167,12 +167,12 @@ def _notes(shop: Workshop) -> list[str]:
 
 def tolerances(shop: Workshop) -> list[str]:
     """What may be off, by proportion to the ripple that a known error costs; none of what has no steady motion."""
-    found = []
+    rows = []
     for by in shop.tolerances:
         worst = max(math.inf if ripple is None else ripple for ripple in (by.low, by.high))
         if 0 < worst < math.inf:
-            found.append(f"{by.name} ± {quantity_text(by.size * _RIPPLE / worst, by.unit, 2)}")
-    return found
+            rows.append(f"{by.name} ± {quantity_text(by.size * _RIPPLE / worst, by.unit, 2)}")
+    return rows
 
 
 def spring_text(spring: Spring) -> str:

@@ -114,16 +114,16 @@ def _slider_crank(parts: SliderParts, forces: SliderForces) -> tuple[Body, ...]:
     pin = forces.gap / 2 + parts.piston.height + forces.l
     axis, start = pin + forces.r, crank.pin_length / 2 + crank.web
     width = main.count * main.bearing.width
-    found = [*_common(parts, forces, rod, pin), *_webs(crank, pin, axis, crank.shaft)]
+    solids = [*_common(parts, forces, rod, pin), *_webs(crank, pin, axis, crank.shaft)]
     for side, word in _SIDES:
         shaft = (start, start + 2 * _GAP + width), (start + 2 * _GAP + width, start + 2 * _GAP + width + 0.03)
         place = (axis, 0.0, 0.0)
-        found += [
+        solids += [
             _across(f"shaft{word}", (0.0, crank.shaft / 2), shaft[0], place, side),
             _across(f"output shaft{word}", (0.0, crank.output / 2), shaft[1], place, side),
             _bearing(f"main bearing{word}", main, place, start + _GAP, side),
         ]
-    return tuple(found)
+    return tuple(solids)
 
 
 def _hypocycloid(parts: Parts, forces: PartForces, stock: Stock) -> tuple[Body, ...]:
@@ -133,9 +133,9 @@ def _hypocycloid(parts: Parts, forces: PartForces, stock: Stock) -> tuple[Body, 
     start, middle = crank.pin_length / 2 + crank.web, 2 * z.inner - crank.pin_length / 2 - crank.web
     end, pitch = start + shaft_length(parts, stock), gears.module * gears.teeth_pinion
     face = (z.gear - gears.face / 2, z.gear + gears.face / 2)
-    found = [*_common(parts, forces, places["rod"], pin), *_webs(crank, pin, planet[0], crank.shaft)]
+    solids = [*_common(parts, forces, places["rod"], pin), *_webs(crank, pin, planet[0], crank.shaft)]
     for side, word in _SIDES:
-        found += [
+        solids += [
             _across(f"shaft{word}", (0.0, crank.shaft / 2), (start, middle), planet, side),
             _across(f"shaft end{word}", (0.0, gears.pinion_bore / 2), (middle, end), planet, side),
             _across(f"pinion{word}", (gears.pinion_bore / 2, pitch / 2), face, planet, side),
@@ -144,7 +144,7 @@ def _hypocycloid(parts: Parts, forces: PartForces, stock: Stock) -> tuple[Body, 
             _centred(f"outer bearing{word}", places["outer"], gears.pinion_bore / 2, planet, z.outer, side),
             _across(f"output shaft{word}", (0.0, crank.output / 2), (end, z.outboard + 0.02), axis, side),
         ]
-    return tuple(found)
+    return tuple(solids)
 
 
 def _common(parts: Parts | SliderParts, forces: PartForces | SliderForces, rod: Choice, pin: float) -> list[Body]:

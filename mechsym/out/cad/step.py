@@ -83,8 +83,8 @@ def text(shapes: "Mapping[str, TopoDS_Shape]") -> str:
 
     document = TDocStd_Document(TCollection_ExtendedString("mechsym"))
     tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
-    for name, found in shapes.items():
-        TDataStd_Name.Set_s(tool.AddShape(found, False), TCollection_ExtendedString(name))
+    for name, solid in shapes.items():
+        TDataStd_Name.Set_s(tool.AddShape(solid, False), TCollection_ExtendedString(name))
     writer = STEPCAFControl_Writer()
     Interface_Static.SetCVal_s("write.step.unit", "MM")
     writer.Transfer(document)
@@ -112,16 +112,16 @@ def _disc(disc: Disc) -> "TopoDS_Shape":
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
 
     hole = disc.bore / 2
-    found = _turned(tube(disc.name, (hole, disc.radius), (0.0, disc.thickness), (0.0, 0.0, 0.0), "z"))
+    solid = _turned(tube(disc.name, (hole, disc.radius), (0.0, disc.thickness), (0.0, 0.0, 0.0), "z"))
     for number, angle in enumerate(disc.track.turned):
         # the tool stands out of the face, so that no two faces lie in one plane
         low = disc.thickness - disc.depth if number == 0 else -disc.depth
         face = _face([_closed(path, angle, low) for path in (disc.track.outer, disc.track.inner)])
-        cut = BRepAlgoAPI_Cut(found, _prism(face, (0.0, 0.0, 2 * disc.depth)))
+        cut = BRepAlgoAPI_Cut(solid, _prism(face, (0.0, 0.0, 2 * disc.depth)))
         if not cut.IsDone():
             raise BadInput("the groove could not be cut from the disc; give another --tolerance")
-        found = cut.Shape()
-    return found
+        solid = cut.Shape()
+    return solid
 
 
 def _closed(path: CubicPath, angle: float, z: float) -> "TopoDS_Wire":
@@ -180,10 +180,10 @@ def _ring(circle: Circle, y: float) -> "TopoDS_Wire":
 def _wire(edges: "Sequence[TopoDS_Edge]") -> "TopoDS_Wire":
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeWire
 
-    made = BRepBuilderAPI_MakeWire()
+    wire = BRepBuilderAPI_MakeWire()
     for edge in edges:
-        made.Add(edge)
-    return made.Wire()
+        wire.Add(edge)
+    return wire.Wire()
 
 
 def _face(wires: "Sequence[TopoDS_Wire]") -> "TopoDS_Face":
@@ -191,10 +191,10 @@ def _face(wires: "Sequence[TopoDS_Wire]") -> "TopoDS_Face":
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
     from OCP.ShapeFix import ShapeFix_Face
 
-    made = BRepBuilderAPI_MakeFace(wires[0], True)
+    face = BRepBuilderAPI_MakeFace(wires[0], True)
     for wire in wires[1:]:
-        made.Add(wire)
-    mended = ShapeFix_Face(made.Face())
+        face.Add(wire)
+    mended = ShapeFix_Face(face.Face())
     mended.FixOrientation()
     return mended.Face()
 

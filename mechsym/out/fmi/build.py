@@ -119,17 +119,17 @@ def write(unit: Unit, path: Path) -> Path:
 def _binaries(
     block: Block, version: int, sources: Mapping[str, str], platforms: Sequence[str]
 ) -> tuple[dict[str, bytes], dict[str, str]]:
-    found, missing = {}, {}
+    binaries, missing = {}, {}
     if platforms:
         forecast(sum(map(len, sources.values())), len(platforms))
     for name in platforms:
         try:
             command = _compiler(name)
             place = f"binaries/{_FOLDERS[version][name]}/{identifier(block.name)}.{_ENDINGS[name]}"
-            found[place] = _compiled(command, version, sources)
+            binaries[place] = _compiled(command, version, sources)
         except compiler.NoCompiler as error:
             missing[name] = str(error)
-    return found, missing
+    return binaries, missing
 
 
 def _compiler(name: str) -> tuple[str, ...]:
@@ -184,7 +184,7 @@ def controller(name: str, wanted: Hinge, guide: Guide, load: Load) -> tuple[Bloc
     # inertia, energy of the spring for each unit of its setting, and the work that is missing by design
     missing = periodic.antiderivative(balance(wanted, guide.parameters.balance).rest)
     curves = {"inertia": wanted.inertia, "unit": _unit_energy(wanted, guide), "design": missing}
-    made = Block(
+    block = Block(
         name=f"{name}-controller", about=f"sets the spring of {name} once in a period, from crank angle and speed",
         states=(), parameters=_parameters(letter, unit, set_to, load), switches=(), kinks=(), stops=(),
         inputs=(
@@ -201,7 +201,7 @@ def controller(name: str, wanted: Hinge, guide: Guide, load: Load) -> tuple[Bloc
         observed=ca.Function("observed", [], []),
     )  # fmt: skip
     core = (resources.files("mechsym.out") / "c" / "controller.h").read_text(encoding="utf-8")
-    return made, {"model.h": _model(made, wanted), "core.h": core, "method.h": "\n"}
+    return block, {"model.h": _model(block, wanted), "core.h": core, "method.h": "\n"}
 
 
 def _parameters(letter: str, unit: str, set_to: float, load: Load) -> tuple[Port, ...]:
@@ -237,15 +237,15 @@ def _unit_energy(wanted: Hinge, guide: Guide) -> PPoly:
     return periodic.fit(energy, (*rho.x / ratio, *(rho.x + rho.x[-1]) / ratio), wanted.period, 1e-10)
 
 
-def _model(made: Block, wanted: Hinge) -> str:
-    sizes = {"NU": len(made.inputs), "NP": len(made.parameters), "NY": len(made.outputs)}
+def _model(block: Block, wanted: Hinge) -> str:
+    sizes = {"NU": len(block.inputs), "NP": len(block.parameters), "NY": len(block.outputs)}
     return "\n".join(
         [
-            f"/* {made.name}: {made.about} */",
+            f"/* {block.name}: {block.about} */",
             "enum { " + ", ".join(f"{k} = {v}" for k, v in sizes.items()) + " };",
             f"static const double PERIOD = {wanted.period!r};",
-            array("start_p", [port.start for port in made.parameters]),
-            curve_tables(made.curves),
+            array("start_p", [port.start for port in block.parameters]),
+            curve_tables(block.curves),
             "struct stop { const char *name; };",
             'static const struct stop stops[] = {{""}};',
         ]

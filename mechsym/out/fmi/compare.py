@@ -96,9 +96,9 @@ class Driven:
     def next_event(self) -> float | None:
         """Time of the next time event, if there is one [s]."""
         self.unit.enterEventMode()
-        found = self._update()
+        event = self._update()
         self.unit.enterContinuousTimeMode()
-        return float(found[5]) if found[4] else None
+        return float(event[5]) if event[4] else None
 
     def step(self, t: float, length: float) -> bool:
         """A step of co-simulation from a time over a length [s]; whether the run has ended."""
@@ -282,11 +282,11 @@ def main(arguments: list[str]) -> int:
     """Compare the FMU of the first argument with the case of the second; KEY=VALUE behind them override the case."""
     path, name, *settings = arguments
     run = named(name, dict(text.split("=", 1) for text in settings))
-    found = compare(Path(path), run.problem)
-    for d in found:
-        told = f"largest difference {d.largest:.2g} of the largest value"
-        print(f"{d.kind}: {told}, {d.points} points to {d.t_end:.6g} s")
-    return int(any(d.largest > d.allowed for d in found))
+    differences = compare(Path(path), run.problem)
+    for d in differences:
+        words = f"largest difference {d.largest:.2g} of the largest value"
+        print(f"{d.kind}: {words}, {d.points} points to {d.t_end:.6g} s")
+    return int(any(d.largest > d.allowed for d in differences))
 
 
 if __name__ == "__main__":

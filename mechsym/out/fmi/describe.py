@@ -37,12 +37,12 @@ def variables(block: Block) -> list[Variable]:
 
 def _indicators(block: Block) -> list[Port]:
     kinks = [(k.coordinate, a) for k in block.kinks for a in k.angles]
-    found = [
+    ports = [
         Port(name=f"kink_{i}", unit="-", about=f"0 where {q} stands at {a:.6g} rad")
         for i, (q, a) in enumerate(kinks, 1)
     ]
     units = {s.name: s.unit for s in block.states}
-    return found + [Port(name=f"to_{s.name}", unit=units[s.of], about=f"ends the run: {s.name}") for s in block.stops]
+    return ports + [Port(name=f"to_{s.name}", unit=units[s.of], about=f"ends the run: {s.name}") for s in block.stops]
 
 
 def identifier(name: str) -> str:
@@ -121,11 +121,11 @@ def _structure_2(root: xml.Element, rows: list[Variable]) -> None:
         ("InitialUnknowns", ("output", "rate"), given),
     )
     for title, kinds, known in boxes:
-        found = sorted((v for v in rows if v.kind in kinds), key=lambda v: v.reference)
-        if not found:
+        entries = sorted((v for v in rows if v.kind in kinds), key=lambda v: v.reference)
+        if not entries:
             continue
         box = xml.SubElement(structure, title)
-        for v in found:
+        for v in entries:
             xml.SubElement(box, "Unknown", index=str(v.reference + 1), dependencies=known)
 
 

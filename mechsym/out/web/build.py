@@ -86,14 +86,14 @@ def webassembly(block: Block) -> bytes:
         for name, content in sources.items():
             (Path(folder) / name).write_text(content, encoding="utf-8")
         command = [sys.executable, "-m", "ziglang", "cc", *_OPTIONS, "page.c", "-o", "page.wasm"]
-        made = Path(folder) / "page.wasm"
+        file = Path(folder) / "page.wasm"
         try:
-            call(command, "the page", made, Path(folder))
+            call(command, "the page", file, Path(folder))
         except NoCompiler as error:
             if getattr(error.__cause__, "errno", None) in _FULL:
                 raise error.__cause__ from None  # type: ignore[misc]
             raise MissingExtra(f"the extra web makes no page: {error}") from None
-        code = made.read_bytes()
+        code = file.read_bytes()
         if not code.startswith(b"\0asm"):
             raise MissingExtra("the extra web makes no WebAssembly; install it again")
         return code
@@ -189,8 +189,8 @@ def section(run: LiveRun) -> str:
     name = html.escape(run.name)
     title = f'<h2 id="live-{name}">Try it: {name} simulates here</h2>'
     try:
-        made = page(block_of(run.name, run.about, run.ready()))
+        inner = page(block_of(run.name, run.about, run.ready()))
     except (MissingExtra, BadInput) as missing:
         return f'{title}<p class="note">Not in this report: {html.escape(str(missing))}</p>\n'
-    frame = f'<iframe title="{name} simulates" srcdoc="{html.escape(made)}"'
+    frame = f'<iframe title="{name} simulates" srcdoc="{html.escape(inner)}"'
     return f'{title}{frame} style="width:100%;height:56rem;border:0" onload="{_FIT}"></iframe>\n'

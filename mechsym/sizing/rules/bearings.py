@@ -60,10 +60,10 @@ def catalogue(extra: str | Path | None = None) -> dict[str, Bearing]:
     31900.0
     """
     built_in = (resources.files("mechsym.sizing.rules") / "bearings.csv").read_text(encoding="utf-8")
-    found = _read(built_in, "bearings.csv")
+    bearings = _read(built_in, "bearings.csv")
     if extra is not None:
-        found |= _read(read_text(extra, "bearings", "name a CSV file"), str(extra))
-    return found
+        bearings |= _read(read_text(extra, "bearings", "name a CSV file"), str(extra))
+    return bearings
 
 
 def _read(text: str, file: str) -> dict[str, Bearing]:
