@@ -200,7 +200,7 @@ def write(result: "Sweep", out: Path, picture: str) -> list[Path]:
 
 def gaps(result: "Sweep") -> tuple[Doubt, ...]:
     """A sweep whose points are all refused."""
-    refused = [o for o in result.outcomes if getattr(o, "of_input", False)]
+    refused = [gap for gap in result.outcomes.gaps.values() if gap.of_input]
     return proportion("gaps", "points that are refused / all", len(refused) / len(result.outcomes))
 
 

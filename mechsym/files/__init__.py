@@ -118,7 +118,7 @@ def write_text(path: Path, text: str) -> Path:
     return write_bytes(path, text.encode("utf-8"))
 
 
-def write_bytes(path: Path, data: bytes) -> Path:
+def write_bytes(path: Path, data: bytes | memoryview) -> Path:
     """Write bytes to a temporary name beside `path` and move it into place; its folder is made when it is missing."""
     return write_with(path, lambda part: part.write_bytes(data))
 
@@ -211,11 +211,14 @@ def _unwritable(path: Path, error: OSError) -> BadInput:
 
 def write_csv(path: Path, columns: Mapping[str, Sequence[object] | np.ndarray]) -> Path:
     """Write equally long columns by name, in SI units unless the name says otherwise."""
-    buffer = io.StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(zip(*[[_cell(v) for v in values] for values in columns.values()], strict=True))
-    return write_text(path, buffer.getvalue())
+
+    def write(part: Path) -> None:
+        with part.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(columns)
+            writer.writerows(zip(*[map(_cell, values) for values in columns.values()], strict=True))
+
+    return write_with(path, write)
 
 
 def write_quantities(
@@ -241,7 +244,7 @@ def write_netcdf(path: Path, data: "xarray.Dataset") -> Path:
     content = io.BytesIO()
     with h5netcdf.File(content, "w") as file:
         data.dump_to_store(H5NetCDFStore(file))
-    return write_bytes(path, content.getvalue())
+    return write_bytes(path, content.getbuffer())
 
 
 def without_netcdf(error: ImportError) -> MissingExtra:

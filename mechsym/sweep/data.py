@@ -13,7 +13,7 @@ from mechsym.quantities import results
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.quantities.units import Array, Pure
 from mechsym.sweep.axes import Axis, Value
-from mechsym.sweep.outcomes import Gap, asked
+from mechsym.sweep.outcomes import asked
 from mechsym.sweep.run import Sweep
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ MAIN = {
 
 def failures(result: Sweep) -> dict[int, str]:
     """Points without a result. Returns failures: index of the point and the reason."""
-    return {i: outcome.reason for i, outcome in enumerate(result.outcomes) if isinstance(outcome, Gap)}
+    return {i: gap.reason for i, gap in result.outcomes.gaps.items()}
 
 
 def columns(result: Sweep) -> dict[str, np.ndarray]:
@@ -102,7 +102,7 @@ def write_table(result: Sweep, folder: Path) -> Path:
         for i, a in enumerate(result.axes)
     }
     reasons = failures(result)
-    table |= {name: [None if v != v else v for v in column.tolist()] for name, column in columns(result).items()
+    table |= {name: column for name, column in columns(result).items()
               if result.units[name] or column.dtype.kind != "f" or not np.isnan(column).all()}  # fmt: skip
     table["failure"] = [reasons.get(i, "") for i in range(len(result.points))]
     return files.write_quantities(
@@ -200,7 +200,8 @@ def numbers(sweep: Sweep, files: list[Path]) -> SweepNumbers:
         for i, reason in failures(sweep).items()
     )
     # a word that is not there is null, as a number
-    told = {name: [v if v != "" else None for v in column.tolist()] for name, column in data.items()}
+    values = {name: column if column.dtype.kind == "f" else [v or None for v in column.tolist()]
+            for name, column in data.items()}  # fmt: skip
     return SweepNumbers(
         case=sweep.case,
         analysis=sweep.analysis,
@@ -208,7 +209,7 @@ def numbers(sweep: Sweep, files: list[Path]) -> SweepNumbers:
         shape=tuple(sweep.dims.values()),
         axes={a.key: SweptAxis(unit=a.unit, values=tuple(v)) for a, v in zip(sweep.axes, along, strict=True)},
         units={name: sweep.units[name] for name in data},
-        data=Columns(told, sweep.units),
+        data=Columns(values, sweep.units),
         failed=failed,
         sobol=tuple(indices(sweep)) if sweep.sobol else (),
         interrupted=sweep.interrupted,

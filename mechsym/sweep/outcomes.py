@@ -1,6 +1,7 @@
 """What comes out at a point of a sweep: results by name, or a gap with a reason."""
 
 import math
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -36,6 +37,86 @@ class Gap:
 
 
 Outcome = Any  # a result, numbers by dotted names, or a Gap
+
+
+class Outcomes(Sequence[Any]):
+    """What came out at each point: tables of numbers by the names that their rows share, words by themselves, gaps."""
+
+    def __init__(self, count: int, gap: Gap) -> None:
+        self._unreached = gap
+        self._table, self._row = np.full(count, -1, dtype=np.int32), np.zeros(count, dtype=np.int64)
+        self._names: list[tuple[str, ...]] = []
+        self._blocks: list[list[np.ndarray]] = []
+        self._gaps: dict[int, Gap] = {}
+
+    @classmethod
+    def of(cls, outcomes: Sequence[Outcome]) -> "Outcomes":
+        """Outcomes of all points, as they are."""
+        whole = cls(len(outcomes), Gap(reason="not reached"))
+        whole.put(range(len(outcomes)), outcomes)
+        return whole
+
+    def put(self, members: Sequence[int], outcomes: Sequence[Outcome]) -> None:
+        """Outcomes of points by their numbers, in place of what stood there."""
+        by_names: dict[tuple[str, ...], tuple[list[int], list[Sequence[object]]]] = {}
+        for i, outcome in zip(members, outcomes, strict=True):
+            if isinstance(outcome, Gap):
+                self._gaps[i], self._table[i] = outcome, -1
+            else:
+                places, rows = by_names.setdefault(tuple(outcome), ([], []))
+                places.append(i)
+                rows.append(tuple(outcome.values()))
+        for names, (places, rows) in by_names.items():
+            if names not in self._names:
+                self._names.append(names)
+                self._blocks.append([])
+            number, blocks = self._names.index(names), self._blocks[self._names.index(names)]
+            self._table[places] = number
+            self._row[places] = sum(map(len, blocks)) + np.arange(len(places))
+            blocks.append(np.array(rows, dtype=object if any(name in WORDS for name in names) else float))
+
+    def _whole(self, number: int) -> np.ndarray:
+        """All rows of a table."""
+        if len(self._blocks[number]) > 1:
+            self._blocks[number] = [np.concatenate(self._blocks[number])]
+        return self._blocks[number][0]
+
+    def __len__(self) -> int:
+        return len(self._table)
+
+    def __getitem__(self, i: Any) -> Any:
+        if isinstance(i, slice):
+            return [self[k] for k in range(*i.indices(len(self)))]
+        number = int(self._table[i])
+        if number < 0:
+            return self._gaps.get(range(len(self))[i], self._unreached)
+        return dict(zip(self._names[number], self._whole(number)[self._row[i]].tolist(), strict=True))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Outcomes) and len(self) == len(other) and all(map(operator.eq, self, other))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def gaps(self) -> dict[int, Gap]:
+        """The points without a result, in their order."""
+        return {i: self._gaps.get(i, self._unreached) for i in np.flatnonzero(self._table < 0).tolist()}
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all results, as the points tell them one after the other."""
+        order = sorted(range(len(self._names)), key=lambda number: int(np.argmax(self._table == number)))
+        return list(dict.fromkeys(name for number in order for name in self._names[number]))
+
+    def column(self, name: str, gap: float | str) -> np.ndarray:
+        """A result at all points, with `gap` where there is none. name: without its unit."""
+        values = np.full(len(self), gap, dtype=object if isinstance(gap, str) else float)
+        for number, names in enumerate(self._names):
+            for k, full in enumerate(names):
+                if full.partition(" [")[0] == name:
+                    there = self._table == number
+                    values[there] = self._whole(number)[self._row[there], k]
+        return values.astype(str) if isinstance(gap, str) else values
 
 
 def known(error: Exception) -> Gap:

@@ -12,8 +12,9 @@ import math
 import os
 import threading
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -26,7 +27,7 @@ from mechsym.quantities.ranges import MOST
 from mechsym.quantities.units import Second
 from mechsym.sweep import store, work
 from mechsym.sweep.axes import Axis, Ties, Value, override, parse_axis, points, saltelli, split, ties
-from mechsym.sweep.outcomes import WORDS, Gap, Outcome, asked, kept
+from mechsym.sweep.outcomes import WORDS, Gap, Outcome, Outcomes, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ class Sweep:
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
     points: tuple[tuple[Value, ...], ...]  #: Values of the axes at each point, the last axis fastest
-    outcomes: tuple[Outcome, ...]  #: Results of each point by name, or why there are none
+    outcomes: Outcomes  #: Results of each point by name, or why there are none
     show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones
     sobol: int = 0  #: Base samples of Sobol indices; 0 where none were asked for
     interrupted: bool = False  #: Whether it was asked to stop; points not reached are gaps
@@ -93,22 +94,14 @@ class Sweep:
     @functools.cached_property
     def by_name(self) -> dict[str, np.ndarray]:
         """Results by name, one for each point; see `data.columns` [SI, or as the name says]."""
-        bare = {name: name.partition(" [")[0] for name in self._names}
-        rows = [{} if isinstance(o, Gap) else {bare[name]: value for name, value in o.items()} for o in self.outcomes]
-        names = dict.fromkeys(name for keys in dict.fromkeys(map(tuple, rows)) for name in keys)
-        gaps = {name: "" if name in WORDS else math.nan for name in names}
-        return {name: np.array([row.get(name, gap) for row in rows]) for name, gap in gaps.items()}
+        names = dict.fromkeys(name.partition(" [")[0] for name in self.outcomes.names)
+        return {name: self.outcomes.column(name, "" if name in WORDS else math.nan) for name in names}
 
     @functools.cached_property
     def units(self) -> dict[str, str]:
         """Unit of each result, that its name carries or tells; `-` of a pure number, empty of a word."""
-        units = {name: name.partition(" [")[::2] for name in self._names}
+        units = {name: name.partition(" [")[::2] for name in self.outcomes.names}
         return {stem: unit.rstrip("]") for stem, unit in units.values()}
-
-    @functools.cached_property
-    def _names(self) -> list[str]:
-        outcomes = (o for o in self.outcomes if not isinstance(o, Gap))
-        return list(dict.fromkeys(name for names in dict.fromkeys(map(tuple, outcomes)) for name in names))
 
 
 @record
@@ -169,6 +162,31 @@ def forecast(plan: Plan, count: int) -> Second:
     return count * route(cases.load(plan.case, plan.overrides), plan.analysis, plan.show).seconds
 
 
+class Chunks(Sequence[work.Chunk]):
+    """Chunks of nearly one size, none longer than wanted, made when they are asked for: their bounds are the same
+    whatever was finished before, and those that are finished are left out."""
+
+    def __init__(self, place: Layout, together: int, finished: np.ndarray) -> None:
+        self._place, count = place, len(place.points)
+        parts = -(-count // together)
+        ends = [count * i // parts for i in range(parts + 1)]
+        self._spans = [(a, b) for a, b in pairwise(ends) if not finished[a:b].all()]
+
+    def __len__(self) -> int:
+        return len(self._spans)
+
+    def __getitem__(self, k: Any) -> Any:
+        a, b = self._spans[k]
+        axes, points = self._place.axes, self._place.points[a:b]
+        heres = tuple({axis.key: override(axis, v) for axis, v in zip(axes, point, strict=True)} for point in points)
+        return work.Chunk(members=range(a, b), heres=heres)
+
+    @property
+    def points(self) -> int:
+        """How many there are in all."""
+        return sum(b - a for a, b in self._spans)
+
+
 def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | None = None) -> Sweep:
     """Run a case at every point.
 
@@ -184,16 +202,15 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
     order = work.SweepOrder(
         case=plan.case, overrides=plan.overrides, analysis=chosen.analysis, show=plan.show, tied=plan.tied
     )
-    outcomes: list[Outcome] = [INTERRUPTED] * len(place.points)
-    before: dict[int, Outcome] = {}
+    outcomes = Outcomes(len(place.points), INTERRUPTED)
+    before = np.zeros(len(place.points), dtype=bool)
     with inputs.reads() as read_there, _stored(plan, read, means) as kept_in, asked_to_stop() as asked_to:
-        before = store.known(kept_in) if kept_in else {}
+        for members, rows in store.known(kept_in) if kept_in else ():
+            outcomes.put(members, rows)
+            before[list(members)] = True
+            progress(len(members))
         inputs.tell(store.files_read(kept_in) if kept_in else {})
-        for i, outcome in before.items():
-            outcomes[i] = outcome
-        if before:
-            progress(len(before))
-        chunks = [c for c in _chunks(place, chosen.together) if not all(i in before for i in c.members)]
+        chunks = Chunks(place, chosen.together, before)
         with contextlib.closing(_computed(order, chosen, chunks, means, asked_to)) as results:
             for done in results:
                 inputs.tell(done.reads)
@@ -203,21 +220,20 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
                         raise BadInput(f"{name} has changed while the sweep ran; {way}")
                 _check_shown(plan.show, done.outcomes)
                 kept_outcomes = [o if isinstance(o, Gap) else kept(o, plan.show) for o in done.outcomes]
-                for i, outcome in zip(done.members, kept_outcomes, strict=True):
-                    outcomes[i] = outcome
+                outcomes.put(done.members, kept_outcomes)
                 if kept_in:
                     store.keep(kept_in, done, kept_outcomes)
                 progress(len(done.members))
     interrupted = asked_to.is_set()  # in its last points too: a study would go on with the next sweep
-    refused = [outcome for outcome in outcomes if isinstance(outcome, Gap) and outcome.of_input]
+    refused = [gap for gap in outcomes.gaps.values() if gap.of_input]
     reasons = {outcome.reason for outcome in refused}
     # what fails everywhere for one reason does not depend on the axes: bad input, not gaps
     if not interrupted and len(reasons) == 1 and len(refused) == len(outcomes):
         raise BadInput(reasons.pop())
     return Sweep(
         case=base.name, analysis=chosen.analysis, axes=place.axes, dims=place.dims, points=place.points,
-        outcomes=tuple(outcomes), show=plan.show, sobol=plan.sobol or 0,
-        interrupted=interrupted, kept=len(before), aside=str((kept_in and kept_in.aside) or ""),
+        outcomes=outcomes, show=plan.show, sobol=plan.sobol or 0,
+        interrupted=interrupted, kept=int(before.sum()), aside=str((kept_in and kept_in.aside) or ""),
     )  # fmt: skip
 
 
@@ -237,29 +253,18 @@ def _stored(plan: Plan, read: Mapping[str, str], means: Means) -> Iterator[store
 
 
 def _computed(
-    order: work.SweepOrder, chosen: Route, chunks: Sequence[work.Chunk], means: Means, asked_to: threading.Event
+    order: work.SweepOrder, chosen: Route, chunks: Chunks, means: Means, asked_to: threading.Event
 ) -> Generator[work.Done, None, None]:
     if means.scheduler:
         return on_cluster(order, chunks, means.scheduler, asked_to)
     jobs = means.jobs
     if not jobs:  # as many as there are cores, or none where they would take longer to start than to work
-        seconds = chosen.seconds * sum(len(c.members) for c in chunks)
+        seconds = chosen.seconds * chunks.points
         pays = hasattr(os, "sched_getaffinity") and seconds > _WORTH
         jobs = len(os.sched_getaffinity(0)) if pays else 1
     if jobs > 1 and len(chunks) > 1:
         return work.on_processes(order, chunks, jobs, asked_to)
     return work.here(order, chunks, asked_to)
-
-
-def _chunks(place: Layout, together: int) -> list[work.Chunk]:
-    """Chunks of nearly one size, none longer than wanted; the same whatever was finished before."""
-    count = len(place.points)
-    parts = -(-count // together)
-    ends = [count * i // parts for i in range(parts + 1)]
-    heres = [{a.key: override(a, v) for a, v in zip(place.axes, point, strict=True)} for point in place.points]
-    return [
-        work.Chunk(members=tuple(range(a, b)), heres=tuple(heres[a:b])) for a, b in zip(ends, ends[1:], strict=False)
-    ]
 
 
 def _check_shown(show: tuple[str, ...], outcomes: Sequence[Outcome]) -> None:

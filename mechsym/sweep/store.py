@@ -19,6 +19,7 @@ import socket
 import sqlite3
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.files import inputs
@@ -121,16 +122,19 @@ def _read(connection: sqlite3.Connection) -> dict[str, str]:
     return dict(connection.execute("select path, digest from input order by path").fetchall())
 
 
-def known(store: Store) -> dict[int, Outcome]:
-    """Points that are finished, by index."""
+_MANY = 10_000  # points that are read in one go
+
+
+def known(store: Store) -> Iterator[tuple[list[int], list[Outcome]]]:
+    """Points that are finished, many at a time: their numbers, and what came out."""
     with _told(store.path):
-        rows = store.connection.execute("select i, row from point").fetchall()
-    outcomes: dict[int, Outcome] = {}
-    for i, text in rows:
-        stored = json.loads(text)
-        gap = "gap" in stored
-        outcomes[i] = Gap(reason=stored["gap"], of_input=stored["of_input"]) if gap else dict(stored["row"])
-    return outcomes
+        cursor = store.connection.execute("select i, row from point order by i")
+        while rows := cursor.fetchmany(_MANY):
+            yield [i for i, _ in rows], [_outcome(json.loads(text)) for _, text in rows]
+
+
+def _outcome(stored: Mapping[str, Any]) -> Outcome:
+    return Gap(reason=stored["gap"], of_input=stored["of_input"]) if "gap" in stored else dict(stored["row"])
 
 
 def files_read(store: Store) -> dict[str, str]:

@@ -49,7 +49,7 @@ class SweepOrder:
 class Done:
     """A finished chunk."""
 
-    members: tuple[int, ...]
+    members: Sequence[int]
     outcomes: tuple[Outcome, ...]
     seconds: float  #: Of a processor for one point [s]
     host: str
@@ -60,7 +60,7 @@ class Done:
 class Chunk:
     """Points that are computed in one call."""
 
-    members: tuple[int, ...]
+    members: Sequence[int]
     heres: tuple[Here, ...]
     died: int = 0  #: How many workers it has killed
 
@@ -124,15 +124,19 @@ def on_processes(
     order: SweepOrder, chunks: Sequence[Chunk], count: int, asked: threading.Event
 ) -> Generator[Done, None, None]:
     """Chunks on `count` processes, as they are finished."""
-    waiting = collections.deque(chunks)
+    fresh, waiting = iter(chunks), collections.deque[Chunk]()
     workers = [_started(order) for _ in range(min(count, len(chunks)))]
     busy: dict[int, Chunk] = {}
     try:
-        while waiting or busy:
+        while True:
             if asked.is_set():
-                waiting.clear()
-            for k in (k for k in range(len(workers)) if k not in busy and waiting):
-                busy[k] = _sent(workers, k, waiting.popleft(), order)
+                fresh, waiting = iter(()), collections.deque()
+            for k in (k for k in range(len(workers)) if k not in busy):
+                chunk = waiting.popleft() if waiting else next(fresh, None)
+                if chunk is not None:
+                    busy[k] = _sent(workers, k, chunk, order)
+            if not busy:
+                return
             ready = connection.wait([workers[k].pipe for k in busy], timeout=_PAUSE)
             for k in [k for k in busy if workers[k].pipe in ready]:
                 chunk, answer = busy.pop(k), None

@@ -11,6 +11,7 @@ from mechsym.errors import BadInput
 from mechsym.sweep import Plan, layout, sweep
 from mechsym.sweep.axes import Axis, saltelli
 from mechsym.sweep.data import estimates, indices
+from mechsym.sweep.outcomes import Outcomes
 from mechsym.sweep.run import Sweep
 
 A, B = 7.0, 0.1
@@ -38,7 +39,7 @@ def result(count, seed, gap=None):
         rows[gap] = {"speed_mean": math.nan}
     return Sweep(
         case="ishigami", analysis="simulate", axes=axes(), dims={"sample": len(points)}, points=tuple(points),
-        outcomes=tuple(rows), sobol=count,
+        outcomes=Outcomes.of(rows), sobol=count,
     )  # fmt: skip
 
 

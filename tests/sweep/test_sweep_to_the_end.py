@@ -94,7 +94,7 @@ def test_the_points_of_another_sweep_are_set_aside_and_found_again(tmp_path):
         assert connection.execute("select count(*) from point").fetchone() == (5,)
     again = sweep(first, means=Means(folder=tmp_path))
     assert again.kept == 5 and not Path(moved.aside).exists()
-    np.testing.assert_equal(again.outcomes, whole.outcomes)
+    np.testing.assert_equal(list(again.outcomes), list(whole.outcomes))
     assert sweep(other, means=Means(folder=tmp_path, fresh=True)).kept == 0
     assert sorted(p.name for p in tmp_path.iterdir()) == [Path(moved.aside).name, store.NAME]
 
