@@ -12,13 +12,13 @@ import click
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.files import Json, plain, publish, to_json, together, try_folder, write_summary
+from mechsym.files import Json, publish, to_json, together, try_folder, write_summary
 from mechsym.files.inputs import reads
 from mechsym.mechanisms import own
 from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import load
 from mechsym.quantities.display import SMALLEST, choose, column_text, heading, key_words, ratio_text, shown_in
-from mechsym.quantities.results import units_of
+from mechsym.quantities.results import tell, units_of
 
 if TYPE_CHECKING:
     from mechsym.page.finding import Finding
@@ -192,7 +192,7 @@ def emit(
     has to be known first, of a command that has any; `headline` in JSON.
     """
     context = click.get_current_context()
-    data = value if isinstance(value, Mapping) else plain(value)
+    data = value if isinstance(value, Mapping) else tell(value)
     data = {**data, **beside} if beside else data
     first = () if findings is None else load("mechsym.page.finding:ranked")(findings)
     if findings is not None and isinstance(data, Mapping):  # of a list of rows the text tells it

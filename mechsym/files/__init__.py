@@ -174,7 +174,7 @@ def write_summary(folder: Path, numbers: Mapping[str, Any], command: str, read: 
     """
     root, block = folder.resolve(), _open.get()
     parts = {p: part for p, part in sorted(block.all_waiting().items()) if p.is_relative_to(root)} if block else {}
-    digests = {p.relative_to(root).as_posix(): digest(q.read_bytes()) for p, q in parts.items() if p.name != SUMMARY}
+    digests = {p.relative_to(root).as_posix(): _digest_of(q) for p, q in parts.items() if p.name != SUMMARY}
     before = _left(root)
     if block:
         block.stale |= {root / name for name in before.pop(command, {}).keys() - digests.keys()}
@@ -197,12 +197,18 @@ def _left(root: Path) -> dict[str, dict[str, str]]:
 
 def _is(root: Path, name: str, content: str) -> bool:
     path = (root / name).resolve()
-    return path.is_relative_to(root) and path.is_file() and digest(path.read_bytes()) == content
+    return path.is_relative_to(root) and path.is_file() and _digest_of(path) == content
 
 
 def digest(data: bytes) -> str:
     """What tells a content from any other."""
     return hashlib.sha256(data).hexdigest()
+
+
+def _digest_of(file: Path) -> str:
+    """The digest of what is in a file, which may be larger than what memory is left."""
+    with file.open("rb") as opened:
+        return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
 def _unwritable(path: Path, error: OSError) -> BadInput:
