@@ -49,8 +49,8 @@ async def file_of(kind: str, name: str, values: Mapping[str, float]) -> tuple[st
         )  # fmt: skip
         out, said = await process.communicate()
         if not file.exists():
-            told = (said or out).decode().strip()
-            raise BadInput(told.splitlines()[-1] if told else f"mechsym {command} wrote nothing")
+            why = (said or out).decode().strip()
+            raise BadInput(why.splitlines()[-1] if why else f"mechsym {command} wrote nothing")
         return target, file.read_bytes()
 
 
@@ -68,5 +68,5 @@ def _changed(text: str, section: str, field: str, value: float) -> str:
         line = re.compile(rf"^{re.escape(field)}\s*=\s*(\"[^\"\n]*\"|[^#\n]*?)(\s*#[^\n]*)?$", re.M)
     if not line.search(body):
         return f"{text[: start.end()]}{field} = {value!r}\n{text[start.end() :]}"
-    body = line.sub(lambda found: f"{field} = {value!r}{found.group(2) or ''}", body, count=1)
+    body = line.sub(lambda match: f"{field} = {value!r}{match.group(2) or ''}", body, count=1)
     return text[: start.end()] + body + text[stop:]

@@ -112,7 +112,7 @@ def pretty_words(text: str) -> str:
     >>> pretty_words("the shaft carries 70.21 N*m of it"), pretty_words("2*m*r")
     ('the shaft carries 70.21 N m of it', '2*m*r')
     """
-    return _PRODUCT.sub(lambda found: pretty(found[0]), text)
+    return _PRODUCT.sub(lambda match: pretty(match[0]), text)
 
 
 def measure(value: float, unit: str) -> str:

@@ -31,9 +31,11 @@ def require(case: Any, command: str, given: str = "") -> None:
     facts = facts_of(case.mechanism, case.sections)
     missing = COMMANDS[command].lacks(facts)
     if missing := [what for what in dict.fromkeys(missing) if what != given]:
-        told = [_SECTION.sub(r"section \g<0> is missing", what) for what in in_words(facts, missing)]
-        told = [f"{command} needs {what}" if what.startswith(("[", "simulation.", "drive.")) else what for what in told]
-        raise MissingSection(f"{case.file}: {'; '.join(told)}; see 'mechsym check' and 'mechsym cases'")
+        needed = [_SECTION.sub(r"section \g<0> is missing", what) for what in in_words(facts, missing)]
+        needed = [
+            f"{command} needs {what}" if what.startswith(("[", "simulation.", "drive.")) else what for what in needed
+        ]
+        raise MissingSection(f"{case.file}: {'; '.join(needed)}; see 'mechsym check' and 'mechsym cases'")
 
 
 def in_words(case: CaseFacts, missing: list[str]) -> list[str]:

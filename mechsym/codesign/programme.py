@@ -149,7 +149,7 @@ def solve(task: CoDesignTask, ready: ReadyProgramme | None = None, near: CoDesig
     .. math:: \min J \quad \text{subject to} \quad \delta_k \le \delta, \; \text{limits}
 
     ready: a programme of the same task but for ripple and limits, used again; near: a solution of the same programme to
-    start from. Returns found: with status and reason; where nothing is feasible, the last design that was tried.
+    start from. Returns design: with status and reason; where nothing is feasible, the last design that was tried.
     """
     prepared = ready or programme(task)
     design = _solved(task, prepared, near, prepared.wall if ready is None else 0.0)

@@ -153,7 +153,7 @@ def optimise(case: Case) -> Optimised:
     """Best design of a case under its limits.
 
     case: with `[optimise]` and a cycle; spark ignition on pistons of a declaration is solved with exact derivatives,
-    what else there is one design at a time. Returns found: status, variables, active limits and multipliers.
+    what else there is one design at a time. Returns optimum: status, variables, active limits and multipliers.
     """
     require(case, "optimise")
     section: Optimise = case.need("optimise")

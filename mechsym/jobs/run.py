@@ -270,7 +270,7 @@ def startup(case: Case, result: Result | None = None) -> StartUp:
     """Run a start-up case, or take its finished run, and explain it.
 
     case: of a shaft with two discs, with `[drive]` and `[simulation]`; result: its run, when there is one already.
-    Returns found: critical speeds, which of them held the shaft, twist and torque.
+    Returns start_up: critical speeds, which of them held the shaft, twist and torque.
     """
     _two_discs(case)
     if result is None:

@@ -135,11 +135,11 @@ def _profile(said: Json, places: Callable[[float], Mapping[str, float]]) -> Call
     return profile
 
 
-def _joints(found: Sequence[Json]) -> list[tuple[str, str]]:
+def _joints(drawn_shapes: Sequence[Json]) -> list[tuple[str, str]]:
     """Where links end, each place once, as the names of its coordinates; none where a declaration draws its own."""
-    if any(shape["role"] == "joint" for shape in found):
+    if any(shape["role"] == "joint" for shape in drawn_shapes):
         return []
-    links = (shape for shape in found if shape["kind"] == "line" and shape["role"] in ("crank", "rod"))
+    links = (shape for shape in drawn_shapes if shape["kind"] == "line" and shape["role"] in ("crank", "rod"))
     return list(dict.fromkeys((x, y) for link in links for x, y in link["points"]))
 
 

@@ -56,7 +56,7 @@ def _environment() -> "jinja2.Environment":
     environment.filters |= {
         "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "plain": pretty,
         "pretty": typeset, "pieces": pieces,
-        "words": key_words, "places": lambda text, said: _KEYED.sub(lambda found: f"{said(found[1])} = ", str(text)),
+        "words": key_words, "places": lambda text, said: _KEYED.sub(lambda match: f"{said(match[1])} = ", str(text)),
         "packed": packed,
         "quantity": lambda value, unit, digits=5: typeset(quantity_text(value, unit, digits)),
     }  # fmt: skip

@@ -158,7 +158,7 @@ class Enclosure:
         size = self.norm(magnitudes(start.B) @ start.c)
         h, self.reach = 0.0, min(_REACH, 2 * self.reach)
         while not h > 0:
-            h, rho, bounds = max((self._length(W, share * self.rho) for share in _LADDER), key=lambda found: found[0])
+            h, rho, bounds = max((self._length(W, share * self.rho) for share in _LADDER), key=lambda length: length[0])
             if h > 0:
                 self.rho = rho
                 break

@@ -76,14 +76,14 @@ def choose(text: str | None) -> None:
     text: units divided by commas, each for its kind: `mm, MPa, kN, kN*m, deg, rpm, kW`. Raises BadInput: unknown unit,
     or two of one kind.
     """
-    found: dict[tuple[int, ...], str] = {}
+    by_kind: dict[tuple[int, ...], str] = {}
     for unit in filter(None, (part.strip() for part in (text or "").split(","))):
         kind = _kind(unit)
-        if kind in found:
-            raise BadInput(f"--units {text}: {found[kind]} and {unit} are of one kind; name one")
-        found[kind] = unit
+        if kind in by_kind:
+            raise BadInput(f"--units {text}: {by_kind[kind]} and {unit} are of one kind; name one")
+        by_kind[kind] = unit
     _chosen.clear()
-    _chosen.update(found)
+    _chosen.update(by_kind)
 
 
 def chosen() -> bool:

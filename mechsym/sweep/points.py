@@ -170,7 +170,7 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
             if hinges.runs(show):
                 return Route(analysis="hinge", run=_each(hinges.designed(show)), together=1, seconds=0.5)
         return Route(
-            analysis="hinge", run=lambda found: hinges.judged(found, show), together=hinges.BLOCK, seconds=0.002
+            analysis="hinge", run=lambda loaded: hinges.judged(loaded, show), together=hinges.BLOCK, seconds=0.002
         )
     if analysis == "guides":
         run = _each(lambda case: {})
@@ -184,7 +184,7 @@ def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route
 
 
 def _each(one: Callable[[Case], object]) -> Callable[[Sequence[Case]], list[Outcome]]:
-    return lambda found: [guarded(one, case) for case in found]
+    return lambda loaded: [guarded(one, case) for case in loaded]
 
 
 def _maps(cases: Sequence[Case]) -> list[Outcome]:

@@ -148,7 +148,7 @@ def joint_fit(
     swing = float(np.ptp(mean))
     floor = max(sigma / swing, 1e-5)
     tried = [_solve(phi, mean / swing, cylinder, between, floor, prior, start, inside) for start in starts]
-    at = min(tried, key=lambda found: _cost(found, floor, prior))
+    at = min(tried, key=lambda fit: _cost(fit, floor, prior))
     # noise by which n independent residuals would say as little as these, which hang together
     left = at[2]
     power = float(left @ left)
