@@ -227,7 +227,7 @@ class DiagramCombustion(Shown):
 def diagram_combustion(
     measured: MeasuredCycles, cylinder: Chamber, analysis: Analysis, omega: RadPerSecond
 ) -> DiagramCombustion:
-    """Take the measured cycles apart. omega: speed of the record. Returns combustion: cycle by cycle and for the mean."""
+    """Take the measured cycles apart, cycle by cycle and for the mean. omega: speed of the record."""
     phi, cycles = around_compression(measured.phi, measured.cycles, measured.period)
     ends = (analysis.inlet_closes, analysis.exhaust_opens)
     burns = not measured.alignment.motored
