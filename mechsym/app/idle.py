@@ -123,12 +123,17 @@ def _fine(case: Case, data: Any) -> str | None:
 
 
 def _weighed(case: Case, data: object) -> str | None:
-    anew = _rules(case) == "slider crank" and "part_crosshead" not in case.sections
+    anew = _rules(case) in ("slider crank", "planet") and "part_crosshead" not in case.sections
     return "sized parts weigh what they weigh" if anew else None
 
 
 def _family(case: Case, data: object) -> str | None:
-    return "the scavenging of the co-design tells it at each load" if case.need("codesign").scavenge else None
+    wanted = case.sections.get("codesign")
+    return "the scavenging of the co-design tells it at each load" if wanted is not None and wanted.scavenge else None
+
+
+def _designed(case: Case, data: object) -> str | None:
+    return "designed at the speeds of [codesign]" if "codesign" in case.sections else None
 
 
 _REACH = 2.0  # as far as sliders go, times the value
@@ -141,7 +146,7 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Idle], ...] = (
     ("limits", (), ("simulate",), _said("the tab hinge judges them")),
     ("cycle", ("c_v", "lhv", "R"), ("simulate", "codesign"), _fuel),
     ("cycle", ("T_evc",), ("simulate", "codesign"), _fuel),
-    ("cycle", ("lhv",), ("size",), _fuel),
+    ("cycle", ("lhv", "T_evc", "R", "c_v"), ("size",), _fuel),
     ("cycle", ("octane",), ("simulate", "forces", "size", "hinge", "codesign"), _said("the tab cycle tells the knock")),
     ("cycle", ("clearance_share_hot", "clearance_share_cold"), (), _schmidt),
     ("cycle", ("p_back",), ("cycle",), _measured),
@@ -157,14 +162,15 @@ _RULES: tuple[tuple[str, tuple[str, ...], tuple[str, ...], Idle], ...] = (
     ("operation", ("speed",), ("size",), _anew("sized at the speeds of [speeds]")),
     ("speeds", ("step",), ("size",), _fine),
     ("cycle", ("p_s",), ("codesign",), _family),
-    ("operation", ("speed",), ("codesign",), _said("designed at the speeds of [codesign]")),
+    ("operation", ("speed",), ("codesign",), _designed),
     ("rollers", ("plane_offset",), ("codesign",), _said("the tab hinge judges it")),
     ("parameters", ("I1",), ("size",), _anew("the speed is held")),
-    ("parameters", ("m1", "m2", "m3", "m4", "m5", "I01", "IC2"), ("size",), _weighed),
+    ("parameters", ("m1", "m2", "m3", "m4", "m5", "I01", "IC2", "u1", "I2"), ("size",), _weighed),
+    ("parameters", ("g",), ("size",), _anew("parts are sized without their weight")),
     ("parameters", ("m1", "I01"), ("size",), _kept),
     ("part_piston", ("ring_radial", "ring_axial", "land_top", "land"), ("size",), _chosen),
     ("part_cylinder", ("flange", "bolts", "thread_mm"), ("size",), _chosen),
-    ("part_gears", ("shift",), ("size",), _chosen),
+    ("part_gears", ("shift", "teeth_pinion", "teeth_ring"), ("size",), _chosen),
     ("part_crank", ("pin", "web_width"), ("size",), _chosen),
     ("part_masses", ("crankshaft",), ("size",), _chosen),
 )
@@ -183,7 +189,7 @@ def unread(case: Case, tab: str) -> dict[str, str]:
     """Parameters that stand alone and enter nothing that a tab shows, each with the reason."""
     asked = {"forces": (_held, _HELD), "cycle": (_of_gas, _GAS), "simulate": (_free, _ALL)}.get(tab)
     if tab == "size" and not _rules(case) and "part_crosshead" not in case.sections:
-        asked = _held, _HELD  # loads at the speed of operation
+        asked = _loads, _HELD  # at the speed of operation
     offered = numbers(case, "parameters") if "parameters" in case.sections else []
     if asked is None or not offered:
         return {}
@@ -249,6 +255,10 @@ def _held(case: Case) -> set[str]:
     acting |= {b.radius for b in roles.bearings if b.radius and "friction" in case.sections}
     # the shaft of an engine is judged too
     return acting | (_free(case) if roles.shafts and "cycle" in case.sections else set())
+
+
+def _loads(case: Case) -> set[str]:
+    return _entering(case, ("constraints", "reactions"))
 
 
 def _free(case: Case) -> set[str]:

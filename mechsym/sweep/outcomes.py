@@ -109,7 +109,7 @@ class Outcomes(Sequence[Any]):
         return list(dict.fromkeys(name for number in order for name in self._names[number]))
 
     def column(self, name: str, gap: float | str) -> np.ndarray:
-        """A result at all points, with `gap` where there is none. name: without its unit."""
+        """A result at all points, with `gap` where there is none [unit of the result]. name: without its unit."""
         values = np.full(len(self), gap, dtype=object if isinstance(gap, str) else float)
         for number, names in enumerate(self._names):
             for k, full in enumerate(names):
