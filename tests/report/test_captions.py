@@ -36,13 +36,11 @@ def test_the_comparison_of_mechanisms():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("values", ["8..14:2", "8..14:4"])
-def test_a_sweep(values):
-    """Of two points no curve is drawn."""
-    found = sweep(Plan(case="nunes-slider-crank", over=(f"chamber.compression_ratio={values}",),
-                       show=("p_max_mpa", "power_kw")))  # fmt: skip
-    see, figure = caption(found), picture(found)
+def test_a_sweep():
+    """Of two points there is no picture, and nothing to say of it."""
+    over, shown = "chamber.compression_ratio=8..14:{}", ("p_max_mpa", "power_kw")
+    two, four = (sweep(Plan(case="nunes-slider-crank", over=(over.format(n),), show=shown)) for n in (2, 4))
+    assert (caption(two), picture(two)) == ("", None)
+    see, figure = caption(four), picture(four)
     assert len(numbers_of(see)) == 2 and unsaid(see, figure) == []
-    assert {line.get_linestyle() for axis in figure.axes for line in axis.lines if len(line.get_xdata()) > 1} == {
-        "None" if values.endswith("2") else "-"
-    }
+    assert {line.get_linestyle() for axis in figure.axes for line in axis.lines} == {"-"}
