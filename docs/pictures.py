@@ -25,7 +25,7 @@ from mechsym.mechanisms.turning import rules, scene
 from mechsym.out.pdf import chromium
 
 FOLDER = Path(__file__).parent / "pictures"
-_FRAMES, _SECONDS, _COLOURS = 48, 4, 64
+_FRAMES, _SECONDS, _COLOURS = 48, 4, 256
 _LEGEND = {
     "track": "track, cut into a disc that stands still",
     "second_track": "that of the second roller, beside it",
@@ -106,7 +106,7 @@ def _small(png: bytes) -> bytes:
     from PIL import Image
 
     made = BytesIO()
-    Image.open(BytesIO(png)).convert("RGB").quantize(_COLOURS).save(made, "PNG", optimize=True)
+    Image.open(BytesIO(png)).convert("RGB").quantize(_COLOURS, method=Image.Quantize.MAXCOVERAGE).save(made, "PNG", optimize=True)
     return made.getvalue()
 
 
