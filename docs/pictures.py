@@ -106,7 +106,9 @@ def _small(png: bytes) -> bytes:
     from PIL import Image
 
     made = BytesIO()
-    Image.open(BytesIO(png)).convert("RGB").quantize(_COLOURS, method=Image.Quantize.MAXCOVERAGE).save(made, "PNG", optimize=True)
+    # by coverage: the median would take thin lines, as the second track, for grey
+    reduced = Image.open(BytesIO(png)).convert("RGB").quantize(_COLOURS, method=Image.Quantize.MAXCOVERAGE)
+    reduced.save(made, "PNG", optimize=True)
     return made.getvalue()
 
 
