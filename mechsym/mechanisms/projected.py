@@ -1,20 +1,27 @@
 r"""Motion of a mechanism with loops from all of its coordinates, without a choice of which depend on which.
 
-.. math:: q \leftarrow q - J^+ g(q), \qquad u \leftarrow u - J^+ J u, \qquad
-          \begin{pmatrix} M & J^T \\ J & 0 \end{pmatrix} \begin{pmatrix} \ddot q \\ -\mu \end{pmatrix} =
-          \begin{pmatrix} Q - h \\ -\gamma \end{pmatrix}
+.. math:: q \leftarrow q - A^{-1} J^T S^{-1} g(q), \qquad u \leftarrow u - A^{-1} J^T S^{-1} J u, \qquad
+          S = J A^{-1} J^T, \qquad A = M + \kappa J^T J
+
+.. math:: \ddot q = a - A^{-1} J^T S^{-1} (J a + \gamma), \qquad a = A^{-1} (Q - h)
 
 A fixed number of Newton's steps from the last pose, so that it can be written as code; no dead point of a coordinate
-disturbs it. Where the loops lose rank, what they do not determine stays as it is.
+disturbs it. Where the loops lose rank, what they do not determine stays as it is. What is off the loops is taken away in
+the metric of the masses, as their forces would: none of it turns into motion along them. With the stiffness kappa of the
+loops a rod without mass has some.
 """
+
+from collections.abc import Callable
 
 import casadi as ca
 
 from mechsym.mechanisms.record import Mechanism
 
+Solver = Callable[[ca.SX], ca.SX]
 _STEPS = 4
-_DAMPED = 1e-9  # of the trace of what is solved: below it a direction is left alone, whose rounding no step endures
-_REFINED = 2  # times, which takes the damping away elsewhere
+_DAMPED = 1e-12  # of the trace of what is solved: below it a direction is left alone, whose rounding no step endures
+_PLACED, _PUSHED = 1e-8, 1e-7  # the same of places and of speeds, which the motion has brought along well
+_REFINED = 2  # times, which takes the damping away elsewhere; Newton's steps do so by themselves
 
 
 def projected(mechanism: Mechanism, letters: int = 0) -> tuple[ca.Function, ca.Function]:
@@ -30,32 +37,44 @@ def projected(mechanism: Mechanism, letters: int = 0) -> tuple[ca.Function, ca.F
 
     def constraints(at: ca.SX, speeds: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
         gap, jacobian, bias = functions["constraints"](*ca.vertsplit(at), *ca.vertsplit(speeds), *more)
-        return gap, jacobian, bias
+        return gap, ca.densify(jacobian), bias
 
-    at = q
+    def dynamics(at: ca.SX, speeds: ca.SX, inputs: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
+        letters_of = (*ca.vertsplit(at), *ca.vertsplit(speeds), *ca.vertsplit(inputs), *more)
+        mass, bias, force = functions["dynamics"](*letters_of)
+        return ca.densify(mass), bias, force
+
+    still = ca.SX(n, 1)
+
+    def metric(at: ca.SX) -> ca.SX:
+        mass, _, _ = dynamics(at, still, ca.SX(w.shape[0], 1))
+        _, J, _ = constraints(at, still)
+        return mass + ca.mtimes(J.T, J) * (ca.trace(mass) / ca.trace(ca.mtimes(J, J.T)))
+
+    def normal(solved: Solver, J: ca.SX, off: ca.SX, damped: float, refined: int) -> ca.SX:
+        shares = solved(J.T)
+        return ca.mtimes(shares, _solver(ca.mtimes(J, shares), damped, refined)(off))
+
+    at, solved = q, _solver(metric(q))
     for _ in range(_STEPS):
-        gap, J, _ = constraints(at, ca.SX(n, 1))
-        at = at - ca.mtimes(J.T, _solved(ca.mtimes(J, J.T), gap))
-    _, J, _ = constraints(at, ca.SX(n, 1))
-    speeds = u - ca.mtimes(J.T, _solved(ca.mtimes(J, J.T), ca.mtimes(J, u)))
-    closed = ca.Function("closed", [q, u, p], [at, speeds])
+        gap, J, _ = constraints(at, still)
+        at = at - normal(solved, J, gap, _PLACED, 0)
+    _, J, _ = constraints(at, still)
+    closed = ca.Function("closed", [q, u, p], [at, u - normal(solved, J, ca.mtimes(J, u), _PUSHED, _REFINED)])
     _, J, gamma = constraints(q, u)
-    mass, bias, force = functions["dynamics"](*ca.vertsplit(q), *ca.vertsplit(u), *(ca.vertsplit(w)), *more)
-    # with the stiffness of the loops a rod without mass has some
-    stiff = ca.mtimes(J.T, J) * (ca.trace(mass) / ca.trace(ca.mtimes(J, J.T)))
-    both = _solved(mass + stiff, ca.horzcat(force - bias, J.T), 0.0)
-    free, shares = both[:, 0], both[:, 1:]
-    mu = -_solved(ca.mtimes(J, shares), ca.mtimes(J, free) + gamma)
-    acceleration = free + ca.mtimes(shares, mu)
+    mass, bias, force = dynamics(q, u, w)
+    solved = _solver(metric(q))
+    free = solved(force - bias)
+    acceleration = free - normal(solved, J, ca.mtimes(J, free) + gamma, _DAMPED, _REFINED)
     rest = ca.mtimes(mass, acceleration) + bias - force  # J^T mu, whatever the stiffness has added to it
-    mu = _solved(ca.mtimes(J, J.T), ca.mtimes(J, rest))
+    mu = _solver(ca.mtimes(J, J.T), _DAMPED, _REFINED)(ca.mtimes(J, rest))
     return closed, ca.Function("moved", [q, u, w, p], [acceleration, mu])
 
 
-def _solved(matrix: ca.SX, right: ca.SX, damped: float = _DAMPED) -> ca.SX:
-    """The solution of symmetric positive equations, which a direction that is hardly determined does not blow up."""
+def _solver(matrix: ca.SX, damped: float = 0.0, refined: int = 0) -> Solver:
+    """Solves symmetric positive equations, in which a direction that is hardly determined does not blow up."""
     n = matrix.shape[0]
-    A, b = ca.densify(matrix) + damped * ca.trace(matrix) * ca.SX.eye(n), ca.densify(right)
+    A = ca.densify(matrix) + damped * ca.trace(matrix) * ca.SX.eye(n)
     L, d = ca.SX.eye(n), [ca.SX(0)] * n
     for j in range(n):
         d[j] = A[j, j] - sum((L[j, k] ** 2 * d[k] for k in range(j)), ca.SX(0))
@@ -73,7 +92,11 @@ def _solved(matrix: ca.SX, right: ca.SX, damped: float = _DAMPED) -> ca.SX:
                 rows[i] -= L[k, i] * rows[k]
         return ca.vertcat(*rows)
 
-    x = substituted(b)
-    for _ in range(_REFINED if damped else 0):
-        x += substituted(b - ca.mtimes(matrix, x))
-    return x
+    def solved(right: ca.SX) -> ca.SX:
+        b = ca.densify(right)
+        x = substituted(b)
+        for _ in range(refined):
+            x += substituted(b - ca.mtimes(matrix, x))
+        return x
+
+    return solved

@@ -94,6 +94,16 @@ class Block:
     t_end: float  #: of the run it was made from [s]
     rates: ca.Function
     observed: ca.Function
+    #: x put on the loops, where some close by constraint: the others want it so
+    closed: ca.Function | None = None
+
+    def whole(self, function: ca.Function) -> ca.Function:
+        """Rates or outputs of any x near the loops."""
+        if self.closed is None:
+            return function
+        t, x, *rest = (ca.SX.sym(function.name_in(i), function.size1_in(i)) for i in range(function.n_in()))
+        values = function(t, self.closed(t, x, *rest), *rest)
+        return ca.Function(function.name(), [t, x, *rest], [values], {"cse": True})
 
 
 def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> Block:
@@ -115,7 +125,8 @@ def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> 
     sizes = {"x": 2 * n, "u": len(problem.mechanism.inputs), "p": len(ports), "w": 2 * curves}
     sizes["s"] = sum(len(law.switches) for law in chosen)
     symbols = {"t": ca.SX.sym("t"), **{letter: ca.SX.sym(letter, size) for letter, size in sizes.items()}}
-    rates, outputs = _expressions(problem, mechanism, len(own), chosen, symbols)
+    loops = projected(mechanism, len(own)) if mechanism.dependents else None
+    rates, outputs = _expressions(problem, mechanism, len(own), chosen, symbols, loops)
     units = _units(problem.mechanism) | {u: v for law in chosen for u, v in law.units.items()}
     units |= {f"{part.name}_on_{part.input}": units[part.input] for part in problem.parts}
     arguments = list(symbols.values())
@@ -131,6 +142,7 @@ def block(name: str, about: str, problem: Problem, laws: Sequence[Law] = ()) -> 
         switches=tuple(s for law in chosen for s in law.switches), t_end=problem.t_end,
         rates=ca.Function("rates", arguments, [ca.densify(rates)]),
         observed=ca.Function("observed", arguments, [ca.densify(ca.vertcat(*outputs.values()))]),
+        closed=loops and _on_loops(loops[0], symbols, len(own)),
     )  # fmt: skip
 
 
@@ -196,16 +208,24 @@ def _units(mechanism: Mechanism) -> dict[str, str]:
     return units | {n: f"{units[c]}/s^2" for n, c in zip(accelerations(mechanism), q, strict=True)}
 
 
+def _on_loops(closed: ca.Function, symbols: Mapping[str, ca.SX], own: int) -> ca.Function:
+    n = symbols["x"].numel() // 2
+    both = closed.call([symbols["x"][:n], symbols["x"][n:], symbols["p"][:own]])
+    return ca.Function("closed", list(symbols.values()), [ca.vertcat(*both)], {"cse": True})
+
+
 def _expressions(
-    problem: Problem, mechanism: Mechanism, own: int, laws: Sequence[Law], symbols: Mapping[str, ca.SX]
+    problem: Problem,
+    mechanism: Mechanism,
+    own: int,
+    laws: Sequence[Law],
+    symbols: Mapping[str, ca.SX],
+    loops: tuple[ca.Function, ca.Function] | None,
 ) -> tuple[ca.SX, dict[str, ca.SX]]:
     n = len(mechanism.coordinates)
     x, p = symbols["x"], ca.vertsplit(symbols["p"])
     letters = p[:own]
     q, u = ca.vertsplit(x[:n]), ca.vertsplit(x[n:])
-    loops = projected(mechanism, own) if mechanism.dependents else None
-    if loops is not None:
-        q, u = map(ca.vertsplit, loops[0](x[:n], x[n:], ca.vertcat(*letters)))
     totals = dict(zip(mechanism.inputs, ca.vertsplit(symbols["u"]), strict=True))
     outputs: dict[str, ca.SX] = {}
     further: dict[str, ca.SX] = {}

@@ -189,6 +189,8 @@ static int core_set(machine *m, unsigned r, double value)
 static int core_met(const machine *m, const double *x) { (void)m, (void)x; return -1; }
 static double core_next_switch(const machine *m) { (void)m; return INFINITY; }
 static void core_rates(const machine *m, double t, const double *x, double *d) { (void)m, (void)t, (void)x, (void)d; }
+enum { OFF = 0 };
+static int core_close(machine *m, double most) { (void)m, (void)most; return 0; }
 static void core_indicators(const machine *m, double *z) { (void)m, (void)z; }
 static int core_directional(const machine *m, const unsigned *unknown, size_t nu, const unsigned *known, size_t nk,
                             const double *seed, double *change)

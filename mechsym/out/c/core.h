@@ -21,6 +21,9 @@ typedef struct {
 } machine;
 
 static const double CLOSE = 1e-9; /* of a period: what counts as standing on a kink */
+static const double NOISE = 10.0; /* error of a step, in tolerances, that is not for its length */
+enum { TRIES = 12 };              /* of lengths that step over it */
+enum { OFF = 100 };                /* tolerances that a state may be off its loops between two events */
 
 static int piece_of(const struct curve *c, double at)
 {
@@ -85,9 +88,15 @@ static void core_values(const machine *m, double t, const double *x, double *v)
         v[VU + i] = m->u[i];
     for (int i = 0; i < NP; i++)
         v[VP + i] = m->p[i];
+#if LOOPS
+    double on[NX];
+    closed(v, on);
+    for (int i = 0; i < NX; i++)
+        v[VX + i] = on[i];
+#endif
     for (int i = 0; i < NC; i++) {
         double found[3];
-        curve_values(m, &curves[i], x[curves[i].state], found);
+        curve_values(m, &curves[i], v[VX + curves[i].state], found);
         v[VW + 2 * i] = found[0];
         v[VW + 2 * i + 1] = found[1];
     }
@@ -169,24 +178,61 @@ static int core_met(const machine *m, const double *x)
     return -1;
 }
 
+/* Put a state back that is off the loops that close by constraint by more than so many tolerances; whether it was. Left
+ * as it is, what it is off would turn into the motion where two motions meet. */
+static int core_close(machine *m, double most)
+{
+    double off = 0.0, v[NV];
+    if (!LOOPS)
+        return 0;
+    core_values(m, m->t, m->x, v);
+    for (int i = 0; i < NX; i++) {
+        const double gap = fabs(v[VX + i] - m->x[i]) / (m->tolerance * (1.0 + fabs(v[VX + i])));
+        off = gap > off ? gap : off;
+    }
+    for (int i = 0; off > most && i < NX; i++)
+        m->x[i] = v[VX + i];
+    return off > most;
+}
+
+/* What of an error rate over h is left when the state is put on its loops: near where two motions meet the rest is large
+ * by rounding. */
+static void core_along(const machine *m, const double *x, double h, double *error)
+{
+    double moved[NX], here[NV], there[NV];
+    for (int i = 0; i < NX; i++)
+        moved[i] = x[i] + h * error[i];
+    core_values(m, m->t, x, here);
+    core_values(m, m->t, moved, there);
+    for (int i = 0; i < NX; i++)
+        error[i] = (there[VX + i] - here[VX + i]) / h;
+}
+
 #define MS_Q(j) k[j - 1][i]
 #define CORE_STAGE(stage, node, sum)                                                                                   \
     for (int i = 0; i < NX; i++)                                                                                       \
         z[i] = m->x[i] + h * (sum);                                                                                    \
     core_rates(m, m->t + node * h, z, k[stage - 1]);
 
-/* One step of DOP853 over h; its error in units of the tolerance. */
-static double core_try(const machine *m, double h, double *next)
+/* One step of DOP853 over h; its error in units of the tolerance, of `along` what is left on the loops. */
+static double core_try(const machine *m, double h, double *next, int along)
 {
-    double k[16][NX], z[NX], five = 0.0, three = 0.0;
+    double k[16][NX], z[NX], e5[NX], e3[NX], five = 0.0, three = 0.0;
     core_rates(m, m->t, m->x, k[0]);
     MS_STAGES(CORE_STAGE)
     for (int i = 0; i < NX; i++) {
         next[i] = m->x[i] + h * (MS_WEIGHTS);
+        e5[i] = MS_ERROR_5;
+        e3[i] = MS_ERROR_3;
+    }
+    if (along) {
+        core_along(m, next, h, e5);
+        core_along(m, next, h, e3);
+    }
+    for (int i = 0; i < NX; i++) {
         const double a = fabs(m->x[i]), b = fabs(next[i]), scale = 1.0 / (m->tolerance * (1.0 + (a > b ? a : b)));
-        const double e5 = (MS_ERROR_5)*scale, e3 = (MS_ERROR_3)*scale;
-        five += e5 * e5;
-        three += e3 * e3;
+        five += e5[i] * e5[i] * scale * scale;
+        three += e3[i] * e3[i] * scale * scale;
     }
     const double both = five + 0.01 * three;
     return h * five / sqrt(NX * (both > 0.0 ? both : 1.0));
@@ -222,7 +268,7 @@ static double core_shorten(const machine *m, double h, int state, double level, 
         double c = b - fb * (b - a) / (fb - fa);
         if (!(c > a && c < b) || n % 8 == 7)
             c = 0.5 * (a + b);
-        core_try(m, c, next);
+        core_try(m, c, next, 0);
         const double fc = next[state] - level;
         if ((fc > 0.0) == (fb > 0.0) || fc == 0.0) {
             b = c;
@@ -237,9 +283,24 @@ static double core_shorten(const machine *m, double h, int state, double level, 
             break;
         }
     }
-    core_try(m, b, next);
+    core_try(m, b, next, 0);
     next[state] = level;
     return b;
+}
+
+/* Where two motions meet a stage may fall so near that it is all rounding: a length that steps over it, else one whose
+ * error is not in the motion. The error of the step, whose length is changed. */
+static double core_other(const machine *m, double *h, double error, double *next)
+{
+    for (int along = 0; along < 2; along++)
+        for (int k = along ? 0 : 1; k < TRIES; k++) {
+            const double other = *h * (1.0 - 0.6 * k / TRIES), now = core_try(m, other, next, along);
+            if (now <= 1.0) {
+                *h = other;
+                return now;
+            }
+        }
+    return error;
 }
 
 /* Integrate to t_end or to a stop; 0 when the step became too small or the state is no number. */
@@ -251,16 +312,19 @@ static int core_advance(machine *m, double t_end)
     for (long n = 0; m->t < t_end && m->stopped < 0; n++) {
         const double jump = core_next_switch(m), target = jump < t_end ? jump : t_end;
         double next[NX], level = 0.0, h = m->h < target - m->t ? m->h : target - m->t;
-        const int last = h == target - m->t;
         int state = 0, cut = 0;
         if (n > 10000000 || m->t + h <= m->t)
             return 0;
-        const double error = core_try(m, h, next), grow = 0.9 * pow(error > 1e-12 ? error : 1e-12, -0.125);
+        double error = core_try(m, h, next, 0);
+        if (LOOPS && !(error <= NOISE))
+            error = core_other(m, &h, error, next);
+        const double grow = 0.9 * pow(error > 1e-12 ? error : 1e-12, -0.125);
         if (!(error <= 1.0)) {
             /* an error that is no number: the step left the range of the functions */
             m->h = h * (error > 1.0 && grow > 0.2 ? grow : 0.2);
             continue;
         }
+        const int last = h == target - m->t;
         const double proposed = h * (grow < 6.0 ? grow : 6.0);
         for (; cut < 2 * NK + NE + 1 && core_crossed(m, next, &state, &level); cut++)
             h = core_shorten(m, h, state, level, next);
@@ -269,7 +333,9 @@ static int core_advance(machine *m, double t_end)
         m->t = last && !cut ? target : m->t + h;
         for (int i = 0; i < NX; i++)
             m->x[i] = next[i];
-        m->stopped = core_met(m, next);
+        if (!cut)
+            core_close(m, 0.0);
+        m->stopped = core_met(m, m->x);
         core_update(m);
     }
     m->fresh = 0;
@@ -328,7 +394,7 @@ static int core_set(machine *m, unsigned r, double value)
 static int core_directional(const machine *m, const unsigned *unknown, size_t nu, const unsigned *known, size_t nk,
                             const double *seed, double *change)
 {
-    double v[2 * NV] = {0}, dd[NX], dy[NY + 1];
+    double v[2 * NV] = {0}, dx[NX], dd[NX], dy[NY + 1];
     double *const dv = v + NV;
     core_values(m, m->t, m->x, v);
     for (size_t i = 0; i < nk; i++) {
@@ -340,10 +406,18 @@ static int core_directional(const machine *m, const unsigned *unknown, size_t nu
         else if (r != 0)
             return 0;
     }
+    for (int i = 0; i < NX; i++)
+        dx[i] = dv[VX + i];
+#if LOOPS
+    double on[NX];
+    closed_forward(v, on);
+    for (int i = 0; i < NX; i++)
+        dv[VX + i] = on[i];
+#endif
     for (int i = 0; i < NC; i++) {
         double found[3];
         const double step = curves[i].ratio * dv[VX + curves[i].state];
-        curve_values(m, &curves[i], m->x[curves[i].state], found);
+        curve_values(m, &curves[i], v[VX + curves[i].state], found);
         dv[VW + 2 * i] = found[1] * step;
         dv[VW + 2 * i + 1] = found[2] * step;
     }
@@ -356,7 +430,7 @@ static int core_directional(const machine *m, const unsigned *unknown, size_t nu
         else if (r >= R_Y && r < R_Z)
             change[i] = dy[r - R_Y];
         else if (r >= R_X && r < R_D)
-            change[i] = dv[VX + r - R_X];
+            change[i] = dx[r - R_X];
         else
             return 0;
     }

@@ -12,7 +12,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy
@@ -43,6 +43,7 @@ class Driven:
         self.inputs = self._with(description, "input")
         self.parameters = self._with(description, "parameter")
         self.outputs = [r for r in self._with(description, "output") if r > max(self.rate_references, default=0)]
+        self.longest = np.inf  # step of an integrator that may not pass over the knots of a table [s]
         self.indicator_count = description.numberOfEventIndicators or len(description.eventIndicators or ())
 
     def _with(self, description: "ModelDescription", causality: str) -> list[int]:
@@ -92,6 +93,14 @@ class Driven:
 
     def _update(self) -> tuple[bool, ...]:
         return (self.unit.newDiscreteStates if self.second else self.unit.updateDiscreteStates)()
+
+    def completed(self, t: float, x: np.ndarray) -> np.ndarray:
+        """A state that a step of the integrator has reached, put back on the loops where the unit asks for it [SI]."""
+        self._at(t, x)
+        if not self.unit.completedIntegratorStep()[0]:
+            return x
+        self.event(t, x)
+        return self.states()
 
     def next_event(self) -> float | None:
         """Time of the next time event, if there is one [s]."""
@@ -162,6 +171,7 @@ POINTS = 200
 _LEAST = 1e-6  # SI: what no state of its unit exceeds is rounding, as the way of a slide that nothing moves
 _STILL = 0.1  # of the largest of its unit: what moves less is measured by that
 _FIRST = 1e-2  # of a segment: a first step over knots of a table, chosen by its slope alone, hides what it missed
+_LONGEST = 1 / 32  # of the time between two samples, for the same reason
 
 
 @record
@@ -203,6 +213,7 @@ def _exchange(path: Path, t: np.ndarray, tolerance: float) -> np.ndarray:
     """Whole steps from event to event and from sample to sample: what is interpolated is three digits worse."""
     with driven(path, "me", tolerance) as unit:
         now, x = float(t[0]), unit.states()
+        unit.longest = _LONGEST * float(t[1] - t[0])
         rows = [x]
         for sample in t[1:]:
             # a sample may be an event itself, met a rounding error before
@@ -228,9 +239,24 @@ def _solved(
     events: Sequence[Callable[..., float]] = (),
 ) -> "scipy.optimize.OptimizeResult":
     return scipy.integrate.solve_ivp(
-        unit.rates, span, x, method="DOP853", events=events or None, rtol=tolerance, atol=tolerance,
-        first_step=_FIRST * (span[1] - span[0]),
+        unit.rates, span, x, method=_Importer, events=events or None, rtol=tolerance, atol=tolerance,
+        first_step=_FIRST * (span[1] - span[0]), max_step=unit.longest, unit=unit,
     )  # fmt: skip
+
+
+class _Importer(scipy.integrate.DOP853):
+    """DOP853 that tells the unit of each step, as an importer does, and goes on from where it is put back."""
+
+    def __init__(self, *arguments: Any, unit: Driven, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self.unit = unit
+
+    def step(self) -> str | None:
+        message = super().step()
+        x = self.unit.completed(self.t, self.y)
+        if x is not self.y:
+            self.y, self.f = x, self.fun(self.t, x)
+        return message
 
 
 def _indicator(

@@ -155,10 +155,11 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
 fmi2Status fmi2EnterEventMode(fmi2Component c) { (void)c; return fmi2OK; }
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
 {
-    const int met = core_met(M, M->x);
+    const int met = core_met(M, M->x), moved = core_close(M, OFF);
     core_update(M);
     const double next = core_next_switch(M);
     memset(info, 0, sizeof *info);
+    info->valuesOfContinuousStatesChanged = moved;
     info->terminateSimulation = met >= 0;
     info->nextEventTimeDefined = isfinite(next) ? fmi2True : fmi2False;
     info->nextEventTime = isfinite(next) ? next : 0.0;
@@ -167,8 +168,10 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
 fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) { (void)c; return fmi2OK; }
 fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean keep, fmi2Boolean *event, fmi2Boolean *terminate)
 {
-    (void)c, (void)keep;
-    *event = *terminate = fmi2False;
+    machine now = *M;
+    (void)keep;
+    *event = core_close(&now, OFF); /* the states are put back at it */
+    *terminate = fmi2False;
     return fmi2OK;
 }
 fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time)

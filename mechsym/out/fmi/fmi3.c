@@ -240,9 +240,10 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *again, fmi3Bool
                                     fmi3Float64 *next_time)
 {
     const int met = core_met(M, M->x);
+    *states = core_close(M, OFF);
     core_update(M);
     const double next = core_next_switch(M);
-    *again = *nominals = *states = fmi3False;
+    *again = *nominals = fmi3False;
     *terminate = met >= 0 || M->stopped >= 0;
     *next_defined = isfinite(next) ? fmi3True : fmi3False;
     *next_time = isfinite(next) ? next : 0.0;
@@ -251,8 +252,10 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *again, fmi3Bool
 fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance c) { (void)c; return fmi3OK; }
 fmi3Status fmi3CompletedIntegratorStep(fmi3Instance c, fmi3Boolean keep, fmi3Boolean *event, fmi3Boolean *terminate)
 {
-    (void)c, (void)keep;
-    *event = *terminate = fmi3False;
+    machine now = *M;
+    (void)keep;
+    *event = core_close(&now, OFF); /* the states are put back at it */
+    *terminate = fmi3False;
     return fmi3OK;
 }
 fmi3Status fmi3SetTime(fmi3Instance c, fmi3Float64 time)

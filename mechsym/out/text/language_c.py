@@ -37,6 +37,7 @@ def model(block: Block) -> str:
     own = [f"{{{i}, {len(k.angles)}, {number(C99, k.period)}, kinks_{n}}}" for n, (i, k) in enumerate(rows)]
     angles = [array(f"kinks_{n}", k.angles) for n, k in enumerate(block.kinks)]
     text = ", ".join(own) or "{0, 0, 1.0, start_x}"
+    loops = () if block.closed is None else (block.closed,)
     head = "struct kinks { int state, count; double period; const double *angles; };"
     return "\n".join(
         [
@@ -52,7 +53,9 @@ def model(block: Block) -> str:
             "\n".join([*angles, head, f"static const struct kinks kinks[] = {{{text}}};"]),
             _stops(block),
             *(function(read(f), f.name()) for f in (block.rates, block.observed)),
-            *(function(read(forward(f)), f"{f.name()}_forward") for f in (block.rates, block.observed)),
+            f"#define LOOPS {len(loops)}",
+            *(function(read(f), f.name()) for f in loops),
+            *(function(read(forward(f)), f"{f.name()}_forward") for f in (block.rates, block.observed, *loops)),
         ]
     )
 
