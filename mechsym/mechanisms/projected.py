@@ -6,9 +6,9 @@ r"""Motion of a mechanism with loops from all of its coordinates, without a choi
 .. math:: \ddot q = a - A^{-1} J^T S^{-1} (J a + \gamma), \qquad a = A^{-1} (Q - h)
 
 A fixed number of Newton's steps from the last pose, so that it can be written as code; no dead point of a coordinate
-disturbs it. Where the loops lose rank, what they do not determine stays as it is. What is off the loops is taken away in
-the metric of the masses, as their forces would: none of it turns into motion along them. With the stiffness kappa of the
-loops a rod without mass has some.
+disturbs it. Where the loops lose rank, what they do not determine stays as it is. What is off the loops is taken away
+in the metric of the masses, as their forces would: none of it turns into motion along them. With the stiffness kappa of
+the loops a rod without mass has some.
 """
 
 from collections.abc import Callable

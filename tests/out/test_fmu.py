@@ -448,8 +448,10 @@ def test_twenty_flat_poses_of_a_parallelogram_are_passed_as_in_closed_form(tmp_p
         Path("flat.toml").write_text(FLAT_CASE.format(start=start, speed=speed))
         done = CliRunner().invoke(mechsym, ["fmu", "flat.toml", "--out", "f.fmu", "--platforms", "linux64"])
         assert done.exit_code == 0, (done.output, done.exception)
-        swing = scipy.integrate.solve_ivp(lambda t, y: [y[1], -9.81 * 0.2 * np.cos(y[0]) / 0.06], (0, 6), [start, speed],
-                                          method="DOP853", rtol=1e-13, atol=1e-13, t_eval=t)  # fmt: skip
+        swing = scipy.integrate.solve_ivp(
+            lambda t, y: [y[1], -9.81 * 0.2 * np.cos(y[0]) / 0.06], (0, 6), [start, speed], method="DOP853", rtol=1e-13,
+            atol=1e-13, t_eval=t,
+        )  # fmt: skip
         with driven(Path("f.fmu"), "cs", 1e-12) as unit:
             phi = [unit.states()[0]]
             for now, until in zip(t[:-1], t[1:], strict=True):

@@ -247,6 +247,8 @@ def _solved(
 class _Importer(scipy.integrate.DOP853):
     """DOP853 that tells the unit of each step, as an importer does, and goes on from where it is put back."""
 
+    y: np.ndarray
+
     def __init__(self, *arguments: Any, unit: Driven, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self.unit = unit

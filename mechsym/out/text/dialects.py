@@ -58,7 +58,8 @@ def of_block(block: Block) -> Written:
     names += [f"switch_{i + 1}" for i in range(len(block.switches))]
     ports = (*block.states, *block.inputs, *block.parameters, *block.outputs)
     return Written(
-        name=block.name, about=block.about, tapes={f.name(): read(block.whole(f)) for f in (block.rates, block.observed)},
+        name=block.name, about=block.about,
+        tapes={f.name(): read(block.whole(f)) for f in (block.rates, block.observed)},
         inputs={"rates": tuple(names), "observed": tuple(names)},
         outputs={"rates": tuple(f"der_{s.name}" for s in block.states),
                  "observed": tuple(p.name for p in block.outputs)},
