@@ -244,7 +244,7 @@ def _solved(
     )  # fmt: skip
 
 
-class _Importer(scipy.integrate.DOP853):
+class _Importer(scipy.integrate.DOP853):  # type: ignore[misc]  # scipy has no types
     """DOP853 that tells the unit of each step, as an importer does, and goes on from where it is put back."""
 
     y: np.ndarray
