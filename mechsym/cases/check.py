@@ -1,4 +1,4 @@
-"""All problems of a case file at once, and what each command still lacks; nothing of the file is executed.
+"""All problems of a case file at once, and what each command still lacks; no program of a stranger is run for it.
 
 A case that is loaded stops at its first problem; someone who writes one wants to see them all; and what a case says
 that nothing reads.
@@ -20,6 +20,7 @@ from mechsym.cases.older import renewed
 from mechsym.cases.values import convert, without_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
+from mechsym.files.trust import is_own
 from mechsym.mechanisms import own
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
@@ -50,7 +51,8 @@ def check_file(name: str, trust: bool = False) -> Checked:
     """Check a case.
 
     name: name of a built-in case or a path to a TOML file; trust: whether a mechanism file that the case names may be
-    run to learn its letters. Raises BadInput: there is no such file.
+    run to learn its letters; within a command those that are the user's own may. Raises BadInput: there is no such
+    file.
     """
     text = cases.text(name)
     try:
@@ -65,6 +67,7 @@ def check_file(name: str, trust: bool = False) -> Checked:
     sections = {k: v for k, v in tables.items() if k not in (*HEAD, "doubts")}
     if mechanism is not None and own.is_file(mechanism):
         sections.setdefault("parameters", {})
+        trust = trust or is_own(own.file_of(mechanism)[0].resolve())
     untold = mechanism is None or (own.is_file(mechanism) and not trust)
     skipped = tuple(s for s in sections if s in schema.LETTERS) if untold else ()
     problems, records = [*head], dict[str, Record]()

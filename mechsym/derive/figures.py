@@ -84,7 +84,8 @@ def _link(m: Declaration, link: Link) -> None:
 
 def _pin(m: Declaration, joint: Joint, mark: Expr) -> None:
     for point in (joint.first, joint.second):
-        for corners in _GROUND if point.link is m.frame else ():
+        stands = point.link is m.frame and not (point.u.free_symbols | point.v.free_symbols) & set(m.q)
+        for corners in _GROUND if stands else ():
             places = [(point.u + mark * Rational(x, 10), point.v + mark * Rational(y, 10)) for x, y in corners]
             m.draw_line(*places, role="frame")
 

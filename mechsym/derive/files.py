@@ -72,7 +72,7 @@ def _imports_beside(path: Path) -> Iterator[None]:
 
 def _refusal(path: Path, error: BaseException) -> BadInput:
     """What a file raised, in one line with its place."""
-    frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename) == path]
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename) == path.resolve()]
     line = error.lineno if isinstance(error, SyntaxError) else frames[-1].lineno if frames else None
     place = f"{path.name}:{line}: " if line else f"{path.name}: "
     text = " ".join(str(error).split()) or "no message"
@@ -95,17 +95,18 @@ def _way_out(error: BaseException) -> str:
     return f"; write {'Mechanism' if name == '__init__' else name}{shown}"
 
 
-def declared_in(path: Path) -> dict[str, Declaration]:
+def declared_in(path: Path, wanted: str = "") -> dict[str, Declaration]:
     """The mechanisms of a file: what its functions without arguments return, or what stands in it.
 
-    path: a Python file. Returns mechanisms: by name, in the order of the file.
+    path: a Python file; wanted: name of the one that is needed, beside which others may be refused. Returns mechanisms:
+    by name, in the order of the file.
 
     Raises
     ------
     BadInput
-        It declares none, or two of one name
+        It declares none, or two of one name, or what it declares is refused
     """
-    module = run(path)
+    module, refused = run(path), list[BadInput]()
     units = getattr(module, "units", {})
     declared = [d for name, value in vars(module).items() if (d := _declaration(path, name, value, units))]
     for name, value in vars(module).items():
@@ -116,9 +117,12 @@ def declared_in(path: Path) -> dict[str, Declaration]:
                 with contextlib.redirect_stdout(sys.stderr):
                     returned = value()
             except (Exception, SystemExit) as error:
-                raise _refusal(path, error) from None
+                refused.append(_refusal(path, error))
+                continue
             declared += [d] if (d := _declaration(path, name, returned, units)) else []
     by_name = {m.name: m for m in declared}
+    if refused and wanted not in by_name:
+        raise refused[0]
     if not declared:
         raise BadInput(f"{path} declares no mechanism; write a function that makes one and returns it")
     if len(by_name) < len(declared):
@@ -146,7 +150,7 @@ def chosen(path: Path, name: str = "") -> Declaration:
     BadInput
         None of that name, or several and no name
     """
-    declared = declared_in(path)
+    declared = declared_in(path, name)
     if not name and len(declared) > 1:
         raise BadInput(f"{path} declares {', '.join(declared)}; choose one: {path.name}:{next(iter(declared))}")
     if name and name not in declared:

@@ -153,8 +153,9 @@ def _held(m: Declaration) -> dict[str, Any]:
 
 def _require_mass(m: Declaration, mass: list[list[Expr]]) -> None:
     for i, q in enumerate(m.q):
-        # a dependent coordinate may move without mass, as a massless rod does
-        if mass[i][i].is_zero and (q not in m.dependent_list or all(row[j].is_zero for j, row in enumerate(mass))):
+        # what a loop moves may have no mass of its own, as a massless rod or the length of a cylinder
+        held = any(not m.tape.diff(g, q).is_zero for g in m.constraints.values())
+        if mass[i][i].is_zero and (not held or all(row[j].is_zero for j, row in enumerate(mass))):
             why = f"nothing that moves with {q} has a mass; give a body on it a mass or an inertia"
             refuse(why, m.where[q.name])
 

@@ -40,7 +40,8 @@ class Side:
         nobody = "chosen by nobody: say pose= or branch= if it is the other"
         why = {"branch": "as declared", "pose": "by the pose"}.get(self.by, nobody)
         near = "" if self.condition is None else f"; condition {self.condition:.2g} in the pose, 0 in a dead point"
-        return f"{' and '.join(self.links)} close at the joint {self.joint}, branch = {self.branch} ({why}{near})"
+        closing = f"{' and '.join(self.links)} {'close' if len(self.links) > 1 else 'closes'}"
+        return f"{closing} at the joint {self.joint}, branch = {self.branch} ({why}{near})"
 
 
 def choose(m: Linkage, joints: Sequence[Joint], links: tuple[Link, ...], entries: Sequence[Symbol]) -> Side | None:

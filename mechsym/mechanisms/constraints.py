@@ -53,7 +53,10 @@ def close(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]
         given = ", ".join(n for n in q if n in values) or "none"
         gapped = f" (gap {np.abs(gap).max():.3g})" if np.isfinite(gap).all() else ""
         follow = ", ".join(n for n in q if n in values and n in guesses)
+        away = ", ".join(f"{n}=.." for n in q if n not in values and n not in guesses)
         way_out = f"give another pose, or leave {follow} to follow" if follow else "give another pose"
+        if away and guesses:
+            way_out = f"say where it stands: m.pose({away}), [start] of a case, or --set of eval"
         raise BadInput(f"{mechanism.name}: the loop does not close with {given} given{gapped}; {way_out}")
     rates = _rates(mechanism, jacobian, [values.get(n) for n in u])
     return dict(values) | dict(zip(q, position, strict=True)) | dict(zip(u, rates, strict=True))

@@ -56,14 +56,23 @@ def _view(drawn: Callable[[float], Shapes], i: int, j: int) -> Callable[[float],
 
 def figure(mechanism: str, parameters: Record, angle: Radian, bore: Metre | None = None) -> "Figure":
     """One drawing with a scale. bore: diameter of the cylinders."""
-    return figure_of(lambda at: shapes(mechanism, parameters, at, bore), angle)
+    return figure_of(lambda at: shapes(mechanism, parameters, at, bore), angle, standing=_standing(mechanism, angle))
 
 
-def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -> "Figure":
-    """One drawing with a scale, at a crank angle [rad]."""
+def _standing(mechanism: str, value: float) -> str:
+    """Where a mechanism stands, by its first coordinate [rad] or [m]."""
+    name, unit = next(iter(own.load(mechanism).listing["coordinates"].items())) if own.is_file(mechanism) else ("", "")
+    if unit != "m":
+        return f"crank at {math.degrees(value):.0f} deg"
+    factor, shown = axis_unit("m", value)
+    return f"{name} = {value * factor:.4g} {shown}"
+
+
+def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "", standing: str = "") -> "Figure":
+    """One drawing with a scale, at a crank angle [rad]; standing: what is written beside the scale."""
     from matplotlib.figure import Figure
 
-    degrees = f"{math.degrees(angle):.0f} deg"
+    standing = standing or f"crank at {math.degrees(angle):.0f} deg"
     if any(shape.space for shape in drawn(angle)):
         picture = Figure(figsize=(7.6, 6.8), layout="constrained")
         grid = picture.subplots(2, 2)
@@ -83,13 +92,13 @@ def figure_of(drawn: Callable[[float], Shapes], angle: float, title: str = "") -
         picture = Figure(figsize=inches, layout="constrained")
         axes = picture.add_subplot()
         _paint(axes, drawn, angle)
-    picture.set_label(title or f"The mechanism to scale, crank at {degrees}")
-    _scale(axes, drawn, degrees)
+    picture.set_label(title or f"The mechanism to scale, {standing}")
+    _scale(axes, drawn, standing)
     return picture
 
 
-def _scale(axes: "Axes", drawn: Callable[[float], Shapes], degrees: str) -> None:
-    """A length below a drawing, and the crank angle."""
+def _scale(axes: "Axes", drawn: Callable[[float], Shapes], standing: str) -> None:
+    """A length below a drawing, and where it stands."""
     left, right, low, high = extent_of(drawn)
     wide, tall = right - left, high - low
     step = 10 ** math.floor(math.log10(max(wide, tall / 4) / 3))
@@ -98,7 +107,7 @@ def _scale(axes: "Axes", drawn: Callable[[float], Shapes], degrees: str) -> None
     axes.plot([left, left + length], [y, y], color=INK, lw=1.5, marker="|")
     axes.set_ylim(bottom=y - pad)
     factor, unit = axis_unit("m", length)
-    label = f"{length * factor:.4g} {unit}, crank at {degrees}"
+    label = f"{length * factor:.4g} {unit}, {standing}"
     axes.text(left + length + pad, y, label, va="center", fontsize=8, color=INK)
 
 
@@ -130,4 +139,4 @@ def assembled(name: str) -> tuple[str, str]:
     drawn = turning if turning and turns_round(turning) else declared(mechanism, said, lambda _: at)
     if drawn is None:
         raise BadInput(f"{name} has nothing to draw; give it links and joints, or m.draw_line")
-    return said["name"], svg(figure_of(drawn, at[0]), said["name"])
+    return said["name"], svg(figure_of(drawn, at[0], standing=_standing(name, at[0])), said["name"])
