@@ -166,6 +166,17 @@ def finish(m: Declaration) -> None:
             refuse(f"{why} ({', '.join(map(str, m.dependent_list))}); add a joint or declare a coordinate", last.where)
         why = f"{-free} constraint(s) too many: the joint {closed[-1].name!r} or another holds what is held"
         refuse(f"{why}; leave one of them away, or free a link", closed[-1].where)
+    _require_free(m, closed)
+
+
+def _require_free(m: Declaration, joints: list[Joint]) -> None:
+    """Refuse joints that hold what the declaration lets move freely, and nothing else."""
+    for name, gap in m.constraints.items():
+        joint = next((j for j in joints if name == j.name or name.endswith(f"_{j.name}")), None)
+        if joint is not None and all(m.tape.diff(gap, q).is_zero for q in m.dependent_list):
+            held = ", ".join(str(q) for q in m.q if not m.tape.diff(gap, q).is_zero)
+            why = f"the joint {joint.name!r} holds {held}, which is to move freely"
+            refuse(f"{why}; leave it away, or let the link hang on {joint.first.link.name} otherwise", joint.where)
 
 
 def _require_held(m: Declaration) -> None:

@@ -4,6 +4,7 @@ import contextlib
 import importlib
 import importlib.util
 import inspect
+import re
 import sys
 import traceback
 from collections.abc import Iterator
@@ -75,7 +76,8 @@ def _refusal(path: Path, error: BaseException) -> BadInput:
     frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename) == path.resolve()]
     line = error.lineno if isinstance(error, SyntaxError) else frames[-1].lineno if frames else None
     place = f"{path.name}:{line}: " if line else f"{path.name}: "
-    text = " ".join(str(error).split()) or "no message"
+    # methods by the names that a file calls
+    text = re.sub(r"\b[A-Z]\w+\.(?=\w+\(\))", "", " ".join(str(error).split())) or "no message"
     if isinstance(error, BadInput):
         return BadInput(text if text.startswith(f"{path.name}:") else place + text)
     return BadInput(f"{place}{type(error).__name__}: {text}{_way_out(error)}")
@@ -86,6 +88,8 @@ def _way_out(error: BaseException) -> str:
     if isinstance(error, AttributeError) and isinstance(error.obj, (Declaration, Link)):
         kind = type(error.obj)
         return f"; {suggest(str(error.name), [n for n in dir(kind) if not n.startswith('_')])}"
+    if isinstance(error, TypeError) and "expression to float" in str(error):
+        return "; take sin, cos, sqrt and pi from mechsym.derive, not from math"
     owner, dot, name = str(error).partition("()")[0].rpartition(".")
     called = getattr(Link if owner == "Link" else Declaration, name, None)
     if not isinstance(error, TypeError) or not dot or called is None:
@@ -106,7 +110,7 @@ def declared_in(path: Path, wanted: str = "") -> dict[str, Declaration]:
     BadInput
         It declares none, or two of one name, or what it declares is refused
     """
-    module, refused = run(path), list[BadInput]()
+    module, refused, strays = run(path), list[BadInput](), list[str]()
     units = getattr(module, "units", {})
     declared = [d for name, value in vars(module).items() if (d := _declaration(path, name, value, units))]
     for name, value in vars(module).items():
@@ -120,14 +124,21 @@ def declared_in(path: Path, wanted: str = "") -> dict[str, Declaration]:
                 refused.append(_refusal(path, error))
                 continue
             declared += [d] if (d := _declaration(path, name, returned, units)) else []
+            strays += [] if d else [f"{value.__code__.co_firstlineno}: {name}() returns {_kind(returned)}"]
     by_name = {m.name: m for m in declared}
     if refused and wanted not in by_name:
         raise refused[0]
     if not declared:
+        if strays:
+            raise BadInput(f"{path.name}:{', '.join(strays)}, no mechanism; end it with `return m`")
         raise BadInput(f"{path} declares no mechanism; write a function that makes one and returns it")
     if len(by_name) < len(declared):
         raise BadInput(f"{path} declares two mechanisms of one name ({', '.join(m.name for m in declared)})")
     return by_name
+
+
+def _kind(value: object) -> str:
+    return "nothing" if value is None else f"a {type(value).__name__}"
 
 
 def _declaration(path: Path, name: str, value: object, units: object) -> Declaration | None:

@@ -49,6 +49,8 @@ class Letters:
     def coordinates(self, names: str, unit: str = "rad") -> Symbol | list[Symbol]:
         """Declare generalised coordinates, names separated by spaces; one symbol, or a list in the order given."""
         symbols = self._symbols(names, unit)
+        if "t" in {s.name for s in symbols}:
+            refuse("'t' is the time of every run; give the coordinate another name")
         for rate in (f"{s.name}{ending}" for s in symbols for ending in ("d", "dd")):
             if rate in self.units:
                 refuse(f"{rate!r} is the name of a rate of the coordinate {rate.rstrip('d')!r}; rename one of them")

@@ -232,7 +232,7 @@ class Linkage(Letters):
                 continue
             unit = "rad" if link is not None else self.units[name]
             self.poses[known_as] = number = self._posed(value, unit, f"pose of {name}")
-            if unit == "rad" and not isinstance(value, str) and abs(number) > _FAR:
+            if unit == "rad" and abs(number) > _FAR and not (isinstance(value, str) and any(map(str.isalpha, value))):
                 refuse(f"the pose of {name} = {value} is in rad; write degrees as '{value} deg'")
 
     def pin(self, name: str, first: object, second: object, *, branch: int = 0) -> None:

@@ -92,8 +92,49 @@ def test_a_bad_declaration_is_refused_with_its_line(tmp_path, kind):
 def test_a_file_without_a_mechanism_is_refused(tmp_path):
     path = tmp_path / "none.py"
     path.write_text("def nothing():\n    return None\n")
+    with pytest.raises(BadInput, match=r"none\.py:1: nothing\(\) returns nothing, no mechanism; end it with"):
+        chosen(path)
+    path.write_text("values = 3\n")
     with pytest.raises(BadInput, match="declares no mechanism"):
         chosen(path)
+
+
+FOUR = """from mechsym.derive import Mechanism
+import math
+
+
+def four():
+    m = Mechanism("four")
+    phi = m.coordinates("phi")
+    crank = m.link("crank", turns=phi, inertia="0.1 kg*m^2", pose="40 deg")
+    rod = m.link("rod", mass="1 kg", centre=("0.17 m", 0), inertia=0.01, pose="20 deg")
+    rocker = m.link("rocker", mass="1 kg", centre=("0.12 m", 0), inertia=0.01, pose="80 deg")
+    m.pin("A", m.frame, crank)
+    m.pin("B", crank.at("100 mm"), rod)
+    m.pin("D", m.frame.at("300 mm"), rocker)
+    m.pin("C", rod.at("350 mm"), rocker.at("250 mm"))
+    m.torque(m.inputs("M", "N*m"), along=phi)
+    return m
+"""
+
+
+@pytest.mark.parametrize(
+    ("words", "instead", "line", "message"),
+    [
+        ('m.pin("A", m.frame, crank)', 'm.slider("A", m.frame, crank)', 11, "holds phi, which is to move freely"),
+        ('pose="40 deg"', 'pose="40"', 8, "write degrees as"),
+        ('coordinates("phi")', 'coordinates("t")', 7, "'t' is the time"),
+        ("turns=phi", "turns=math.sin(phi)", 8, "sin, cos, sqrt and pi from mechsym.derive"),
+        ("turns=phi", "turn=phi", 8, "link() got an unexpected keyword argument 'turn'; write link(name"),
+        ("return m", "return phi", 5, "four() returns a Symbol, no mechanism"),
+    ],
+)
+def test_a_slip_in_a_linkage_is_refused_with_its_line(tmp_path, words, instead, line, message):
+    path = tmp_path / "four.py"
+    path.write_text(FOUR.replace(words, instead, 1))
+    with pytest.raises(BadInput) as refused:
+        derive(chosen(path))
+    assert str(refused.value).startswith(f"four.py:{line}: ") and message in str(refused.value)
 
 
 def test_what_a_file_prints_is_no_result(tmp_path, capsys):
