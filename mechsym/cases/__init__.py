@@ -19,7 +19,7 @@ from mechsym.cases import schema
 from mechsym.cases.doubts import acceptances, judged
 from mechsym.cases.laws import Records
 from mechsym.cases.older import renewed
-from mechsym.cases.values import Place, convert, override, paths, place, without_unit
+from mechsym.cases.values import Place, convert, flat, override, paths, place, without_unit
 from mechsym.errors import BadInput, MissingSection, shown, suggest
 from mechsym.files import Json
 from mechsym.files.inputs import read_text
@@ -110,7 +110,7 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
     """
     file, head, sections = _raw(name, overrides)
     try:
-        tables, notes = renewed(_tables(*_read(name)))
+        tables, notes = renewed(flat(_tables(*_read(name))))
         accepted = acceptances(tables.get("doubts", {}))
         # the points of a sweep differ in one section; a mechanism of the user's own may change its parameters
         one = _record_of if own.is_file(head["mechanism"]) else _record_once
@@ -169,7 +169,7 @@ def locate(name: str, key: str, overrides: Mapping[str, object] | None = None, o
 def _raw(name: str, overrides: Mapping[str, object] | None) -> tuple[str, dict[str, str], Json]:
     """File, head and sections of a case with what is replaced, not yet checked."""
     file, content = _read(name)
-    tables, _ = renewed(_tables(file, content))
+    tables, _ = renewed(flat(_tables(file, content)))
     usual = {"source": "own", "about": ""} if own.is_file(str(tables.get("mechanism"))) else {}
     head = {}
     for key in HEAD:

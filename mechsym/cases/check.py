@@ -17,7 +17,7 @@ from mechsym.cases.keys import required, takes
 from mechsym.cases.laws import Records
 from mechsym.cases.needs import COMMANDS, in_words, lacking, read_by
 from mechsym.cases.older import renewed
-from mechsym.cases.values import convert, without_unit
+from mechsym.cases.values import convert, flat, without_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
 from mechsym.files.trust import is_own
@@ -56,7 +56,7 @@ def check_file(name: str, trust: bool = False) -> Checked:
     """
     text = cases.text(name)
     try:
-        tables, notes = renewed(tomllib.loads(text))
+        tables, notes = renewed(flat(tomllib.loads(text)))
     except (ValueError, RecursionError) as error:
         return Checked(problems=(CaseProblem(key="", why=f"not valid TOML: {error}"),), commands={}, reasons={})
     head, mechanism = list(_head(tables)), tables.get("mechanism")

@@ -13,6 +13,7 @@ from mechsym.cases.older import RENAMED
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
 from mechsym.quantities import parse, record, units
+from mechsym.quantities.owned import letter_of
 from mechsym.quantities.ranges import values
 from mechsym.quantities.records import Field, Record
 
@@ -52,10 +53,11 @@ def _single(field: Field, kind: object, value: object, key: str) -> Any:
 
 
 def without_unit(key: str, value: object, fields: Mapping[str, Field]) -> tuple[str, Any]:
-    """A key that names its unit, as the key alone and a value with that unit.
+    """A key that names its unit, as the key alone and a value with that unit; one with a dot as its letter.
 
     value: a number, or a list of numbers. Returns key: str, name of a field, or the key as it is.
     """
+    key = letter_of(key, fields)
     stem, _, unit = key.rpartition("_")
     if key in fields or unit not in units() or "unit" not in getattr(fields.get(stem), "metadata", ()):
         return key, value
@@ -74,9 +76,7 @@ class Place:
 
 def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
     """Find the field of a dotted key, or of a bare one that is unique. option: where it was written, for messages."""
-    section, dot, name = RENAMED.get(key, (key, ""))[0].partition(".")
-    if not dot:
-        section, name = _home(tables, mechanism, key, option), key
+    section, name = _divided(tables, mechanism, key, option)
     # a section that is left out has its defaults, unless a key has to choose its record first
     known = section in schema.sections()
     table = tables.get(section, None if schema.selector(section) else {}) if known else None
@@ -95,9 +95,7 @@ def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
 
 def override(tables: Json, mechanism: str, key: str, value: object) -> None:
     """Replace one value, by its dotted key or a bare one that is unique. tables: raw values; changed in place."""
-    section, dot, name = RENAMED.get(key, (key, ""))[0].partition(".")
-    if not dot:
-        section, name = _home(tables, mechanism, key, "--set"), key
+    section, name = _divided(tables, mechanism, key, "--set")
     table = tables.setdefault(section, {})
     if not isinstance(table, dict):
         raise BadInput(f"--set {key}: {section!r} is no section; {suggest(section, schema.sections())}")
@@ -106,10 +104,36 @@ def override(tables: Json, mechanism: str, key: str, value: object) -> None:
     table.pop(stem if stem in table and name not in table and unit in units() else name, None)
     for other in [k for k in table if k.rpartition("_")[0] == name and k.rpartition("_")[2] in units()]:
         table.pop(other)
+    for other in [k for k in table if letter_of(k, {name}) != k]:
+        table.pop(other)
     table[name] = value
     # another variant has other keys; those that only the old one knew go with it
     for gone in before - (_keys(mechanism, section, table) if before else set()):
         table.pop(gone, None)
+
+
+def _divided(tables: Json, mechanism: str, key: str, option: str) -> tuple[str, str]:
+    """Section and name of a dotted key, of a bare one that is unique, or of a letter of a link or a joint."""
+    section, dot, name = RENAMED.get(key, (key, ""))[0].partition(".")
+    if dot and section not in schema.sections() and section not in tables:
+        for letters in schema.LETTERS:
+            if (letter := letter_of(key, _keys(mechanism, letters, {}))) != key:
+                return letters, letter
+    if dot and section in schema.LETTERS:
+        name = letter_of(name, _keys(mechanism, section, {}))
+    return (section, name) if dot else (_home(tables, mechanism, key, option), key)
+
+
+def flat(tables: Json) -> Json:
+    """Tables of a case whose letters have no tables of their own: TOML reads `rod.mass = 2` as one of a table rod."""
+    new = dict(tables)
+    for section in schema.LETTERS:
+        if isinstance(table := new.get(section), dict):
+            new[section] = {}
+            for key, value in table.items():
+                inner = value if isinstance(value, dict) else {}
+                new[section] |= {f"{key}.{k}": v for k, v in inner.items()} or {key: value}
+    return new
 
 
 def _home(tables: Json, mechanism: str, key: str, option: str) -> str:

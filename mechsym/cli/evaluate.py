@@ -57,6 +57,7 @@ def _read(
     from mechsym import cases, mechanisms
     from mechsym.plausible import letters as doubted
     from mechsym.quantities import parse
+    from mechsym.quantities.owned import letter_of
 
     cls, parameters = mechanisms.parameters_class(name), {}
     if case_name is not None:
@@ -66,6 +67,7 @@ def _read(
             raise BadInput(f"{case.file} is a case of {case.mechanism}, not of {name}; choose another with --case")
         parameters = dataclasses.asdict(own)
     letters = mechanisms.listing(name)["parameters"]
+    given = {letter_of(key, letters): text for key, text in given.items()}
     parameters |= {k: parse(t, letters[k], f"--set {k}") for k, t in given.items() if k in letters}
     fields = dataclasses.fields(cls)
     missing = [f.name for f in fields if f.name not in parameters and f.default is dataclasses.MISSING]
@@ -76,7 +78,7 @@ def _read(
     units = listing["coordinates"] | listing["inputs"]
     units |= {f"{q}d{k}": f"{unit}/{by}" for q, unit in listing["coordinates"].items() for k, by in _RATES}
     values = {}
-    for key, text in given.items():
+    for key, text in ((letter_of(key, units), text) for key, text in given.items()):
         if key in units:
             values[key] = parse(text, units[key], f"--set {key}")
         elif key not in letters:

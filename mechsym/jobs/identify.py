@@ -20,6 +20,7 @@ from mechsym.optimise.fit import TracedMotion
 from mechsym.optimise.identify import Identified
 from mechsym.optimise.identify import identify as solve
 from mechsym.optimise.trace import Trace, read_trace
+from mechsym.quantities.owned import letter_of
 from mechsym.simulate.settings import StepTorque
 
 # forces or torques on the first coordinate against its motion: constant, and proportional to its speed
@@ -55,6 +56,7 @@ def _model(case: Case, trace: Trace, free: tuple[str, ...]) -> TracedMotion:
     known, units = _parameters(case)
     turning = tuple(unit == "rad" for unit in mechanisms.listing(case.mechanism)["coordinates"].values())
     units |= FRICTION if turning[0] else _SLIDING
+    free = tuple(letter_of(name, units) for name in free)
     for name in free:
         if name not in units or free.count(name) > 1:
             raise BadInput(f"--free {name}: name each parameter once; {suggest(name, list(units))}")

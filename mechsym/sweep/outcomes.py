@@ -12,6 +12,7 @@ from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.mechanisms.shaft import ElasticShaft
 from mechsym.quantities import record, results
+from mechsym.quantities.owned import letter_of
 from mechsym.quantities.results import Columns, names_of, part, some, units_of, walk
 from mechsym.simulate import Result
 from mechsym.simulate.result import RunNumbers
@@ -168,7 +169,7 @@ def kept(row: Mapping[str, float | str], show: Sequence[str]) -> dict[str, float
 def asked(name: str, show: str) -> bool:
     """Whether a name or group that is shown means a result, whose name may carry its unit."""
     name = name.partition(" [")[0]
-    return name == show or name.startswith(f"{show}.")
+    return name == letter_of(show, {name}) or name.startswith(f"{show}.")
 
 
 def forces(case: Case) -> "ForceNumbers":
