@@ -11,6 +11,7 @@ from mechsym.derive.refuse import refuse
 Dimension = tuple[Rational | int, ...]
 PURE: Dimension = (0, 0, 0, 0)
 _BASE = ("kg", "m", "s", "K")
+_NAMED = {of: unit for unit in ("N", "N*m", "Pa", "W", "N/m", "N*s/m", "N*m*s") for of in [quantities.dimension(unit)]}
 
 
 def of_unit(unit: str) -> Dimension:
@@ -19,7 +20,9 @@ def of_unit(unit: str) -> Dimension:
 
 
 def in_words(dimension: Dimension) -> str:
-    """Exponents of kg, m, s, K as a unit that people write: ``kg*m^2/s^2``, ``-`` for a pure number."""
+    """Exponents of kg, m, s, K as a unit that people write: ``N*m``, ``kg*m^2``, ``-`` for a pure number."""
+    if tuple(dimension) in _NAMED:
+        return _NAMED[tuple(dimension)]
 
     def product(powers: list[tuple[str, Rational | int]]) -> str:
         return "*".join(b if p == 1 else f"{b}^{p}" for b, p in powers)

@@ -90,7 +90,7 @@ SLIPS = {
     "m.joints('p q', 'a on b', reactions='R_x')": "'R_x' names 1: name each",
     "output(m, phi, order=3)": "derivatives of order 0, 1 or 2",
     "output(phi)": "phi is no mechanism; write output(m, x, order=2)",
-    "output_dynamic(m, 'q', F, 'm')": "is in kg*m/s^2, and must be in m",
+    "output_dynamic(m, 'q', F, 'm')": "is in N, and must be in m",
     "output_dynamic(m, 'R_x_O', F, 'N')": "the name 'R_x_O' is taken",
     "m.piston('p', travel=r, force=F)": "travel_p = r moves with no coordinate",
     "m.piston('p', travel=x, force=T)": "takes T, which is no input in N; there are F",
