@@ -254,7 +254,8 @@ class Letters:
 
     def _sized(self, value: object, unit: str, name: str, what: str) -> Expr:
         """An expression, or the letter that a number with a unit makes: a parameter of that default value."""
-        if not isinstance(value, (str, float)) or value == 0.0:
+        whole = isinstance(value, int) and not isinstance(value, bool) and self._unit(unit) != PURE
+        if not (isinstance(value, (str, float)) or whole) or value == 0:
             return self._checked(Integer(0) if isinstance(value, float) else value, unit, what)
         number = self._posed(value, unit, what)
         letter = next((s for s, of in self.sizes.items() if of == (name, unit, number)), None)

@@ -118,6 +118,23 @@ def four():
 """
 
 
+def test_a_whole_number_is_a_number(tmp_path):
+    path = tmp_path / "four.py"
+    words = {
+        'mass="1 kg"': "mass=1",
+        '"300 mm"': "1",
+        '"350 mm"': "1",
+        '"250 mm"': "1",
+        "along=phi)\n": "along=phi)\n    m.weight(0, -10)\n",
+    }
+    text = FOUR
+    for old, new in words.items():
+        text = text.replace(old, new)
+    path.write_text(text)
+    declared = chosen(path)
+    assert derive(declared) and declared.ranges["weight_y"]["default"] == -10
+
+
 @pytest.mark.parametrize(
     ("words", "instead", "line", "message"),
     [
