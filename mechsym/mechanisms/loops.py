@@ -22,6 +22,7 @@ from mechsym.quantities.units import Metre, Radian
 
 _STEPS = 3  # of Newton's method from a guess
 _CLOSED = 1e-12  # relative to the size of the coordinates
+_DYNAMICS = ["mass_matrix", "bias", "generalized_force"]  # results of that function
 _STRIDE = 0.02  # of what is given, from pose to pose [rad] or [m]
 
 
@@ -202,9 +203,6 @@ def reduced(mechanism: Mechanism) -> tuple[Mechanism, int]:
             group, letters, list(at_pose.call([*letters, pose])), [x.name() for x in letters], names
         )
     return replace(mechanism, coordinates=(driver,), functions=functions, dependents={}), turns
-
-
-_DYNAMICS = ["mass_matrix", "bias", "generalized_force"]
 
 
 def _along(

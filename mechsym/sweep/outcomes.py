@@ -71,7 +71,8 @@ class Outcomes(Sequence[Any]):
             if names not in self._names:
                 self._names.append(names)
                 self._blocks.append([])
-            number, blocks = self._names.index(names), self._blocks[self._names.index(names)]
+            number = self._names.index(names)
+            blocks = self._blocks[number]
             self._table[places] = number
             self._row[places] = sum(map(len, blocks)) + np.arange(len(places))
             blocks.append(np.array(rows, dtype=object if any(name in WORDS for name in names) else float))
