@@ -160,9 +160,10 @@ def ended(mechanism: Mechanism, raw: Raw) -> Raw:
         return raw
     last, n = int(np.flatnonzero(whole)[-1]), len(mechanism.coordinates)
     q, u = np.split(raw.y[last, : 2 * n], 2)
-    locked = opens(mechanism, q, u)
-    if not locked and not at_pole(mechanism, q):
+    locked, pole = opens(mechanism, q, u), at_pole(mechanism, q)
+    if not locked and not pole:
         return raw
+    locked = locked or "sides" in mechanism.functions  # at a dead point of a closed form the masses come to a pole too
     end = constrained.LOCKED if locked else POLE
     return replace(raw, t=raw.t[: last + 1], y=raw.y[: last + 1], end=end, failure="")
 

@@ -24,7 +24,7 @@ def test_every_block_of_the_page_runs(tmp_path):
                 done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
                 assert done.returncode == 0, (line, done.stderr)
                 ran += 1
-    assert ran == 15
+    assert ran == 16
     shown = set(re.findall(r"\(pictures/(\w+)\.svg\)", PAGE.read_text()))
     assert all((PAGE.parent / "pictures" / f"{name}.svg").is_file() for name in shown)
     assert (tmp_path / "forces" / "mechanism.html").is_file()

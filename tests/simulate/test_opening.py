@@ -1,6 +1,8 @@
 """A closed form that has no pose beyond an angle: the run ends there with the event `locked`, not as a failure."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -72,3 +74,16 @@ def test_a_run_of_a_case_goes_on_where_the_closed_form_ends(tmp_path, b, kind):
                                    (np.pi * np.arange(1, 5) - 0.3) / 3, rtol=0, atol=1e-9)  # fmt: skip
     else:
         assert np.abs(phi).max() == pytest.approx(LOCKS, abs=1e-3)
+
+
+@pytest.mark.slow
+def test_a_robot_of_two_freedoms_goes_on_where_its_closed_form_ends(tmp_path):
+    """Its rods come to lie in one line: the masses of the closed form grow beyond all bounds there."""
+    page = (Path(__file__).parents[2] / "docs" / "own-mechanism.md").read_text()
+    (tmp_path / "robot.py").write_text(re.search(r"```python file=robot\.py\n(.*?)```", page, re.DOTALL)[1])
+    (tmp_path / "robot.toml").write_text(
+        'mechanism = "./robot.py"\n[start]\nleft = "120 deg"\nright = "60 deg"\n'
+        '[drive]\ninput = "M_left"\ntorque = 3\n[simulation]\nt_end = "1.5 s"\n'
+    )
+    found = run(cases.load(str(tmp_path / "robot.toml"))).result
+    assert (found.status, found.end) == ("converged", "t_end") and abs(found.energy.residual) < 1e-8
