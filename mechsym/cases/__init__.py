@@ -110,7 +110,7 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
     """
     file, head, sections = _raw(name, overrides)
     try:
-        tables, notes = renewed(flat(_tables(*_read(name))))
+        tables, notes = renewed(_tables(*_read(name)))
         accepted = acceptances(tables.get("doubts", {}))
         # the points of a sweep differ in one section; a mechanism of the user's own may change its parameters
         one = _record_of if own.is_file(head["mechanism"]) else _record_once
@@ -169,7 +169,7 @@ def locate(name: str, key: str, overrides: Mapping[str, object] | None = None, o
 def _raw(name: str, overrides: Mapping[str, object] | None) -> tuple[str, dict[str, str], Json]:
     """File, head and sections of a case with what is replaced, not yet checked."""
     file, content = _read(name)
-    tables, _ = renewed(flat(_tables(file, content)))
+    tables, _ = renewed(_tables(file, content))
     usual = {"source": "own", "about": ""} if own.is_file(str(tables.get("mechanism"))) else {}
     head = {}
     for key in HEAD:
@@ -210,7 +210,7 @@ def _read(name: str) -> tuple[str, str]:
 @functools.lru_cache(maxsize=8)
 def _tables(file: str, content: str) -> Json:
     try:
-        return tomllib.loads(content)
+        return flat(tomllib.loads(content))
     except RecursionError:
         raise BadInput(f"{file}: not valid TOML: nested too deeply; a case has sections of keys and values") from None
     except ValueError as error:

@@ -10,10 +10,10 @@ from typing import Any, get_args, get_origin
 
 from mechsym.cases import schema
 from mechsym.cases.older import RENAMED
+from mechsym.cases.owned import letter_of
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
 from mechsym.quantities import parse, record, units
-from mechsym.quantities.owned import letter_of
 from mechsym.quantities.ranges import values
 from mechsym.quantities.records import Field, Record
 
@@ -119,7 +119,7 @@ def _divided(tables: Json, mechanism: str, key: str, option: str) -> tuple[str, 
         for letters in schema.LETTERS:
             if (letter := letter_of(key, _keys(mechanism, letters, {}))) != key:
                 return letters, letter
-    if dot and section in schema.LETTERS:
+    if "." in name and section in schema.LETTERS:
         name = letter_of(name, _keys(mechanism, section, {}))
     return (section, name) if dot else (_home(tables, mechanism, key, option), key)
 

@@ -55,9 +55,9 @@ def _read(
     name: str, case_name: str | None, given: dict[str, str]
 ) -> tuple["Mechanism", dict[str, float], tuple["Doubt", ...]]:
     from mechsym import cases, mechanisms
+    from mechsym.cases.owned import letter_of
     from mechsym.plausible import letters as doubted
     from mechsym.quantities import parse
-    from mechsym.quantities.owned import letter_of
 
     cls, parameters = mechanisms.parameters_class(name), {}
     if case_name is not None:

@@ -173,9 +173,9 @@ def _require_free(m: Declaration, joints: list[Joint]) -> None:
     """Refuse joints that hold what the declaration lets move freely, and nothing else."""
     for name, gap in m.constraints.items():
         joint = next((j for j in joints if name == j.name or name.endswith(f"_{j.name}")), None)
-        if joint is not None and all(m.tape.diff(gap, q).is_zero for q in m.dependent_list):
-            held = ", ".join(str(q) for q in m.q if not m.tape.diff(gap, q).is_zero)
-            why = f"the joint {joint.name!r} holds {held}, which is to move freely"
+        held = [q for q in m.q if not m.tape.diff(gap, q).is_zero]
+        if joint is not None and held and not set(held) & set(m.dependent_list):
+            why = f"the joint {joint.name!r} holds {', '.join(map(str, held))}, which is to move freely"
             refuse(f"{why}; leave it away, or let the link hang on {joint.first.link.name} otherwise", joint.where)
 
 

@@ -94,7 +94,7 @@ def power_residual(turn: Turn, loads: Loads) -> Pure:
     Returns residual: relative to the largest power of gas or load; where the declaration names no crank pin, the gap to
     the power that the equations of motion ask for.
     """
-    # a millionth of the energy that moves, each radian, is nothing that could be out of balance
+    # torques below a millionth of I omega^2 are rounding beside what moves, as in a gear set that nothing drives
     still = 1e-6 * np.max(turn.kinematics.get("inertia", 0.0)) * turn.omega**3
     size = max(np.abs(turn.gas_power).max(), np.abs(turn.torque * turn.omega).max(), still)
     other = pin_torque(loads) if loads.pins else -turn.driving

@@ -9,6 +9,7 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.cases.needs import require
+from mechsym.cases.owned import letter_of
 from mechsym.cases.settings import guesses
 from mechsym.errors import BadInput, suggest
 from mechsym.jobs.machine import constants, drive_on
@@ -20,7 +21,6 @@ from mechsym.optimise.fit import TracedMotion
 from mechsym.optimise.identify import Identified
 from mechsym.optimise.identify import identify as solve
 from mechsym.optimise.trace import Trace, read_trace
-from mechsym.quantities.owned import letter_of
 from mechsym.simulate.settings import StepTorque
 
 # forces or torques on the first coordinate against its motion: constant, and proportional to its speed

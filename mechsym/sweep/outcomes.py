@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cases.owned import letter_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.mechanisms.shaft import ElasticShaft
 from mechsym.quantities import record, results
-from mechsym.quantities.owned import letter_of
 from mechsym.quantities.results import Columns, names_of, part, some, units_of, walk
 from mechsym.simulate import Result
 from mechsym.simulate.result import RunNumbers

@@ -23,7 +23,7 @@ typedef struct {
 static const double CLOSE = 1e-9; /* of a period: what counts as standing on a kink */
 static const double NOISE = 10.0; /* error of a step, in tolerances, that is not for its length */
 enum { TRIES = 12 };              /* of lengths that step over it */
-enum { OFF = 100 };                /* tolerances that a state may be off its loops between two events */
+enum { OFF = 100 };               /* tolerances that a state may be off its loops between two events */
 
 static int piece_of(const struct curve *c, double at)
 {

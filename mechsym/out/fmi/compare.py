@@ -168,7 +168,7 @@ def driven(path: Path, kind: str, tolerance: float = _TOLERANCE) -> Iterator[Dri
 TOLERANCE = 1e-13  # of all runs that are compared
 # where two motions meet rounding is large: an importer's own integrator, which cannot step over it, does best with few
 # digits; tolerance of a run, and what may differ
-_MEETING = {"me": (1e-10, 1e-6), "cs": (1e-12, 1e-9), "cvode": (1e-10, 1e-5)}
+_MEETING = {"me": (1e-10, 1e-6), "cs": (1e-12, 1e-9), "cvode": (1e-10, 1e-6)}
 POINTS = 200
 _LEAST = 1e-6  # SI: what no state of its unit exceeds is rounding, as the way of a slide that nothing moves
 _STILL = 0.1  # of the largest of its unit: what moves less is measured by that
