@@ -34,10 +34,10 @@ from mechsym.jobs.machine import (
     load_input,
     machine,
     mechanism_of,
-    turn,
     turned_by,
     turning,
 )
+from mechsym.jobs.machine import torque as shaft_torque
 from mechsym.machine.loads import Load, PropellerLoad, settle
 from mechsym.machine.record import Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.beyond import by_constraint, meets
@@ -52,6 +52,8 @@ from mechsym.simulate.problem import Kinks, Part, Periodic, Problem, Steps, Stop
 from mechsym.simulate.settings import Simulation
 from mechsym.simulate.steady import mean_torque
 
+# of the largest force: a cycle leaves open ten times as much, and its table has a corner every half degree
+_FOLLOWED = 1e-10
 # the window whose mean, least and greatest speed is reported is sampled this finely
 _WINDOW_POINTS = 4000
 
@@ -310,10 +312,10 @@ def _on_throws(case: Case, mechanism: Mechanism) -> Driving:
         angles = tuple(sorted((k + one.face.fires) % period for k in one.gas.pressure.kinks))
         bends[name].update(angles)
         alike, own = (id(one.gas), one.area, one.face.sense), replace(one, face=replace(one.face, fires=0.0))
-        curve = curves.get(alike) or fit(own.force, one.gas.pressure.kinks, period)
+        curve = curves.get(alike) or fit(own.force, one.gas.pressure.kinks, period, _FOLLOWED)
         curves[alike] = curve
         fired = scipy.interpolate.PPoly(curve.c, curve.x + one.face.fires % period, extrapolate="periodic")
         value = Periodic(coordinate=name, value=fired, period=period, kinks=angles)
         parts.append(Part(name=f"gas_{number}", input=one.face.input, value=value))
     kinks = (Kinks(coordinate=q, angles=tuple(sorted(bent)), period=period) for q, bent in bends.items() if bent)
-    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(turn(case).torque)))
+    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(shaft_torque(case))))

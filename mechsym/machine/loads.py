@@ -94,7 +94,7 @@ def load_torque(load: Load, omega: RadPerSecond[Scalar]) -> NewtonMetre[Scalar]:
                 raise BadInput("constant load without torque; give it, or settle it with the engine's own")
             return load.torque + 0 * omega
         case PropellerLoad():
-            return propeller_torque(omega, *_reference(load))
+            return propeller_torque(omega, *reference(load))
         case TableLoad():
             return _curve(load.speeds, load.torques)(np.clip(omega, load.speeds[0], load.speeds[-1]))
 
@@ -115,7 +115,8 @@ def propeller_torque(
     return torque / speed**2 * omega * abs(omega)
 
 
-def _reference(load: PropellerLoad) -> tuple[float, float]:
+def reference(load: PropellerLoad) -> tuple[NewtonMetre, RadPerSecond]:
+    """Torque and speed of reference. Raises BadInput: one of them is not settled."""
     if load.torque is None or load.speed is None:
         raise BadInput("propeller load without torque or speed; give both, or settle it with the engine's own")
     return load.torque, load.speed
@@ -132,7 +133,7 @@ def load_slope(load: Load, omega: RadPerSecond[Scalar]) -> Annotated[Scalar, "N*
         case ConstantLoad():
             return 0 * omega
         case PropellerLoad():
-            return 2 * propeller_torque(1.0, *_reference(load)) * abs(omega)
+            return 2 * propeller_torque(1.0, *reference(load)) * abs(omega)
         case TableLoad():
             inside = (omega >= load.speeds[0]) & (omega <= load.speeds[-1])
             return np.where(inside, _curve(load.speeds, load.torques)(omega, 1), 0.0)

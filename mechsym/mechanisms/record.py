@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module, resources
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import casadi as ca
 import numpy as np
@@ -59,10 +59,21 @@ class Mechanism:
     __hash__ = object.__hash__
 
 
-class LazyFunctions(Mapping[str, ca.Function]):
-    """Named functions, each built when it is first asked for."""
+class MechanismForm(Protocol):
+    """What mechanisms share that differ in numbers only: hashable, and equal for those."""
 
-    def __init__(self, makers: Mapping[str, Callable[[], ca.Function]]) -> None:
+    def bound(self, parameters: Mapping[str, Scalar]) -> Mechanism:
+        """The mechanism with a number or a symbol for each of its parameters."""
+
+    def __hash__(self) -> int:
+        """The same for those that are equal."""
+
+
+class LazyFunctions(Mapping[str, ca.Function]):
+    """Named functions, each built when it is first asked for, and the form of their mechanism, where it has one."""
+
+    def __init__(self, makers: Mapping[str, Callable[[], ca.Function]], form: MechanismForm | None = None) -> None:
+        self.form = form
         self._makers = makers
         self._built: dict[str, ca.Function] = {}
 
@@ -81,13 +92,15 @@ class LazyFunctions(Mapping[str, ca.Function]):
         return len(self._makers)
 
 
-class BoundFunctions(LazyFunctions):
-    """The functions of a generated module for given parameters."""
+@record
+class GeneratedForm:
+    """Mechanisms of one generated module."""
 
-    def __init__(self, module: ModuleType, letters: Mapping[str, Sequence[str]], values: Mapping[str, Scalar]) -> None:
-        build = functools.partial(casadi_function, module)
-        super().__init__({n: functools.partial(build, n, letters[n], values) for n in module.FUNCTIONS})
-        self.module = module
+    module: ModuleType
+
+    def bound(self, parameters: Mapping[str, Scalar]) -> Mechanism:
+        """See `MechanismForm`."""
+        return bind_module(self.module, parameters)
 
 
 def velocities(mechanism: Mechanism | ModuleType) -> tuple[str, ...]:
@@ -178,7 +191,8 @@ def bind_module(module: ModuleType, parameters: Mapping[str, Scalar]) -> Mechani
         "sides": q,
         "drawing": q,
     }
-    functions: Mapping[str, ca.Function] = BoundFunctions(module, letters, values)
+    makers = {n: functools.partial(casadi_function, module, n, letters[n], values) for n in module.FUNCTIONS}
+    functions: Mapping[str, ca.Function] = LazyFunctions(makers, GeneratedForm(module=module))
     dependents = getattr(module, "DEPENDENTS", {})
     if dependents and "reactions" in functions:
         functions = {**functions, "joints": functions["reactions"]}

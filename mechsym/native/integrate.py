@@ -93,7 +93,8 @@ class Outcome:
 
     t: np.ndarray  #: shape (runs,): Where each ended [s]
     y: np.ndarray  #: shape (runs, n): State there [SI]
-    #: shape (runs, m, n): States at the wanted times; those after the end of a run are not a number [SI]
+    #: shape (runs, m, n): States at the wanted times up to the last that a run reached; those after the end of a run
+    #: are not a number [SI]
     samples: np.ndarray
     #: shape (runs,): Steps accepted and thrown away [-]
     steps: np.ndarray
@@ -228,7 +229,7 @@ def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     for text, members in families.items():
         blocks += [(text, members[i : i + together]) for i in range(0, len(members), together)]
     result: dict[str, np.ndarray] = {
-        name: np.zeros(count, dtype=int) for name in ("steps", "rejected", "met", "status")
+        name: np.zeros(count, dtype=int) for name in ("steps", "rejected", "sampled", "met", "status")
     }
     n, times = batch.start.shape[1], batch.times.shape[1]
     result |= {"t": np.zeros(count), "y": np.zeros((count, n)), "last_step": np.zeros(count)}
@@ -243,6 +244,10 @@ def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     else:
         with ThreadPoolExecutor(max_workers=min(len(blocks), os.cpu_count() or 1)) as pool:
             list(pool.map(work, blocks))
+    sampled = result.pop("sampled")
+    result["samples"] = result["samples"][:, : sampled.max(initial=0)]
+    for run, reached in enumerate(sampled):
+        result["samples"][run, reached:] = np.nan
     return Outcome(**result)
 
 
@@ -354,9 +359,7 @@ def _run_block(
     del alive
     used = slice(0, len(members))
     result["y"][members] = arrays["y"].T[used]
-    for run, count in zip(members, arrays["sampled"], strict=False):
-        result["samples"][run, count:] = np.nan
-    for name in ("t", "last_step", "steps", "rejected", "met", "status"):
+    for name in ("t", "last_step", "steps", "rejected", "sampled", "met", "status"):
         result[name][members] = arrays[name][used]
 
 

@@ -56,7 +56,8 @@ def dop853(program: Program, lanes: int, followed: tuple[int, ...] = ()) -> str:
     # up to the last state that the rates read: works and losses, which nothing reads, stand behind it
     last = max((i for i in used if i <= n), default=0)
     read_states = f"#define MS_READ_STATES for (int i = 0; i < {last}; i++) MS_EACH"
-    parts = [system(program, lanes), read_states, dop853_numbers(), header("dop853.h"), header("advance.h")]
+    speeds = _array("ms_rate_of", np.array([_state_rates(program).get(i, -1) for i in range(n)]))
+    parts = [system(program, lanes), read_states, speeds, dop853_numbers(), header("dop853.h"), header("advance.h")]
     return "\n".join(parts)
 
 
@@ -163,11 +164,16 @@ def legendre_coefficients(stages: int) -> Pure[Array]:
     return (np.arange(stages)[:, None] + 0.5) * weights * values
 
 
-def _structure(program: Program) -> str:
-    """Which states are angles, which are their speeds, and which others the rates depend on."""
+def _state_rates(program: Program) -> dict[int, int]:
+    """States whose rate is another state, with that one."""
     n, tape = len(program.tape.outputs), program.tape
     rates = [tape.nodes[r] for r in tape.results]
-    same = {i: args[0] - 1 for i, (op, args) in enumerate(rates) if op == "input" and 1 <= args[0] <= n}
+    return {i: args[0] - 1 for i, (op, args) in enumerate(rates) if op == "input" and 1 <= args[0] <= n}
+
+
+def _structure(program: Program) -> str:
+    """Which states are angles, which are their speeds, and which others the rates depend on."""
+    n, tape, same = len(program.tape.outputs), program.tape, _state_rates(program)
     # a speed has a rate of its own: of position, speed and acceleration only the speed is an angle here
     speeds = {i: speed for i, speed in same.items() if speed not in same}
     used = {args[0] for op, args in tape.nodes if op == "input"}

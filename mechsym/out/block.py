@@ -151,7 +151,7 @@ def law_of(problem: Problem, part: Part) -> Law:
     value = part.value
     match value:
         case FormulaForce():
-            return Law(part=part.name, value=lambda at: value.function(at.t, at.q, at.u))
+            return Law(part=part.name, value=lambda at: value.function(at.t, at.q, at.u, *value.numbers))
         case Periodic():
             state = problem.mechanism.coordinates.index(value.coordinate)
             return curve_law(part.name, Curve(name=part.name, state=state, poly=fitted(value)))

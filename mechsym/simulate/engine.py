@@ -12,11 +12,12 @@ from collections.abc import Callable
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.machine.loads import Load, TableLoad, load_torque
+from mechsym.machine.loads import Load, PropellerLoad, TableLoad, load_torque, propeller_torque, reference
 from mechsym.machine.record import AngleForce, Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.record import evaluate, velocities
 from mechsym.mechanisms.shaft import is_damped
-from mechsym.quantities.units import Pure, Radian, RadPerSecond
+from mechsym.quantities import record
+from mechsym.quantities.units import Pure, Radian, RadPerSecond, Scalar
 from mechsym.simulate.angle import ReducedMachine
 from mechsym.simulate.problem import FormulaForce, Kinks, Part, Periodic, Problem, Stop
 
@@ -76,12 +77,25 @@ def at_angle(machine: Machine, force: AngleForce) -> Periodic:
     )
 
 
+@record
+class _Propeller:
+    """The formula of a propeller on the speed of a coordinate."""
+
+    index: int
+
+    def __call__(self, t: Scalar, q: Scalar, u: Scalar, torque: Scalar, speed: Scalar) -> Scalar:
+        return propeller_torque(u[self.index], torque, speed)
+
+
 def load_value(load: Load, index: int = 0) -> FormulaForce | Callable[[float, list[float], list[float]], float]:
     """A load law as the value of a part.
 
     index: coordinate whose speed it follows; -1 for the last. Returns value: a formula where the law has one; a table
     is a plain callable.
     """
-    if isinstance(load, TableLoad):
-        return lambda t, q, u: float(load_torque(load, u[index]))
+    match load:
+        case TableLoad():
+            return lambda t, q, u: float(load_torque(load, u[index]))
+        case PropellerLoad():
+            return FormulaForce(function=_Propeller(index=index), numbers=reference(load))
     return FormulaForce(function=lambda t, q, u: load_torque(load, u[index]))

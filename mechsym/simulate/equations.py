@@ -38,14 +38,14 @@ class System:
     letters: tuple[float, ...] = ()  #: Parameters that differ in the family [SI]
 
 
-def system(problem: Problem, letters: Sequence[ca.SX] = ()) -> System:
+def system(problem: Problem, letters: Sequence[ca.SX] = (), numbers: Sequence[ca.SX] = ()) -> System:
     r"""The equations of a problem, with the power balance beside the motion.
 
     .. math:: \dot W_j = w_j\, v_j,\quad v_j = \sum_i \frac{\partial Q_i}{\partial w_j} u_i,\qquad
               \dot D = -\sum_i u_i \Big(Q_i(q, u, 0) + \frac{\partial V}{\partial q_i}\Big)
 
-    letters: sequence of casadi.SX, parameters that the mechanism leaves open; they become the last inputs of the
-    function. Raises BadInput: the mechanism has constraints, which need multipliers.
+    letters: sequence of casadi.SX, parameters that the mechanism leaves open; numbers: likewise, of formulas; both
+    become the last inputs of the function. Raises BadInput: the mechanism has constraints, which need multipliers.
     """
     mechanism = problem.mechanism
     if "constraints" in mechanism.functions:
@@ -69,7 +69,7 @@ def system(problem: Problem, letters: Sequence[ca.SX] = ()) -> System:
     inner = [s.rate.function(*along) for s in problem.states]
     ydot = ca.vertcat(*u, qdd, *powers, loss, *inner)
     return System(
-        function=ca.Function("system", [t, y, ca.vertcat(w, *letters)], [ydot], ["t", "y", "w"], ["ydot"]),
+        function=ca.Function("system", [t, y, ca.vertcat(w, *letters, *numbers)], [ydot], ["t", "y", "w"], ["ydot"]),
         columns=columns,
         units=mechanism.state_units + ("J",) * (len(works) + 1) + tuple(s.unit for s in problem.states),
         values=outer,
@@ -103,7 +103,7 @@ def part_values(
     values, next_w = [], 0
     for part in problem.parts:
         if isinstance(part.value, FormulaForce):
-            values.append((part, ca.SX(part.value.function(t, q, u))))
+            values.append((part, ca.SX(part.value.function(t, q, u, *part.value.numbers))))
         elif isinstance(part.value, Along):
             values.append((part, ca.SX(part.value.function(*along))))
         else:

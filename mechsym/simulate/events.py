@@ -70,7 +70,7 @@ def integrate(
         if failure or leg.end not in (*levels, "t_end") or now.t >= problem.t_end:
             end = leg.end
             break
-        done = now.t  # an event made exact may lie before
+        done = max(done, now.t)  # an event made exact may lie before
         if leg.end == MARGIN:
             known = _chosen(problem, known, now)
             continue

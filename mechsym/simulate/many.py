@@ -14,18 +14,18 @@ import functools
 import time
 from collections.abc import Sequence
 from dataclasses import replace
-from types import ModuleType
 
 import casadi as ca
 import numpy as np
 
-from mechsym.mechanisms.record import BoundFunctions, Mechanism, bind_module
+from mechsym.mechanisms.record import LazyFunctions, Mechanism, MechanismForm
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.integrate import Breaks, Level, Runs, Table, integrate
+from mechsym.quantities.units import Scalar
 from mechsym.simulate.equations import System, outer_values, system
 from mechsym.simulate.integrate import raw, runs, unsuited
 from mechsym.simulate.phase import Raw
-from mechsym.simulate.problem import Periodic, Problem, Steps
+from mechsym.simulate.problem import FormulaForce, Part, Periodic, Problem, Steps
 from mechsym.simulate.result import Result
 from mechsym.simulate.run import checked, ends_of, result_of, simulate, tighter, wanted_times
 from mechsym.simulate.settings import NATIVE, Settings
@@ -113,52 +113,73 @@ def _joined(single: list[Runs], functions: list[ca.Function]) -> Runs:
 
 def systems(problems: Sequence[Problem]) -> list[System]:
     """The equations of problems of one form, with one function for all of them where they differ in numbers only."""
-    mechanisms = [p.mechanism for p in problems]
-    if not all(_numbers(p) for p in problems) or len(problems) == 1:
+    first, mechanisms = problems[0], [p.mechanism for p in problems]
+    same, forms = all(m is mechanisms[0] for m in mechanisms), {_form(m) for m in mechanisms}
+    if len(problems) == 1 or len({_formulas(p) for p in problems}) > 1 or not all(_numbers(p) for p in problems):
         return [system(p) for p in problems]
-    if all(m is mechanisms[0] for m in mechanisms):
-        first = system(problems[0])
-        return [replace(first, values=outer_values(p)) for p in problems]
-    modules = {_module(m) for m in mechanisms}
-    if len(modules) > 1 or None in modules:
+    if same and len({_written(p) for p in problems}) == 1:
+        whole = system(first)
+        return [replace(whole, values=outer_values(p)) for p in problems]
+    if not same and (None in forms or len(forms) > 1):
         return [system(p) for p in problems]
-    return _with_letters(problems)
+    return _with_letters(problems, None if same else forms.pop())
 
 
 def _numbers(problem: Problem) -> bool:
-    """Whether its equations hold nothing but its mechanism and the values of its inputs."""
+    """Whether its equations hold nothing but its mechanism, the values of its inputs and formulas with numbers."""
     beside = problem.curves or problem.states or problem.inertia or problem.mechanism.dependents
-    return not beside and all(isinstance(p.value, Steps | Periodic) for p in problem.parts)
+    return not beside and all(isinstance(p.value, Steps | Periodic | FormulaForce) for p in problem.parts)
 
 
-def _module(mechanism: Mechanism) -> ModuleType | None:
-    return mechanism.functions.module if isinstance(mechanism.functions, BoundFunctions) else None
+def _formulas(problem: Problem) -> tuple[object, ...]:
+    return tuple(p.value.function for p in problem.parts if isinstance(p.value, FormulaForce))
 
 
-def _with_letters(problems: Sequence[Problem]) -> list[System]:
-    values = [p.mechanism.parameters for p in problems]
-    varying = tuple(n for n in values[0] if len({v[n] for v in values}) > 1)
-    same = tuple((n, v) for n, v in values[0].items() if n not in varying)
-    module = _module(problems[0].mechanism)
-    assert module is not None
-    shared, letters = _open(module, same, varying)
-    first = system(replace(problems[0], mechanism=shared), letters)
-    function, formulas = _taken_out(first.function, len(varying))
-    table = np.array([[v[n] for n in varying] for v in values])
-    fixed = np.asarray(formulas(ca.DM(table.T))).T
+def _written(problem: Problem) -> tuple[Scalar, ...]:
+    """Numbers of all formulas, one after the other."""
+    return tuple(n for p in problem.parts if isinstance(p.value, FormulaForce) for n in p.value.numbers)
+
+
+def _form(mechanism: Mechanism) -> MechanismForm | None:
+    return mechanism.functions.form if isinstance(mechanism.functions, LazyFunctions) else None
+
+
+def _with_letters(problems: Sequence[Problem], form: MechanismForm | None) -> list[System]:
+    """Equations over what differs: parameters of mechanisms of one form (None: it is the same), numbers of formulas."""
+    first, values = problems[0], [p.mechanism.parameters for p in problems]
+    varying = tuple(n for n in values[0] if form is not None and len({v[n] for v in values}) > 1)
+    fixed = tuple((n, v) for n, v in values[0].items() if n not in varying)
+    shared, letters = (first.mechanism, ()) if form is None else _open(form, fixed, varying)
+    numbers = tuple(ca.SX.sym("number") for _ in _written(first))
+    whole = system(replace(first, mechanism=shared, parts=_rewritten(first, numbers)), letters, numbers)
+    function, formulas = _taken_out(whole.function, len(varying) + len(numbers))
+    rows = [[v[n] for n in varying] for v in values]
+    table = np.array([[*row, *_written(p)] for row, p in zip(rows, problems, strict=True)])
+    taken = np.asarray(formulas(ca.DM(table.T))).T
     return [
-        replace(first, function=function, values=outer_values(p), fixed=tuple(f), shared=shared, letters=tuple(row))
-        for p, f, row in zip(problems, fixed.tolist(), table.tolist(), strict=True)
+        replace(whole, function=function, values=outer_values(p), fixed=tuple(f), shared=shared, letters=tuple(row))
+        for p, f, row in zip(problems, taken.tolist(), rows, strict=True)
     ]
+
+
+def _rewritten(problem: Problem, numbers: Sequence[ca.SX]) -> tuple[Part, ...]:
+    """Its parts with others in place of the numbers of formulas."""
+    left, parts = iter(numbers), []
+    for part in problem.parts:
+        if isinstance(part.value, FormulaForce):
+            own = tuple(next(left) for _ in part.value.numbers)
+            part = replace(part, value=replace(part.value, numbers=own))
+        parts.append(part)
+    return tuple(parts)
 
 
 @functools.lru_cache(maxsize=16)
 def _open(
-    module: ModuleType, same: tuple[tuple[str, float], ...], varying: tuple[str, ...]
+    form: MechanismForm, fixed: tuple[tuple[str, Scalar], ...], varying: tuple[str, ...]
 ) -> tuple[Mechanism, tuple[ca.SX, ...]]:
     """The mechanism of a family, and the parameters that it leaves open."""
-    symbols = {n: ca.SX.sym(n) for n in module.PARAMETERS if n in varying}
-    return bind_module(module, {**dict(same), **symbols}), tuple(symbols.values())
+    symbols = {n: ca.SX.sym(n) for n in varying}
+    return form.bound({**dict(fixed), **symbols}), tuple(symbols.values())
 
 
 def _taken_out(rates: ca.Function, count: int) -> tuple[ca.Function, ca.Function]:

@@ -37,8 +37,9 @@ class Steps:
 class FormulaForce:
     """A value given by a function that takes numbers and CasADi symbols alike, so every backend can use it."""
 
-    #: (t, q, u) to value; q and u are sequences of the coordinates and velocities, in the mechanism's order
-    function: Callable[[Scalar, Scalar, Scalar], Scalar]
+    #: (t, q, u, *numbers) to value; q and u are sequences of the coordinates and velocities, in the mechanism's order
+    function: Callable[..., Scalar]
+    numbers: tuple[Scalar, ...] = ()  #: Its last arguments; runs that differ in them share their equations
 
 
 @record

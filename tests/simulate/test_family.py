@@ -7,7 +7,7 @@ import pytest
 
 from mechsym import cases
 from mechsym.jobs.problem import problem_of
-from mechsym.mechanisms.record import BoundFunctions, bind
+from mechsym.mechanisms.record import LazyFunctions, bind
 from mechsym.simulate import Settings, simulate, simulate_many
 from mechsym.simulate.equations import held, start_of, system
 from mechsym.simulate.many import systems
@@ -71,7 +71,7 @@ def test_a_mechanism_is_bound_once_and_its_functions_are_built_when_asked_for():
     found = bind("crankshaft_flywheel", {**values, "c1": 0.625})
     assert found is bind("crankshaft_flywheel", {**values, "c1": 0.625})
     assert found is not bind("crankshaft_flywheel", values)
-    assert isinstance(found.functions, BoundFunctions)
+    assert isinstance(found.functions, LazyFunctions)
     assert found.functions["energy"] is found.functions["energy"]
     assert list(found.functions) == list(dict(found.functions))
     with pytest.raises(KeyError):

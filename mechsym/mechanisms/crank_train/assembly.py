@@ -2,17 +2,18 @@
 
 import dataclasses
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import casadi as ca
 
 from mechsym.mechanisms.crank_train import throws as summed
 from mechsym.mechanisms.crank_train.articulated import LETTERS, OUTPUTS, hung
-from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
+from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, Numbers, each
 from mechsym.mechanisms.crank_train.throws import Instances, Outputs, ThrowPart, parts
 from mechsym.mechanisms.record import LazyFunctions, Mechanism, generated
 from mechsym.quantities import record
+from mechsym.quantities.units import Scalar
 
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
@@ -157,8 +158,30 @@ def _mechanism(
         coordinates=s.names,
         inputs=tuple(map(str, s.forces)),
         parameters=vars(p),
-        functions=LazyFunctions(makers),
+        functions=LazyFunctions(makers, None if join is _rigid else _form(p)),
     )
+
+
+# given once for all throws, these are neither places nor angles: a train is put together the same for any of them
+_OPEN = ("m_rod", "m_piston", "I_rod", "I0", "m0", "u0", "I_f", "k", "c")
+
+
+@record
+class TrainForm:
+    """Crank trains with an elastic shaft that are put together in the same way."""
+
+    fixed: tuple[tuple[str, Numbers], ...]  #: What decides how [unit of the letter]
+
+    def bound(self, parameters: Mapping[str, Scalar]) -> Mechanism:
+        """See `MechanismForm`."""
+        p = object.__new__(CrankTrainParameters)  # no range holds a symbol
+        for name, value in (*self.fixed, *parameters.items()):
+            object.__setattr__(p, name, value)
+        return build(p)
+
+
+def _form(p: CrankTrainParameters) -> TrainForm:
+    return TrainForm(fixed=tuple((n, v) for n, v in vars(p).items() if n not in _OPEN or isinstance(v, tuple)))
 
 
 def _made(p: CrankTrainParameters, name: str, inputs: list[ca.SX], outputs: Callable[[], Outputs]) -> ca.Function:

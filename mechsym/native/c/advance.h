@@ -1,7 +1,8 @@
 /* Step control of DOP853 in all lanes.
  *
- * A step ends at each time where held values jump, and at each kink and surface that it meets: one that crosses such a
- * level is thrown away and made again so that it ends there, and no step uses the equations of both sides.
+ * A step ends at each time where held values jump, and at each kink and surface that it meets: a kink is seen ahead by
+ * the speed of its state, and a step that crosses a level all the same is thrown away and made again so that it ends
+ * there. No step uses the equations of both sides.
  */
 static void ms_finish(const ms_run *run, ms_work *w, int l, long status)
 {
@@ -58,11 +59,11 @@ static void ms_look_at_kinks(const ms_run *run, ms_work *w, int l)
     }
 }
 
-static int ms_begin(const ms_run *run, ms_work *w)
+static int ms_begin(const ms_run *run, ms_work *w, ms_piece *pieces)
 {
     int fresh[MS_L], count = 0;
     memset(w, 0, sizeof *w);
-    ms_open(&w->window);
+    ms_open(run, &w->window, pieces);
     for (int l = 0; l < MS_L; l++) {
         for (int i = 0; i < MS_N; i++)
             w->y[i][l] = run->y[i * MS_L + l];
@@ -87,6 +88,50 @@ static int ms_begin(const ms_run *run, ms_work *w)
     return count;
 }
 
+/* When a state comes to the next kink on its way, by a parabola where its rate is a state. */
+static void ms_time_to_kink(const ms_work *w, long state, double *time)
+{
+    const long faster = ms_rate_of[state];
+    MS_EACH
+    {
+        const double speed = w->q[0][state][l], bend = faster < 0 ? 0.0 : 0.5 * w->q[0][faster][l];
+        const double ahead = (speed < 0.0 ? w->window.below[state][l] : w->window.above[state][l]) - w->y[state][l];
+        const double first = ahead / speed, second = ahead / (speed + bend * first);
+        const double third = ahead / (speed + bend * second);
+        time[l] = (second > 0.0) & (third > 0.0) ? third : INFINITY;
+    }
+}
+
+/* Steps that would come near a kink end on it, or half way to it. */
+static void ms_aim_at_kinks(const ms_run *run, ms_work *w)
+{
+    ms_row time, least;
+    long next[MS_L];
+    MS_EACH least[l] = INFINITY;
+    for (long i = 0; i < run->kinked; i++) {
+        ms_time_to_kink(w, run->kinked_states[i], time);
+        MS_EACH
+        {
+            next[l] = time[l] < least[l] ? i : next[l];
+            least[l] = ms_fmin(time[l], least[l]);
+        }
+    }
+    for (int l = 0; l < MS_L; l++) {
+        if (!w->active[l] || w->forced[l] > 0.0 || !(least[l] < 2.0 * w->step[l]))
+            continue;
+        if (least[l] > 1.05 * w->step[l]) {
+            w->step[l] = ms_fmin(w->step[l], 0.5 * least[l]);
+        } else if (w->t[l] + least[l] < w->until[l]) {
+            const long state = run->kinked_states[next[l]];
+            w->step[l] = w->forced[l] = least[l];
+            w->target[l] = -1 - next[l];
+            w->level[l] = w->q[0][state][l] < 0.0 ? w->window.below[state][l] : w->window.above[state][l];
+            w->tries[l] = 0;
+            w->guessed[l] = 1;
+        }
+    }
+}
+
 static void ms_choose_steps(const ms_run *run, ms_work *w)
 {
     long stuck = 0;
@@ -104,6 +149,7 @@ static void ms_choose_steps(const ms_run *run, ms_work *w)
         else if (run->steps[l] + run->rejected[l] >= run->max_steps)
             ms_finish(run, w, l, MS_TOO_MANY);
     }
+    ms_aim_at_kinks(run, w);
 }
 
 /* Does the step just tried cross a level? With dense output also which one first, and at what share of the step. */
@@ -112,6 +158,8 @@ static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, dou
     int found = 0;
     *share = INFINITY;
     for (long i = -run->kinked; i < run->surfaces; i++) {
+        if (i < 0 && i == w->target[l])
+            continue;
         const long state = i < 0 ? run->kinked_states[-1 - i] : run->surface[i].state;
         const double before = w->y[state][l], after = w->next[state][l];
         const double below = w->window.below[state][l], above = w->window.above[state][l];
@@ -127,14 +175,17 @@ static int ms_crossed(const ms_run *run, const ms_work *w, int l, int dense, dou
     return found;
 }
 
-/* A step to a level ends where the dense output says, to about the tolerance; one Newton step or two make it exact. */
+/* A step to a level ends where the dense output or a parabola says; Newton's steps make it exact. */
 static int ms_corrected(const ms_run *run, ms_work *w, int l)
 {
     const long kink = w->target[l] < 0, other = kink ? 0 : w->target[l] - 1;
     const long state = kink ? run->kinked_states[-1 - w->target[l]] : run->surface[other].state;
     const double miss = w->next[state][l] - w->level[l], late = miss / w->q[12][state][l];
     const double size = ms_fmax(fabs(w->level[l]), 1.0), length = w->step[l] - late;
-    if (fabs(miss) <= (kink ? 1e-10 : 1e-15) * size || w->tries[l] == 3 || !(length > 0.0) || !isfinite(length))
+    if (fabs(miss) <= (kink ? 1e-13 : 1e-15) * size || w->tries[l] == 6 || !(length > 0.0))
+        return 0;
+    /* a rate that turned leads away from the level */
+    if (!(length < 2.0 * w->step[l]) || w->t[l] + length > w->until[l])
         return 0;
     w->tries[l]++;
     w->forced[l] = length;
@@ -145,7 +196,7 @@ static void ms_reject(const ms_run *run, ms_work *w, int l)
 {
     w->h[l] = ms_shorter(w->step[l], w->error[l]);
     w->forced[l] = 0.0;
-    w->target[l] = 0;
+    w->target[l] = w->guessed[l] = 0;
     run->rejected[l]++;
 }
 
@@ -174,7 +225,7 @@ static void ms_share_kink(const ms_run *run, ms_work *w, int l)
 static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
 {
     const double proposed = ms_longer(w->step[l], w->error[l]);
-    const int last = end == w->until[l], cut = last || w->target[l];
+    const int last = end == w->until[l], cut = last || w->step[l] < w->h[l];
     ms_sample(run, w, l, end);
     ms_share_kink(run, w, l);
     w->t[l] = end;
@@ -186,7 +237,7 @@ static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
     w->forced[l] = 0.0;
     run->steps[l]++;
     const long target = w->target[l];
-    w->target[l] = 0;
+    w->target[l] = w->guessed[l] = 0;
     if (target > 0) {
         run->met[l] = target - 1;
         ms_finish(run, w, l, MS_MET);
@@ -276,7 +327,7 @@ static void ms_settle(const ms_run *run, ms_work *w)
         crosses[l] = 0;
         if (!w->active[l] || !(w->error[l] <= 1.0))
             continue;
-        crosses[l] = !w->target[l] && ms_crossed(run, w, l, 0, &share, &target, &level);
+        crosses[l] = (!w->target[l] || w->guessed[l]) && ms_crossed(run, w, l, 0, &share, &target, &level);
         dense |= crosses[l] || w->due[l] <= ms_end(w, l);
     }
     if (dense)
@@ -290,7 +341,7 @@ static void ms_settle(const ms_run *run, ms_work *w)
             w->forced[l] = share * w->step[l];
             w->target[l] = target;
             w->level[l] = level;
-            w->tries[l] = 0;
+            w->tries[l] = w->guessed[l] = 0;
         } else if (!w->target[l] || !ms_corrected(run, w, l)) {
             w->target[l] = crosses[l] ? target : w->target[l];
             const int entered = ms_accept(run, w, l, ms_end(w, l));
@@ -330,7 +381,8 @@ static void ms_leave(const ms_run *run, const ms_work *w)
 MS_EXPORT void ms_dop853(const ms_run *run)
 {
     ms_work work, *w = &work;
-    for (int left = ms_begin(run, w); left;)
+    ms_piece pieces[run->tables + 1];
+    for (int left = ms_begin(run, w, pieces); left;)
         left = ms_turn_over(run, w);
     ms_leave(run, w);
 }

@@ -11,6 +11,7 @@ typedef struct {
     /* a step forced to meet a level, of surface i (target 1 + i) or a kink of kinked state i (-1 - i); 0 nothing */
     ms_row forced, level;
     long target[MS_L], tries[MS_L];
+    int guessed[MS_L]; /* whether the target was seen ahead, not crossed: something else may come before it */
 } ms_work;
 
 #define MS_Q(j) w->q[j - 1][i][l]

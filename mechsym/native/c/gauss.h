@@ -118,9 +118,10 @@ static int ms_all(const ms_run *run, ms_work *w, double *t)
 MS_EXPORT void ms_gauss(const ms_run *run)
 {
     ms_work work, *w = &work;
+    ms_piece pieces[run->tables + 1];
     double t = run->t[0];
     memset(w, 0, sizeof *w);
-    ms_open(&w->window);
+    ms_open(run, &w->window, pieces);
     memcpy(w->y, run->y, sizeof w->y);
     for (int l = 0; l < MS_L; l++)
         run->steps[l] = run->rejected[l] = run->sampled[l] = 0, run->met[l] = -1;

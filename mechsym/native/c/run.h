@@ -9,7 +9,8 @@ enum { MS_X = 1 + MS_N + MS_P };
 #define MS_STATES for (int i = 0; i < MS_N; i++) MS_EACH
 typedef double ms_row[MS_L];
 
-/* Held value `slot` of one lane follows state `state` as a periodic piecewise polynomial. */
+/* Held value `slot` of one lane follows state `state` as a periodic piecewise polynomial of at most MS_TERMS terms. */
+enum { MS_TERMS = 12 };
 typedef struct {
     long slot, state, pieces, terms;
     const double *breaks, *coefficients; /* [pieces + 1], [piece][term] by falling powers */
@@ -40,48 +41,87 @@ typedef struct {
     long *steps, *rejected, *sampled, *met, *status; /* [lane] */
 } ms_run;
 
+/* The piece of a table that each lane was read on last: its ends, its number and its coefficients. */
+typedef struct {
+    ms_row from, to, c[MS_TERMS];
+    long piece[MS_L];
+} ms_piece;
+
 /* The kinks on both sides of each state. A table is read on this side of them, also by a stage that reaches beyond. */
 typedef struct {
     ms_row below[MS_N], above[MS_N], low[MS_N], high[MS_N];
+    ms_piece *pieces; /* [table] */
 } ms_window;
 
-static void ms_open(ms_window *window)
+static void ms_open(const ms_run *run, ms_window *window, ms_piece *pieces)
 {
     for (int i = 0; i < MS_N; i++)
         for (int l = 0; l < MS_L; l++) {
             window->below[i][l] = window->low[i][l] = -INFINITY;
             window->above[i][l] = window->high[i][l] = INFINITY;
         }
+    window->pieces = pieces;
+    for (long i = 0; i < run->tables; i++)
+        for (int l = 0; l < MS_L; l++) {
+            pieces[i].from[l] = INFINITY, pieces[i].to[l] = -INFINITY;
+            pieces[i].piece[l] = 0;
+        }
 }
 
-static double ms_periodic(const ms_table *table, double angle)
+/* Goes to the piece of an angle, which mostly is the next or the one before. */
+static void ms_stand(const ms_table *table, ms_piece *at, int l, double angle)
 {
     const double start = table->breaks[0], period = table->breaks[table->pieces] - start;
-    const double a = angle - period * floor((angle - start) / period);
-    long piece = 0;
-    for (long high = table->pieces; high - piece > 1;) {
-        const long middle = (piece + high) / 2;
-        if (table->breaks[middle] <= a)
-            piece = middle;
+    const double turned = period * floor((angle - start) / period), a = angle - turned, *breaks = table->breaks;
+    const long last = table->pieces - 1, was = at->piece[l];
+    long low = 0, high = table->pieces;
+    if (breaks[was] <= a && was < last && a < breaks[was + 2 < last ? was + 2 : last])
+        low = was, high = was + 2;
+    else if (a < breaks[was] && was > 0 && breaks[was - 1] <= a)
+        low = was - 1, high = was;
+    while (high - low > 1) {
+        const long middle = (low + high) / 2;
+        if (breaks[middle] <= a)
+            low = middle;
         else
             high = middle;
     }
-    const double u = a - table->breaks[piece], *c = table->coefficients + piece * table->terms;
-    double y = 0.0;
+    at->piece[l] = low;
+    at->from[l] = turned + breaks[low];
+    at->to[l] = turned + breaks[low + 1];
+    const double *c = table->coefficients + low * table->terms;
     for (long i = 0; i < table->terms; i++)
-        y = y * u + c[i];
-    return y;
+        at->c[i][l] = c[i];
+}
+
+/* Held values that follow a state, in all lanes at once. */
+static void ms_follow(const ms_run *run, const ms_window *window, ms_row *x)
+{
+    for (long i = 0; i < run->tables; i++) {
+        const ms_table *table = run->table + i * MS_L;
+        ms_piece *at = window->pieces + i;
+        const ms_row *state = x + 1 + table->state;
+        ms_row a, y;
+        long left = 0;
+        MS_EACH
+        {
+            const double above = ms_fmax((*state)[l], window->low[table->state][l]);
+            a[l] = ms_fmin(above, window->high[table->state][l]);
+            left |= !(at->from[l] <= a[l]) | !(a[l] < at->to[l]);
+        }
+        for (int l = 0; l < MS_L && left; l++)
+            if (!(at->from[l] <= a[l]) || !(a[l] < at->to[l]))
+                ms_stand(table + l, at, l, a[l]);
+        MS_EACH y[l] = at->c[0][l];
+        for (long k = 1; k < table->terms; k++)
+            MS_EACH y[l] = y[l] * (a[l] - at->from[l]) + at->c[k][l];
+        memcpy(x + 1 + MS_N + table->slot, &y, sizeof y);
+    }
 }
 
 static __attribute__((noinline)) void ms_rates(const ms_run *run, const ms_window *window, ms_row *x, ms_row *rate)
 {
-    for (long i = 0; i < run->tables * MS_L; i++) {
-        const ms_table *table = run->table + i;
-        const int l = i % MS_L;
-        const double low = window->low[table->state][l], high = window->high[table->state][l];
-        const double a = ms_fmin(ms_fmax(x[1 + table->state][l], low), high);
-        x[1 + MS_N + table->slot][l] = ms_periodic(table, a);
-    }
+    ms_follow(run, window, x);
     MS_RATES(run->constants, x[0], rate[0]);
 }
 
