@@ -233,8 +233,7 @@ def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     }
     n, times = batch.start.shape[1], batch.times.shape[1]
     result |= {"t": np.zeros(count), "y": np.zeros((count, n)), "last_step": np.zeros(count)}
-    # each state of a run lies in one piece, as it is looked at
-    result["samples"] = np.empty((count, n, times)).swapaxes(1, 2)
+    result["samples"] = np.empty((count, times, n))
 
     def work(block: tuple[str, list[int]]) -> None:
         _run_block(loaded[block[0]][f"ms_{method}"], batch, block[1], lanes, result)

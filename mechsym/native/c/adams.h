@@ -309,13 +309,13 @@ static void ms_sample_back(const ms_run *run, ms_work *w, ms_adams_work *m, cons
         for (int l = 0; l < MS_L; l++) {
             if (!due[l])
                 continue;
-            double *to = run->samples[l] + run->sampled[l];
+            double *to = run->samples[l] + run->sampled[l] * MS_N;
             for (int i = 0; i < MS_A; i++) {
-                to[ms_angle[i] * run->times] = ms_whole(x[1 + ms_angle[i]][l], m->turned[l]);
-                to[ms_speed[i] * run->times] = x[1 + ms_speed[i]][l];
+                to[ms_angle[i]] = ms_whole(x[1 + ms_angle[i]][l], m->turned[l]);
+                to[ms_speed[i]] = x[1 + ms_speed[i]][l];
             }
             for (int i = 0; i < MS_O; i++)
-                to[ms_other[i] * run->times] = then.other[i][l];
+                to[ms_other[i]] = then.other[i][l];
             run->sampled[l]++;
             ms_look_ahead(run, w, l);
         }

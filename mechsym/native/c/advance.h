@@ -200,17 +200,6 @@ static void ms_reject(const ms_run *run, ms_work *w, int l)
     run->rejected[l]++;
 }
 
-static void ms_sample(const ms_run *run, ms_work *w, int l, double end)
-{
-    for (; w->due[l] <= end; ms_look_ahead(run, w, l)) {
-        const double u = (w->due[l] - w->t[l]) / w->step[l];
-        double *to = run->samples[l] + run->sampled[l];
-        for (int i = 0; i < MS_N; i++)
-            to[i * run->times] = u < 1.0 ? ms_inside(w, i, l, u) : w->next[i][l];
-        run->sampled[l]++;
-    }
-}
-
 /* A level that lies on a kink: the step that ends at the kink meets it too. */
 static void ms_share_kink(const ms_run *run, ms_work *w, int l)
 {
@@ -226,7 +215,6 @@ static int ms_accept(const ms_run *run, ms_work *w, int l, double end)
 {
     const double proposed = ms_longer(w->step[l], w->error[l]);
     const int last = end == w->until[l], cut = last || w->step[l] < w->h[l];
-    ms_sample(run, w, l, end);
     ms_share_kink(run, w, l);
     w->t[l] = end;
     for (int i = 0; i < MS_N; i++) {
@@ -258,36 +246,45 @@ static double ms_end(const ms_work *w, int l)
     return w->step[l] == until - w->t[l] || end > until ? until : end;
 }
 
-/* Lanes whose step is good and holds a wanted time. */
-static long ms_due(const ms_work *w, int *due)
+/* Lanes with a wanted time up to an end. */
+static long ms_due(const ms_work *w, const double *end, int *due)
 {
     long any = 0;
-    MS_EACH due[l] = w->active[l] & (w->error[l] <= 1.0) & (w->due[l] <= w->t[l] + w->step[l]);
+    MS_EACH due[l] = w->due[l] <= end[l];
     for (int l = 0; l < MS_L; l++)
         any |= due[l];
     return any;
 }
 
-/* As `ms_sample`, in all lanes at once. */
-static void ms_sample_all(const ms_run *run, ms_work *w)
+/* States at the wanted times up to the end of each lane's step, by its dense output. end: -INFINITY: not taken */
+static void ms_sample(const ms_run *run, ms_work *w, const double *end)
 {
     int due[MS_L];
     ms_row share, value[MS_N];
-    if (!ms_due(w, due))
-        return;
-    for (ms_make_dense(run, w); ms_due(w, due);) {
+    while (ms_due(w, end, due)) {
         MS_EACH share[l] = (w->due[l] - w->t[l]) / w->step[l];
         ms_inside_all(w, share, value);
         for (int l = 0; l < MS_L; l++) {
             if (!due[l])
                 continue;
-            double *to = run->samples[l] + run->sampled[l];
+            double *to = run->samples[l] + run->sampled[l] * MS_N;
             for (int i = 0; i < MS_N; i++)
-                to[i * run->times] = share[l] < 1.0 ? value[i][l] : w->next[i][l];
+                to[i] = share[l] < 1.0 ? value[i][l] : w->next[i][l];
             run->sampled[l]++;
             ms_look_ahead(run, w, l);
         }
     }
+}
+
+/* The same of all lanes whose step is good. */
+static void ms_sample_all(const ms_run *run, ms_work *w)
+{
+    int due[MS_L];
+    ms_row end;
+    MS_EACH end[l] = w->active[l] & (w->error[l] <= 1.0) ? w->t[l] + w->step[l] : -INFINITY;
+    if (ms_due(w, end, due))
+        ms_make_dense(run, w);
+    ms_sample(run, w, end);
 }
 
 /* After a try in which no lane meets anything: accept or reject in all lanes at once. Returns 0 if one does. */
@@ -323,8 +320,9 @@ static void ms_settle(const ms_run *run, ms_work *w)
     int dense = 0, crosses[MS_L], fresh[MS_L] = {0}, again = 0, guess = 0;
     double share, level = 0.0;
     long target = 0;
+    ms_row end;
     for (int l = 0; l < MS_L; l++) {
-        crosses[l] = 0;
+        crosses[l] = 0, end[l] = -INFINITY;
         if (!w->active[l] || !(w->error[l] <= 1.0))
             continue;
         crosses[l] = (!w->target[l] || w->guessed[l]) && ms_crossed(run, w, l, 0, &share, &target, &level);
@@ -344,7 +342,13 @@ static void ms_settle(const ms_run *run, ms_work *w)
             w->tries[l] = w->guessed[l] = 0;
         } else if (!w->target[l] || !ms_corrected(run, w, l)) {
             w->target[l] = crosses[l] ? target : w->target[l];
-            const int entered = ms_accept(run, w, l, ms_end(w, l));
+            end[l] = ms_end(w, l);
+        }
+    }
+    ms_sample(run, w, end);
+    for (int l = 0; l < MS_L; l++) {
+        if (end[l] > -INFINITY) {
+            const int entered = ms_accept(run, w, l, end[l]);
             fresh[l] = entered == 2;
             guess |= fresh[l];
             again |= entered > 0;

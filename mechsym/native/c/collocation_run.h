@@ -20,7 +20,7 @@ static int ms_sample(const ms_run *run, ms_work *w, double end)
         if (due < end && !ms_inside(run, w, due - w->t))
             return 0;
         for (int i = 0; i < MS_N; i++)
-            run->samples[0][i * run->times + run->sampled[0]] = due < end ? w->next[i] : next[i];
+            run->samples[0][run->sampled[0] * MS_N + i] = due < end ? w->next[i] : next[i];
     }
     memcpy(w->next, next, sizeof next), memcpy(w->rest, rest, sizeof rest);
     return 1;

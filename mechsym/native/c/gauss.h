@@ -108,7 +108,7 @@ static int ms_all(const ms_run *run, ms_work *w, double *t)
             *t = end;
             for (int i = 0; i < MS_N && wanted; i++)
                 for (int l = 0; l < MS_L; l++)
-                    run->samples[l][i * run->times + *sample] = w->y[i][l];
+                    run->samples[l][*sample * MS_N + i] = w->y[i][l];
             *sample += wanted;
         }
     }

@@ -36,7 +36,7 @@ typedef struct {
     const ms_table *table;     /* [table][lane] */
     const ms_surface *surface;
     double *t, *y;       /* [lane], [state][lane]: the start, then the end */
-    double *const *samples; /* [lane]: [state][time] of its run */
+    double *const *samples; /* [lane]: [time][state] of its run */
     double *last_step;   /* [lane] */
     long *steps, *rejected, *sampled, *met, *status; /* [lane] */
 } ms_run;
