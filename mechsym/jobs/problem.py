@@ -12,7 +12,7 @@ case's own. Gas that follows the motion is no problem of this kind: see `mechsym
 
 import functools
 import math
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import asdict, replace
 
 import numpy as np
@@ -42,7 +42,7 @@ from mechsym.machine.loads import Load, PropellerLoad, settle
 from mechsym.machine.record import Machine, acting, kinks_of, period_of
 from mechsym.mechanisms.beyond import by_constraint, meets
 from mechsym.mechanisms.own import letters_class
-from mechsym.mechanisms.record import Mechanism
+from mechsym.mechanisms.record import Mechanism, form_of
 from mechsym.mechanisms.shaft import at_rest, with_torque
 from mechsym.periodic import fit
 from mechsym.quantities import quantity, record
@@ -54,6 +54,7 @@ from mechsym.simulate.steady import mean_torque
 
 # of the largest force: a cycle leaves open ten times as much, and its table has a corner every half degree
 _FOLLOWED = 1e-10
+_AFTER = ("parameters", "flywheel", "simulation")  # sections that do not change what drives a train of one form
 # the window whose mean, least and greatest speed is reported is sampled this finely
 _WINDOW_POINTS = 4000
 
@@ -91,9 +92,16 @@ class _Shaft:
         return self.engine and not (self.twists and self.driven)
 
 
-def problem_of(case: Case) -> Problem:
-    """The run that a case describes. Raises BadInput: a section is missing or names what the mechanism has not."""
-    return ready(case).problem
+#: What drives cases before this one, by all that it hangs on
+Kept = dict[Hashable, "Driving"]
+
+
+def problem_of(case: Case, kept: Kept | None = None) -> Problem:
+    """The run that a case describes; `kept` lets cases that differ in masses and springs share what drives them.
+
+    Raises BadInput: a section is missing or names what the mechanism has not.
+    """
+    return ready(case, kept).problem
 
 
 def beyond(case: Case, ends: bool = False) -> Case:
@@ -114,11 +122,11 @@ def beyond(case: Case, ends: bool = False) -> Case:
     return replace(case, mechanism=name, sections={**case.sections, "parameters": numbers, "start": places})
 
 
-def ready(case: Case) -> Ready:
-    """The run of a case, with the parts that it is made of."""
+def ready(case: Case, kept: Kept | None = None) -> Ready:
+    """The run of a case, with the parts that it is made of. kept: see `problem_of`."""
     case = at_recorded_speed(case)
     wanted, mechanism = simulation_of(case), mechanism_of(case)
-    driving = driving_of(case)
+    driving = driving_of(case, {} if kept is None else kept)
     drive = drive_on(case, mechanism) if "drive" in case.sections else None
     declared = [r.angle for r in mechanisms.roles_of(case.mechanism).rotors if r.load]
     shaft = _Shaft(
@@ -199,7 +207,7 @@ def _start(
     roles = mechanisms.roles_of(case.mechanism)
     cams = {cam.name for cam in roles.cams}
     still = {*held, *(stop.gap for stop in roles.stops if stop.name in cams)}  # a follower begins on its cam
-    still |= {q for q, unit in mechanisms.listing(case.mechanism, mechanism)["coordinates"].items() if unit != "rad"}
+    still |= {q for q in places if mechanism.units.get(q, "rad") != "rad"}
     values = {q: held.get(q, 0.0 if q in still else wanted.phi_start) for q in places} | guesses(case)
     rates = {f"{q}d": 0.0 if q in still else speed for q in places} | guesses(case)
     _require_closed(case, mechanism, values)
@@ -269,8 +277,8 @@ def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Gu
     return engine, wanted, guide
 
 
-def driving_of(case: Case) -> Driving:
-    """What turns the shaft of a case over its angle; nothing without `[cycle]` and `[torque]`.
+def driving_of(case: Case, kept: Kept) -> Driving:
+    """What turns the shaft of a case over its angle; nothing without `[cycle]` and `[torque]`. kept: see `problem_of`.
 
     Raises BadInput: Pistons on two throws of a shaft that share one gas, or a torque on a shaft that twists.
     """
@@ -278,7 +286,14 @@ def driving_of(case: Case) -> Driving:
         return Driving()
     whole = mechanism_of(case)
     if len(whole.coordinates) - len(whole.dependents) > 1:
-        return _on_throws(case, whole)
+        form = form_of(whole)
+        if form is None or form.pushed is None:
+            return _on_throws(case, whole)
+        rest = [(name, section) for name, section in case.sections.items() if name not in _AFTER]
+        key = form.pushed, repr(rest)
+        if key not in kept:
+            kept[key] = _on_throws(case, whole)
+        return kept[key]
     plain = turned_by(case, turning(case))
     (q,) = plain.mechanism.coordinates
     still = replace(plain, mechanism=at_rest(plain.mechanism))

@@ -10,7 +10,7 @@ import dataclasses
 import functools
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from importlib import import_module, resources
 from types import ModuleType
 from typing import TYPE_CHECKING, Protocol
@@ -62,6 +62,10 @@ class Mechanism:
 class MechanismForm(Protocol):
     """What mechanisms share that differ in numbers only: hashable, and equal for those."""
 
+    @property
+    def pushed(self) -> Hashable:
+        """The numbers that work of gas on it hangs on; None where these may be all."""
+
     def bound(self, parameters: Mapping[str, Scalar]) -> Mechanism:
         """The mechanism with a number or a symbol for each of its parameters."""
 
@@ -92,11 +96,17 @@ class LazyFunctions(Mapping[str, ca.Function]):
         return len(self._makers)
 
 
+def form_of(mechanism: Mechanism) -> MechanismForm | None:
+    """What a mechanism shares with those that differ in numbers only; None where that is not known."""
+    return mechanism.functions.form if isinstance(mechanism.functions, LazyFunctions) else None
+
+
 @record
 class GeneratedForm:
     """Mechanisms of one generated module."""
 
     module: ModuleType
+    pushed: None = None  #: See `MechanismForm`
 
     def bound(self, parameters: Mapping[str, Scalar]) -> Mechanism:
         """See `MechanismForm`."""

@@ -20,7 +20,7 @@ from mechsym.native.kernels import constant_table
 from mechsym.native.source import Program, program
 from mechsym.native.tape import ANALYTIC
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, Pure
+from mechsym.quantities.units import Array, Pure, Second
 
 STATUS = (
     "done",
@@ -85,6 +85,27 @@ class Runs:
     atol: float = 1e-10
     first_step: float = 0.0  #: First step of every segment; 0 lets the integrator choose [s]
     max_steps: int = 5_000_000  #: Limit of tries for each run
+    #: Last steps whose dense output is kept, and how many of the first states; only steps of `dop853` are
+    keep: int = 0
+    kept_states: int = 0
+
+
+@record
+class LastSteps:
+    """Dense output of the last steps of a run."""
+
+    t: np.ndarray  #: shape (k,): Where each begins [s]
+    step: np.ndarray  #: shape (k,): Its length [s]
+    terms: np.ndarray  #: shape (8, n, k): Of the first states, see `ms_inside` in c/dop853.h [SI]
+
+    def at(self, times: Second[Array]) -> np.ndarray:
+        """The states at ascending times within them, shape (n, m) [SI]."""
+        k = np.maximum(np.searchsorted(self.t, times, side="right") - 1, 0)
+        u = (times - self.t[k]) / self.step[k]
+        y = self.terms[7][:, k]
+        for j in range(6, 0, -1):
+            y = self.terms[j][:, k] + (1 - u if j % 2 else u) * y
+        return self.terms[0][:, k] + u * y
 
 
 @record
@@ -102,13 +123,14 @@ class Outcome:
     met: np.ndarray  #: shape (runs,): Index of the surface that ended the run, or -1 [-]
     last_step: np.ndarray  #: shape (runs,): Last step that was not cut short [s]
     status: np.ndarray  #: shape (runs,): Index into `STATUS`: 0 and 1 are success [-]
+    last: tuple[LastSteps, ...] = ()  #: Of each run, where they were to be kept
 
 
-_LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kinked", "max_steps")
+_LONGS = ("segments", "times", "tables", "surfaces", "kinks", "kinked", "keep", "kept_states", "max_steps")
 _DOUBLES = ("rtol", "atol", "first_step")
 _ARRAYS = (
     "constants", "until", "held", "grid", "kink_angles", "kink_periods", "kink_states", "kinked_states",
-    "table", "surface", "t", "y", "samples", "last_step",
+    "table", "surface", "t", "y", "samples", "kept", "last_step",
     "steps", "rejected", "sampled", "met", "status",
 )  # fmt: skip
 
@@ -136,24 +158,27 @@ class _Run(ctypes.Structure):
 def structure(runs: Runs, arrays: dict[str, np.ndarray], chosen: Pure[Array]) -> tuple[_Run, list[object]]:
     """The argument of the C function, and what must stay alive with it. chosen: run of each lane, shape (lanes,)."""
     alive: list[object] = [arrays]
-    tables = (_Table * (len(runs.tables) * len(chosen)))(*(_table(t, c, alive) for t in runs.tables for c in chosen))
+    known: dict[int, np.ndarray] = {}
+    every = (_table(t, c, alive, known) for t in runs.tables for c in chosen)
+    tables = (_Table * (len(runs.tables) * len(chosen)))(*every)
     surfaces = (_Surface * len(runs.surfaces))(*(_surface(s, chosen, alive) for s in runs.surfaces))
     alive += [tables, surfaces]
     structure = _Run(
         segments=len(arrays["until"]), times=arrays["grid"].shape[1], tables=len(runs.tables),
         surfaces=len(runs.surfaces), kinks=len(arrays["kink_angles"]), kinked=len(arrays["kinked_states"]),
-        max_steps=runs.max_steps, rtol=runs.rtol, atol=runs.atol, first_step=runs.first_step,
+        keep=runs.keep, kept_states=runs.kept_states, max_steps=runs.max_steps, rtol=runs.rtol, atol=runs.atol,
+        first_step=runs.first_step,
         table=ctypes.addressof(tables), surface=ctypes.addressof(surfaces),
         **{name: a.ctypes.data for name, a in arrays.items()},
     )  # fmt: skip
     return structure, alive
 
 
-def _table(table: Table, run: int, alive: list[object]) -> _Table:
+def _table(table: Table, run: int, alive: list[object], known: dict[int, np.ndarray]) -> _Table:
     breaks, coefficients = table.polynomials[run if len(table.polynomials) > 1 else 0]
     breaks = np.ascontiguousarray(breaks, dtype=float)
-    # one polynomial after another, as the C code reads them
-    rows = np.ascontiguousarray(coefficients.T, dtype=float)
+    # one polynomial after another, as the C code reads them; runs and cylinders that are alike read the same
+    rows = known.setdefault(id(coefficients), np.ascontiguousarray(coefficients.T, dtype=float))
     alive += [breaks, rows]
     return _Table(
         slot=table.held,
@@ -234,6 +259,9 @@ def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     n, times = batch.start.shape[1], batch.times.shape[1]
     result |= {"t": np.zeros(count), "y": np.zeros((count, n)), "last_step": np.zeros(count)}
     result["samples"] = np.empty((count, times, n))
+    if method != "dop853" and batch.runs.keep:
+        batch = dataclasses.replace(batch, runs=dataclasses.replace(batch.runs, keep=0))
+    result["kept"] = np.empty((count, batch.runs.keep, 2 + 8 * batch.runs.kept_states))
 
     def work(block: tuple[str, list[int]]) -> None:
         _run_block(loaded[block[0]][f"ms_{method}"], batch, block[1], lanes, result)
@@ -243,11 +271,19 @@ def _integrated(batch: _Batch, method: str, mode: str) -> Outcome:
     else:
         with ThreadPoolExecutor(max_workers=min(len(blocks), os.cpu_count() or 1)) as pool:
             list(pool.map(work, blocks))
-    sampled = result.pop("sampled")
+    sampled, kept = result.pop("sampled"), result.pop("kept")
     result["samples"] = result["samples"][:, : sampled.max(initial=0)]
     for run, reached in enumerate(sampled):
         result["samples"][run, reached:] = np.nan
-    return Outcome(**result)
+    last = (_last(rows, steps) for rows, steps in zip(kept, result["steps"], strict=True) if batch.runs.keep)
+    return Outcome(**result, last=tuple(last))
+
+
+def _last(rows: np.ndarray, steps: int) -> LastSteps:
+    """The last of so many steps, of the ring that they were written into."""
+    keep = len(rows)
+    rows = rows[:steps] if steps <= keep else np.roll(rows, -(steps % keep), axis=0)
+    return LastSteps(t=rows[:, 0], step=rows[:, 1], terms=rows[:, 2:].reshape(len(rows), 8, -1).transpose(1, 2, 0))
 
 
 def _texts(batch: _Batch, method: str, lanes: int, mode: str) -> tuple[list[str], _Batch]:
@@ -352,7 +388,8 @@ def _run_block(
     # an incomplete block is filled up with copies of its last run
     chosen = np.array(members + [members[-1]] * (lanes - len(members)))
     arrays = _arrays(batch, chosen)
-    arrays["samples"] = np.array([result["samples"][run].ctypes.data for run in chosen], dtype=np.uintp)
+    for name in ("samples", "kept"):
+        arrays[name] = np.array([result[name][run].ctypes.data for run in chosen], dtype=np.uintp)
     argument, alive = structure(batch.runs, arrays, chosen)
     advance(ctypes.byref(argument))
     del alive

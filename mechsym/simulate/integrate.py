@@ -16,6 +16,7 @@ from mechsym.simulate.problem import Along, FormulaForce, Periodic, Problem, Ste
 from mechsym.simulate.settings import FALLBACK, NATIVE, Settings, backend
 
 _DONE, _MET, _TOO_MANY = 0, 1, 2
+_KEEP = 1024  # last steps that are kept: two turns of many cylinders at a tight tolerance
 _SAME = 1e-6  # of the spacing of results: closer than this to the end is the end
 
 
@@ -85,6 +86,8 @@ def runs(problem: Problem, equations: System, settings: Settings, times: np.ndar
         rtol=settings.tolerance,
         atol=settings.tolerance,
         max_steps=settings.max_steps,
+        keep=0 if settings.check == "none" else _KEEP,  # nobody looks into a run that checks another
+        kept_states=2 * equations.size,
     )
 
 
@@ -116,7 +119,8 @@ def raw(
         failure = f"stopped at t = {t_end:.6g} s: {int(outcome.steps[index])} steps were not enough"
     names = (*ends_watched(problem, equations.columns).ends, *more)
     end = names[int(outcome.met[index])] if status == _MET else "t_end"
-    return Raw(t=t, y=y, steps=int(outcome.steps[index]), end="failure" if failure else end, failure=failure)
+    steps, last = int(outcome.steps[index]), outcome.last[index] if outcome.last else None
+    return Raw(t=t, y=y, steps=steps, end="failure" if failure else end, failure=failure, last=last)
 
 
 def _phase_by_phase(

@@ -18,7 +18,7 @@ from dataclasses import replace
 import casadi as ca
 import numpy as np
 
-from mechsym.mechanisms.record import LazyFunctions, Mechanism, MechanismForm
+from mechsym.mechanisms.record import Mechanism, MechanismForm, form_of
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.integrate import Breaks, Level, Runs, Table, integrate
 from mechsym.quantities.units import Scalar
@@ -114,7 +114,7 @@ def _joined(single: list[Runs], functions: list[ca.Function]) -> Runs:
 def systems(problems: Sequence[Problem]) -> list[System]:
     """The equations of problems of one form, with one function for all of them where they differ in numbers only."""
     first, mechanisms = problems[0], [p.mechanism for p in problems]
-    same, forms = all(m is mechanisms[0] for m in mechanisms), {_form(m) for m in mechanisms}
+    same, forms = all(m is mechanisms[0] for m in mechanisms), {form_of(m) for m in mechanisms}
     if len(problems) == 1 or len({_formulas(p) for p in problems}) > 1 or not all(_numbers(p) for p in problems):
         return [system(p) for p in problems]
     if same and len({_written(p) for p in problems}) == 1:
@@ -138,10 +138,6 @@ def _formulas(problem: Problem) -> tuple[object, ...]:
 def _written(problem: Problem) -> tuple[Scalar, ...]:
     """Numbers of all formulas, one after the other."""
     return tuple(n for p in problem.parts if isinstance(p.value, FormulaForce) for n in p.value.numbers)
-
-
-def _form(mechanism: Mechanism) -> MechanismForm | None:
-    return mechanism.functions.form if isinstance(mechanism.functions, LazyFunctions) else None
 
 
 def _with_letters(problems: Sequence[Problem], form: MechanismForm | None) -> list[System]:

@@ -9,7 +9,7 @@ Surfaces are stops, the wanted number of turns, and the kinks on both sides of a
 
 import numpy as np
 
-from mechsym.native.integrate import Level
+from mechsym.native.integrate import LastSteps, Level
 from mechsym.quantities import record
 from mechsym.simulate.equations import System
 from mechsym.simulate.problem import Kinks, Problem
@@ -65,6 +65,7 @@ class Raw:
     steps: int
     end: str  #: `t_end`, `turns`, the name of a stop, or `failure`
     failure: str  #: Empty, or why it could not go on
+    last: LastSteps | None = None  #: Coordinates and velocities along its last steps, where they are known
 
 
 _DIRECTION = {"falling": -1, "rising": 1, "either": 0}

@@ -207,10 +207,12 @@ def opens(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> bool:
 def _dense(
     problem: Problem, equations: System, raw: Raw, settings: Settings
 ) -> Callable[[np.ndarray], dict[str, np.ndarray]]:
-    """A run between its samples: taken up again at the sample before, by the same method to the same tolerance."""
+    """A run between its samples: within its last steps, else taken up again at the sample before by the same method."""
     n, names = equations.size, equations.columns[: 2 * equations.size]
 
     def at(times: np.ndarray) -> dict[str, np.ndarray]:
+        if raw.last is not None and len(raw.last.t) and raw.last.t[0] <= times[0]:
+            return dict(zip(names, raw.last.at(times), strict=True))
         i = max(int(np.searchsorted(raw.t, times[0], side="right")) - 1, 0)
         y, after = raw.y[i], times[times > raw.t[i]]
         inner = zip(problem.states, y[len(y) - len(problem.states) :], strict=True)

@@ -213,7 +213,8 @@ def _simulated(cases: Sequence[Case]) -> list[Outcome]:
     from mechsym.simulate.constrained import LOCKED
 
     looped = [i for i, case in enumerate(cases) if in_loop(case)]
-    problems = {i: guarded(problem_of, case) for i, case in enumerate(cases) if i not in looped}
+    one = functools.partial(problem_of, kept={})
+    problems = {i: guarded(one, case) for i, case in enumerate(cases) if i not in looped}
     results: dict[int, Outcome] = {i: p for i, p in problems.items() if isinstance(p, Gap)}
     results |= {i: guarded(_by_itself, cases[i]) for i in looped}
     groups: dict[Settings, list[int]] = {}

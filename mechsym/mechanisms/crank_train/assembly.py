@@ -172,6 +172,11 @@ class TrainForm:
 
     fixed: tuple[tuple[str, Numbers], ...]  #: What decides how [unit of the letter]
 
+    @property
+    def pushed(self) -> tuple[tuple[str, Numbers], ...]:
+        """See `MechanismForm`; no open letter moves a piston."""
+        return self.fixed
+
     def bound(self, parameters: Mapping[str, Scalar]) -> Mechanism:
         """See `MechanismForm`."""
         p = object.__new__(CrankTrainParameters)  # no range holds a symbol

@@ -276,15 +276,28 @@ static void ms_sample(const ms_run *run, ms_work *w, const double *end)
     }
 }
 
+/* The step that a lane takes, for who looks into it later. */
+static void ms_keep(const ms_run *run, const ms_work *w, int l)
+{
+    double *to = run->kept[l] + run->steps[l] % run->keep * (2 + 8 * run->kept_states);
+    *to++ = w->t[l], *to++ = w->step[l];
+    for (int j = 0; j < 8; j++)
+        for (long i = 0; i < run->kept_states; i++)
+            *to++ = w->dense[j][i][l];
+}
+
 /* The same of all lanes whose step is good. */
 static void ms_sample_all(const ms_run *run, ms_work *w)
 {
     int due[MS_L];
     ms_row end;
     MS_EACH end[l] = w->active[l] & (w->error[l] <= 1.0) ? w->t[l] + w->step[l] : -INFINITY;
-    if (ms_due(w, end, due))
+    if (ms_due(w, end, due) || run->keep)
         ms_make_dense(run, w);
     ms_sample(run, w, end);
+    for (int l = 0; l < MS_L && run->keep; l++)
+        if (end[l] > -INFINITY)
+            ms_keep(run, w, l);
 }
 
 /* After a try in which no lane meets anything: accept or reject in all lanes at once. Returns 0 if one does. */
@@ -326,7 +339,7 @@ static void ms_settle(const ms_run *run, ms_work *w)
         if (!w->active[l] || !(w->error[l] <= 1.0))
             continue;
         crosses[l] = (!w->target[l] || w->guessed[l]) && ms_crossed(run, w, l, 0, &share, &target, &level);
-        dense |= crosses[l] || w->due[l] <= ms_end(w, l);
+        dense |= crosses[l] || w->due[l] <= ms_end(w, l) || run->keep;
     }
     if (dense)
         ms_make_dense(run, w);
@@ -348,6 +361,8 @@ static void ms_settle(const ms_run *run, ms_work *w)
     ms_sample(run, w, end);
     for (int l = 0; l < MS_L; l++) {
         if (end[l] > -INFINITY) {
+            if (run->keep)
+                ms_keep(run, w, l);
             const int entered = ms_accept(run, w, l, end[l]);
             fresh[l] = entered == 2;
             guess |= fresh[l];

@@ -23,7 +23,7 @@ typedef struct {
 } ms_surface;
 
 typedef struct {
-    long segments, times, tables, surfaces, kinks, kinked, max_steps;
+    long segments, times, tables, surfaces, kinks, kinked, keep, kept_states, max_steps;
     double rtol, atol, first_step;
     const double *constants;   /* [constant][lane] */
     const double *until;       /* [segment][lane] */
@@ -37,6 +37,7 @@ typedef struct {
     const ms_surface *surface;
     double *t, *y;       /* [lane], [state][lane]: the start, then the end */
     double *const *samples; /* [lane]: [time][state] of its run */
+    double *const *kept; /* [lane]: [step modulo keep]: start, length and dense output [8][kept state] of a last step */
     double *last_step;   /* [lane] */
     long *steps, *rejected, *sampled, *met, *status; /* [lane] */
 } ms_run;
