@@ -10,7 +10,8 @@ import numpy as np
 from benchmarks import models, references, translate
 from benchmarks.measure import Route, Row, take_turns
 from mechsym import native
-from mechsym.native.integrate import Runs, integrate
+from mechsym.native.integrate import integrate
+from mechsym.native.runs import Runs
 
 T_END, TORQUE, RUNS = 99.0, 1.5, 16
 _TOLERANCES = (1e-8, 1e-12)

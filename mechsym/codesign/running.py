@@ -28,7 +28,8 @@ from mechsym.errors import BadInput
 from mechsym.hinge.springs.face import Spring, of_letters
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, propeller_torque
 from mechsym.native.compiler import NoCompiler
-from mechsym.native.integrate import STATUS, Breaks, Level, Runs, Table, integrate
+from mechsym.native.integrate import integrate
+from mechsym.native.runs import STATUS, Breaks, Level, Runs, Table
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pure, Scalar
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate

@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.native.integrate import Level
+from mechsym.native.runs import Level
 from mechsym.simulate.equations import right_side
 from mechsym.simulate.phase import Leg, Phase, Span
 from mechsym.simulate.problem import Steps

@@ -19,7 +19,7 @@ import scipy
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, velocities
-from mechsym.native.integrate import Level
+from mechsym.native.runs import Level
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Second
 from mechsym.simulate import crossing as crossings

@@ -17,7 +17,7 @@ from numpy.polynomial import chebyshev
 
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism
-from mechsym.native.integrate import Level
+from mechsym.native.runs import Level
 from mechsym.quantities import record
 
 _TERMS = 16  # of the polynomial, less where it needs fewer

@@ -12,7 +12,7 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.roles import FrictionRole, StopRole
-from mechsym.native.integrate import Level
+from mechsym.native.runs import Level
 from mechsym.quantities.units import Array, Second
 from mechsym.simulate import blows, constrained
 from mechsym.simulate.equations import System

@@ -8,7 +8,7 @@ import numpy as np
 from mechsym.errors import BadInput
 from mechsym.native import integrate as native
 from mechsym.native.compiler import NoCompiler, find
-from mechsym.native.integrate import STATUS, Breaks, Level, Outcome, Runs, Table
+from mechsym.native.runs import STATUS, Breaks, Level, Outcome, Runs, Table
 from mechsym.quantities.units import Array, Second
 from mechsym.simulate.equations import System, fitted, held, start_of
 from mechsym.simulate.phase import Phase, Raw, ends_watched, watch

@@ -20,7 +20,8 @@ import numpy as np
 
 from mechsym.mechanisms.record import Mechanism, MechanismForm, form_of
 from mechsym.native.compiler import NoCompiler
-from mechsym.native.integrate import Breaks, Level, Runs, Table, integrate
+from mechsym.native.integrate import integrate
+from mechsym.native.runs import Breaks, Level, Runs, Table
 from mechsym.quantities.units import Scalar
 from mechsym.simulate.equations import System, outer_values, system
 from mechsym.simulate.integrate import raw, runs, unsuited

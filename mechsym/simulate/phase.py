@@ -9,7 +9,7 @@ Surfaces are stops, the wanted number of turns, and the kinks on both sides of a
 
 import numpy as np
 
-from mechsym.native.integrate import LastSteps, Level
+from mechsym.native.runs import LastSteps, Level
 from mechsym.quantities import record
 from mechsym.simulate.equations import System
 from mechsym.simulate.problem import Kinks, Problem

@@ -39,7 +39,8 @@ class FormulaForce:
 
     #: (t, q, u, *numbers) to value; q and u are sequences of the coordinates and velocities, in the mechanism's order
     function: Callable[..., Scalar]
-    numbers: tuple[Scalar, ...] = ()  #: Its last arguments; runs that differ in them share their equations
+    #: Its last arguments; runs that differ in them share their equations [unit of each]
+    numbers: tuple[Scalar, ...] = ()
 
 
 @record

@@ -66,7 +66,8 @@ def test_without_a_load_a_propeller_takes_the_mean_torque():
     case = cases.load("moroianu", SHORT)
     assert "load" not in case.sections
     constant = cases.load("moroianu", SHORT | {"load.law": "constant"})
-    (ours, theirs) = ({p.name: p for p in problem_of(c).parts}["load"].value.function for c in (case, constant))
+    laws = ({p.name: p for p in problem_of(c).parts}["load"].value for c in (case, constant))
+    ours, theirs = (lambda t, q, u, law=law: law.function(t, q, u, *law.numbers) for law in laws)
     omega = case.need("operation").speed
     assert ours(0.0, [0.0], [omega]) == pytest.approx(theirs(0.0, [0.0], [omega]), rel=1e-9)
     assert ours(0.0, [0.0], [2 * omega]) == pytest.approx(4 * ours(0.0, [0.0], [omega]))

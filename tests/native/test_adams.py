@@ -12,7 +12,8 @@ from mechsym import native
 from mechsym.errors import BadInput
 from mechsym.native import adams, arc
 from mechsym.native import integrate as integration
-from mechsym.native.integrate import Breaks, Level, Runs, integrate
+from mechsym.native.integrate import integrate
+from mechsym.native.runs import Breaks, Level, Runs
 
 compiled = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 slow = pytest.mark.slow

@@ -8,8 +8,9 @@ import pytest
 from native.models import PENDULUM, rhs
 
 from mechsym.errors import BadInput
-from mechsym.native.integrate import STATUS, Breaks, Level, Runs, integrate
+from mechsym.native.integrate import integrate
 from mechsym.native.integrators import STAGES, gauss_tableau, legendre_coefficients
+from mechsym.native.runs import STATUS, Breaks, Level, Runs
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 

@@ -12,8 +12,9 @@ from scipy.interpolate import CubicSpline, PPoly
 from mechsym import native
 from mechsym.errors import BadInput
 from mechsym.native import integrators as table
-from mechsym.native.integrate import LANES, STATUS, Breaks, Level, Runs, Table, integrate
+from mechsym.native.integrate import LANES, integrate
 from mechsym.native.integrators import gauss_tableau
+from mechsym.native.runs import STATUS, Breaks, Level, Runs, Table
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("gcc", "clang", "cc"))), reason="no C compiler")
 

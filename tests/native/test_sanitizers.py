@@ -110,7 +110,7 @@ ENSEMBLE = """
 import numpy as np
 from native.test_adams import discs
 from mechsym.native.integrate import integrate
-from mechsym.native.integrate import Level
+from mechsym.native.runs import Level
 surface = Level(state=1, level=0.5, direction=-1)
 for changed in ({}, {"times": np.linspace(0.5, 299, 50)}, {"surfaces": (surface,)}, {"max_steps": 4000}):
     found = integrate(discs(rtol=1e-8, atol=1e-8, **changed), "adams")

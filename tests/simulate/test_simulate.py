@@ -9,7 +9,7 @@ import pytest
 from simulated import double_pendulum, oscillator, shaft
 
 from mechsym.errors import BadInput, MissingExtra
-from mechsym.native.integrate import Level
+from mechsym.native.runs import Level
 from mechsym.simulate import Part, Problem, Settings, Steps, simulate, write_netcdf
 from mechsym.simulate.backends import advance
 from mechsym.simulate.equations import held, system

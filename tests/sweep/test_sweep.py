@@ -212,10 +212,10 @@ def test_runs_that_differ_from_their_check_are_gaps():
 
 @pytest.mark.parametrize("where", ["problem_of", "simulate_many"])
 def test_errors_of_arithmetic_are_gaps_of_their_points(monkeypatch, where):
-    def spoiled(case):
+    def spoiled(case, kept):
         if case.need("parameters").c1 == 1:
             raise ZeroDivisionError("no such machine")
-        return problem_of(case)
+        return problem_of(case, kept)
 
     def upset(problems, settings):
         raise RuntimeError("one of many")
@@ -229,7 +229,7 @@ def test_errors_of_arithmetic_are_gaps_of_their_points(monkeypatch, where):
 
 
 def test_mistakes_of_the_program_are_not_gaps(monkeypatch):
-    def mistaken(case):
+    def mistaken(case, kept):
         raise TypeError("a mistake")
 
     monkeypatch.setattr("mechsym.jobs.problem.problem_of", mistaken)

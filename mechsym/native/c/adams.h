@@ -459,7 +459,8 @@ MS_EXPORT void ms_adams(const ms_run *run)
     memset(m, 0, sizeof *m);
     MS_EACH m->limit[l] = INFINITY;
     ms_piece pieces[run->tables + 1];
-    for (int left = ms_begin(run, w, pieces); left; left = ms_turn_over(run, w))
+    ms_row terms[ms_terms(run)];
+    for (int left = ms_begin(run, w, pieces, terms); left; left = ms_turn_over(run, w))
         if (++calm > patience) {
             ms_look_back(run, w, m);
             patience = m->slow ? 8 * patience : MS_CALM;

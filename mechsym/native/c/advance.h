@@ -59,11 +59,11 @@ static void ms_look_at_kinks(const ms_run *run, ms_work *w, int l)
     }
 }
 
-static int ms_begin(const ms_run *run, ms_work *w, ms_piece *pieces)
+static int ms_begin(const ms_run *run, ms_work *w, ms_piece *pieces, ms_row *terms)
 {
     int fresh[MS_L], count = 0;
     memset(w, 0, sizeof *w);
-    ms_open(run, &w->window, pieces);
+    ms_open(run, &w->window, pieces, terms);
     for (int l = 0; l < MS_L; l++) {
         for (int i = 0; i < MS_N; i++)
             w->y[i][l] = run->y[i * MS_L + l];
@@ -401,7 +401,8 @@ MS_EXPORT void ms_dop853(const ms_run *run)
 {
     ms_work work, *w = &work;
     ms_piece pieces[run->tables + 1];
-    for (int left = ms_begin(run, w, pieces); left;)
+    ms_row terms[ms_terms(run)];
+    for (int left = ms_begin(run, w, pieces, terms); left;)
         left = ms_turn_over(run, w);
     ms_leave(run, w);
 }

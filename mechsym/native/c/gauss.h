@@ -119,9 +119,10 @@ MS_EXPORT void ms_gauss(const ms_run *run)
 {
     ms_work work, *w = &work;
     ms_piece pieces[run->tables + 1];
+    ms_row terms[ms_terms(run)];
     double t = run->t[0];
     memset(w, 0, sizeof *w);
-    ms_open(run, &w->window, pieces);
+    ms_open(run, &w->window, pieces, terms);
     memcpy(w->y, run->y, sizeof w->y);
     for (int l = 0; l < MS_L; l++)
         run->steps[l] = run->rejected[l] = run->sampled[l] = 0, run->met[l] = -1;

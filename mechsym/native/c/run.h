@@ -9,8 +9,7 @@ enum { MS_X = 1 + MS_N + MS_P };
 #define MS_STATES for (int i = 0; i < MS_N; i++) MS_EACH
 typedef double ms_row[MS_L];
 
-/* Held value `slot` of one lane follows state `state` as a periodic piecewise polynomial of at most MS_TERMS terms. */
-enum { MS_TERMS = 12 };
+/* Held value `slot` of one lane follows state `state` as a periodic piecewise polynomial; lanes have as many terms. */
 typedef struct {
     long slot, state, pieces, terms;
     const double *breaks, *coefficients; /* [pieces + 1], [piece][term] by falling powers */
@@ -44,7 +43,7 @@ typedef struct {
 
 /* The piece of a table that each lane was read on last: its ends, its number and its coefficients. */
 typedef struct {
-    ms_row from, to, c[MS_TERMS];
+    ms_row from, to, *c;
     long piece[MS_L];
 } ms_piece;
 
@@ -54,7 +53,15 @@ typedef struct {
     ms_piece *pieces; /* [table] */
 } ms_window;
 
-static void ms_open(const ms_run *run, ms_window *window, ms_piece *pieces)
+static long ms_terms(const ms_run *run)
+{
+    long terms = 1;
+    for (long i = 0; i < run->tables; i++)
+        terms += run->table[i * MS_L].terms;
+    return terms;
+}
+
+static void ms_open(const ms_run *run, ms_window *window, ms_piece *pieces, ms_row *terms)
 {
     for (int i = 0; i < MS_N; i++)
         for (int l = 0; l < MS_L; l++) {
@@ -62,11 +69,13 @@ static void ms_open(const ms_run *run, ms_window *window, ms_piece *pieces)
             window->above[i][l] = window->high[i][l] = INFINITY;
         }
     window->pieces = pieces;
-    for (long i = 0; i < run->tables; i++)
+    for (long i = 0; i < run->tables; terms += run->table[i++ * MS_L].terms) {
+        pieces[i].c = terms;
         for (int l = 0; l < MS_L; l++) {
             pieces[i].from[l] = INFINITY, pieces[i].to[l] = -INFINITY;
             pieces[i].piece[l] = 0;
         }
+    }
 }
 
 /* Goes to the piece of an angle, which mostly is the next or the one before. */
