@@ -2,12 +2,16 @@
 
 from dataclasses import replace
 
+import casadi as ca
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 from mechsym import cases
+from mechsym.cli import mechsym
 from mechsym.jobs.problem import problem_of
-from mechsym.mechanisms.record import LazyFunctions, bind
+from mechsym.mechanisms.crank_train import build
+from mechsym.mechanisms.record import LazyFunctions, bind, form_of
 from mechsym.simulate import Settings, simulate, simulate_many
 from mechsym.simulate.equations import held, start_of, system
 from mechsym.simulate.many import systems
@@ -78,3 +82,42 @@ def test_a_mechanism_is_bound_once_and_its_functions_are_built_when_asked_for():
         found.functions["nothing"]
     below, above = (bind("crankshaft_flywheel", {**values, "c1": zero}) for zero in (-0.0, 0.0))
     assert below is not above
+
+
+@pytest.mark.slow
+def test_engines_of_ones_own_that_differ_in_masses_and_springs_share_equations_and_what_drives_them(tmp_path):
+    file = tmp_path / "three.toml"
+    words = ["new", "engine", "--kind", "inline", "--bore", "80 mm", "--stroke", "80 mm", "--cylinders", "3"]
+    assert CliRunner().invoke(mechsym, [*words, "--out", str(file)]).exit_code == 0
+    values = [
+        {"parameters.I_f": 0.1 + 0.02 * i, "parameters.k": 3e5 + 1e4 * i, "simulation.turns": 4} for i in range(3)
+    ]
+    kept = {}
+    family = [problem_of(cases.load(str(file), v), kept) for v in values]
+    assert len(kept) == 1
+    found = systems(family)
+    assert all(s.function is found[0].function for s in found)
+    assert family[0].parts[-1].value.numbers == family[1].parts[-1].value.numbers  # of the propeller
+    for value, problem, together in zip(values, family, simulate_many(family), strict=True):
+        alone = simulate(problem_of(cases.load(str(file), value)))
+        assert together.status == alone.status == "converged"
+        for key in ("phi1d", "phi_fd", "kinetic_energy"):
+            np.testing.assert_allclose(together.columns[key], alone.columns[key], rtol=1e-9)
+        # what the last steps keep is the run itself, as it is without them
+        times = np.linspace(alone.t[-1] - 0.01, alone.t[-1], 300)
+        again = simulate(problem, Settings(check="none"))
+        for key, speed in together.dense(times).items():
+            np.testing.assert_allclose(speed, again.dense(times)[key], rtol=1e-8)
+
+
+def test_a_train_that_is_put_together_otherwise_has_another_form():
+    p = cases.load("alpha-stirling").need("parameters")
+    forms = [form_of(build(replace(p, **change))) for change in ({}, {"I_f": 3.0}, {"c": 7.0}, {"r": 0.05})]
+    assert forms[0] == forms[1] == forms[2] != forms[3]
+    opened = forms[0].bound({**vars(p), "I_f": ca.SX.sym("I_f")})
+    rates = opened.functions["dynamics"]
+    assert rates.name_in()[-1] == "I_f"
+    at = {n: 0.3 for n in rates.name_in()}
+    whole = build(replace(p, I_f=3.0)).functions["dynamics"](**{n: v for n, v in at.items() if n != "I_f"})
+    for name, value in rates(**{**at, "I_f": 3.0}).items():
+        np.testing.assert_allclose(value, whole[name], rtol=1e-14)
