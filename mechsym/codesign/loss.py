@@ -10,12 +10,12 @@ moment, and the first law of each gas is in the residual of the run.
 """
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Sequence
 
+import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym import periodic
 from mechsym.codesign import running
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running, TimeRun, ripple_of_last_turn
@@ -41,7 +41,7 @@ class Real:
 
 
 def friction(
-    track: Track, path: Path, force: Newton[Scalar], omega: RadPerSecond, given: HingeLosses
+    track: Track, path: Path, force: Newton[Scalar], omega: RadPerSecond[Scalar], given: HingeLosses
 ) -> dict[str, Scalar]:
     """Torques on the crank that bearings, seals and guides take [N*m]. force: of the spring on each roller."""
     h = track.hardware
@@ -126,7 +126,7 @@ def _periodic(phi: np.ndarray, values: np.ndarray, period: float) -> "scipy.inte
 
 _RESET = (0.7, 1.3)  # fills that are tried, by that of the schedule
 _STOPPED = 2.0
-_TOLERANCE, _TURNS, _PER_TURN = 1e-9, 2, 1440
+_TURNS, _PER_TURN = 2, 1440
 
 
 @record
@@ -163,75 +163,52 @@ def with_losses(design: CoDesign, k: int, given: HingeLosses) -> Lossy:
                  energy_residual=run.energy_residual, fill=fill)  # fmt: skip
 
 
-def in_time(machine: Running, given: HingeLosses, speed: float, periods: int) -> TimeRun:
-    """Run a machine of `real` from dead centre at a speed [rad/s] for some periods, each gas a state."""
+def in_time(machine: Running, given: HingeLosses, speed: RadPerSecond, periods: int) -> TimeRun:
+    """Run a machine of `real` from dead centre for some periods, each gas a state. speed: at the start."""
     point = machine.point
     gases = [spring_with_heat(t, p, point.omega, given) for t, p in zip(machine.tracks, machine.pressures, strict=True)]
     turns = [gas_turn(t, p, point, given) for t, p in zip(machine.tracks, machine.pressures, strict=True)]
     starts = [1.0 if turn is None else turn.warmth[0] for turn in turns]
-    rates, end = _rates(machine, gases, given), periods * point.period
-
-    def turned(t: float, y: Scalar) -> float:
-        return float(y[0]) - end
-
-    turned.terminal = True  # type: ignore[attr-defined]
-    solution = scipy.integrate.solve_ivp(
-        lambda t, y: rates(y), (0.0, 5 * end / speed), [0.0, speed, 0.0, 0.0, *starts], method="DOP853",
-        rtol=_TOLERANCE, atol=_TOLERANCE * np.array([1, point.omega, *[abs(point.load_torque)] * 2, *starts]),
-        events=turned, dense_output=True, max_step=point.period / point.omega / 60,
+    springs = [gas or t.hardware.charged(p) for t, gas, p in zip(machine.tracks, gases, machine.pressures, strict=True)]
+    end = periods * point.period
+    turning = running.Turning(
+        rates=_rates(machine, springs, gases, given), kinks=running.bends(machine), period=point.period,
+        tables=running.tables_of(dataclasses.replace(machine, extra=None)), start=(0.0, speed, 0.0, 0.0, *starts),
+        turned=end, stalled=0.0, longest=5 * end / speed,
     )  # fmt: skip
-    t = np.linspace(0, solution.t[-1], round(_PER_TURN * end / (2 * np.pi)) + 1)
-    phi, omega, gained, lost, *T = solution.sol(t)
+    t_end, states, stalled = running.turn(turning)
+    t = np.linspace(0, t_end, round(_PER_TURN * end / (2 * np.pi)) + 1)
+    phi, omega, gained, lost, *T = states(t)
     ends = np.array([phi[0], phi[-1]])
     kinetic = np.diff(running.inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2)[0]
-    springs = [gas or t.hardware.charged(p) for t, gas, p in zip(machine.tracks, gases, machine.pressures, strict=True)]
     stored = sum(float(np.diff(spring.energy(t.z(ends), warm[[0, -1]]))[0])
                  for t, spring, warm in zip(machine.tracks, springs, T, strict=True))  # fmt: skip
     residual = float((gained[-1] - lost[-1] - kinetic - stored) / (abs(lost[-1]) or 1.0))
-    return TimeRun(t=t, phi=phi, omega=omega, stalled=not len(solution.t_events[0]), energy_residual=residual,
-                   dense=lambda times: (solution.sol(times)[:1], solution.sol(times)[1:2]))  # fmt: skip
+    return TimeRun(
+        t=t, phi=phi, omega=omega, stalled=stalled, energy_residual=residual, dense=lambda t: (states(t)[:1], states(t)[1:2])
+    )
 
 
-def _rates(machine: Running, gases: list[AirThermal | None], given: HingeLosses) -> Callable[[Scalar], list[float]]:
+def _rates(
+    machine: Running, springs: Sequence[Spring], gases: Sequence[AirThermal | None], given: HingeLosses
+) -> ca.Function:
     """Rates of angle, speed, work of the engine, work of load, friction and heat, and of each T / T_w."""
-    point = machine.point
-    engine = periodic.scalar(periodic.fit(machine.torque, machine.kinks, point.period, 1e-10))
-    own = periodic.scalar(point.inertia)
-    springs = [_spring(t, g or t.hardware.charged(p), g, given)
-               for t, g, p in zip(machine.tracks, gases, machine.pressures, strict=True)]  # fmt: skip
-
-    def rates(y: Scalar) -> list[float]:
-        phi, omega = float(y[0]), float(y[1])
-        driving, (total, rise) = engine(phi)[0], own(phi)
-        total, push, away, warming = total + machine.flywheel, 0.0, 0.0, []
-        for of, T in zip(springs, y[4:], strict=True):
-            inertia, change, torque, lost, rate = of(phi, omega, float(T))
-            total, rise, push, away = total + inertia, rise + change, push + torque, away + lost
-            warming.append(rate)
-        taken = float(load_torque(machine.load, omega)) * omega
-        return [omega, (driving + push - taken / omega - rise * omega**2 / 2) / total, driving * omega, taken + away,
-                *warming]  # fmt: skip
-
-    return rates
-
-
-def _spring(
-    track: Track, spring: Spring, gas: AirThermal | None, given: HingeLosses
-) -> Callable[[float, float, float], tuple[float, ...]]:
-    """Of a guide at angle [rad], speed [rad/s] and T / T_w: inertia, its slope, torque, power lost, rate of T / T_w."""
-    h, value, slope = track.hardware, periodic.scalar(track.z), periodic.scalar(track.z.derivative())
-    mass, ratio = h.count * (h.moving_mass + h.roller_inertia / h.radius**2), h.shaft_ratio
-
-    def at(phi: float, omega: float, warm: float) -> tuple[float, ...]:
-        z, dz = value(phi)
-        d2z = slope(phi)[1]
+    y, p = ca.SX.sym("y", 4 + len(springs)), ca.SX.sym("p", 4 + 3 * len(springs))
+    omega, (driving, _, total, rise, *closings) = y[1], ca.vertsplit(p)
+    total, push, away, warming = total + machine.flywheel, ca.SX(0), ca.SX(0), []
+    for i, (track, spring, gas) in enumerate(zip(machine.tracks, springs, gases, strict=True)):
+        (z, dz, d2z), warm, h = closings[3 * i : 3 * i + 3], y[4 + i], track.hardware
         path: Path = path_of(h, h.rho0, z, dz, d2z)
-        across, along = ratio * path.rho, -dz / h.count
+        mass, across, along = h.count * (h.moving_mass + h.roller_inertia / h.radius**2), path.rho, -dz / h.count
+        across = h.shaft_ratio * across
+        total += mass * (across**2 + along**2)
+        rise += 2 * mass * (across * h.shaft_ratio * along - along * d2z / h.count)
         force = spring.force(z, warm)
         rubbed = sum(friction(track, path, force, omega, given).values())
-        heat, warming = (0.0, 0.0) if gas is None else (gas.heat(warm), gas.warming(warm, z, -dz * omega))
-        inertia = mass * (across**2 + along**2)
-        change = 2 * mass * (across * ratio * along - along * d2z / h.count)
-        return inertia, change, -force * dz - float(rubbed), float(rubbed) * omega + heat, warming
-
-    return at
+        push += -force * dz - rubbed
+        away += rubbed * omega + (0.0 if gas is None else gas.heat(warm))
+        warming.append(ca.SX(0.0 if gas is None else gas.warming(warm, z, -dz * omega)))
+    taken = load_torque(machine.load, omega)
+    rate = (driving + push - taken - rise * omega**2 / 2) / total
+    rates = ca.vertcat(omega, rate, driving * omega, taken * omega + away, *warming)
+    return ca.Function("lossy", [ca.SX.sym("t"), y, p], [rates])

@@ -31,7 +31,7 @@ from mechsym.native.compiler import NoCompiler
 from mechsym.native.integrate import integrate
 from mechsym.native.runs import STATUS, Breaks, Level, Runs, Table
 from mechsym.quantities import quantity, record
-from mechsym.quantities.units import Pure, Scalar
+from mechsym.quantities.units import Array, Pure, Radian, Scalar, Second
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
 from mechsym.simulate.speed import Dense, last_period, speeds
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
@@ -142,16 +142,15 @@ def run(machine: Running, speed: float, turns: Pure, phi_start: float = 0.0, sta
 
     turns: turns of the crank; stall: share of the point's speed below which the run ends.
     """
-    # where the machine is not smooth in a period [rad]; what is nearer than rounding is one
-    period = machine.point.period
-    angles = np.concatenate([machine.kinks, *(t.z.x for t in machine.tracks)]) % period
     turning = Turning(
-        laws=tuple(type(t.hardware.spring) for t in machine.tracks), tables=_tables(machine),
-        held=_held(machine), kinks=np.unique(np.round(angles, 12)), period=machine.point.period,
-        start=(phi_start, speed), turned=phi_start + 2 * np.pi * turns, stalled=stall * machine.point.omega,
+        rates=equation(tuple(type(t.hardware.spring) for t in machine.tracks)), tables=tables_of(machine),
+        held=_held(machine), kinks=bends(machine), period=machine.point.period,
+        start=(phi_start, speed, 0.0, 0.0), turned=phi_start + 2 * np.pi * turns, stalled=stall * machine.point.omega,
         longest=20 * turns * 2 * np.pi / speed,
     )  # fmt: skip
-    t, (phi, omega, gained, taken), stalled = turn(turning, int(_PER_TURN * turns) + 1)
+    t_end, states, stalled = turn(turning)
+    t = np.linspace(0, t_end, int(_PER_TURN * turns) + 1)
+    phi, omega, gained, taken = states(t)
     ends = np.array([phi[0], phi[-1]])
     stored = sum(
         np.diff(spring_energy(t_, p0, ends))[0] for t_, p0 in zip(machine.tracks, machine.pressures, strict=True)
@@ -159,13 +158,9 @@ def run(machine: Running, speed: float, turns: Pure, phi_start: float = 0.0, sta
     kinetic = inertia(machine, ends) * np.array([omega[0], omega[-1]]) ** 2 / 2
     turned_over = abs(taken[-1]) or abs(gained[-1]) or 1e-30
     residual = float((gained[-1] - taken[-1] - np.diff(kinetic)[0] - stored) / turned_over)
-
-    def dense(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        i = max(int(np.searchsorted(t, times[0], side="right")) - 1, 0)
-        again = dataclasses.replace(turning, start=(float(phi[i]), float(omega[i])))
-        return at_times(again, times - t[i])
-
-    return TimeRun(t=t, phi=phi, omega=omega, stalled=stalled, energy_residual=residual, dense=dense)
+    return TimeRun(
+        t=t, phi=phi, omega=omega, stalled=stalled, energy_residual=residual, dense=lambda t: (states(t)[:1], states(t)[1:2])
+    )
 
 
 def joined(legs: Sequence[TimeRun]) -> TimeRun:
@@ -205,7 +200,14 @@ def _fitted(torque: Function, kinks: tuple[float, ...], period: float) -> "scipy
     return periodic.fit(torque, kinks, period, 1e-10)
 
 
-def _tables(machine: Running) -> tuple["scipy.interpolate.PPoly", ...]:
+def bends(machine: Running) -> Radian[Array]:
+    """Where it is not smooth in a period; what is nearer than rounding is one."""
+    angles = np.concatenate([machine.kinks, *(t.z.x for t in machine.tracks)]) % machine.point.period
+    return np.unique(np.round(angles, 12))
+
+
+def tables_of(machine: Running) -> tuple["scipy.interpolate.PPoly", ...]:
+    """Over the angle: torque of the engine, extra torque, inertia, its slope, of each track z, z', z''."""
     point = machine.point
     driving = _fitted(machine.torque, machine.kinks, point.period)
     extra = scipy.interpolate.PPoly([[0.0]], [0.0, point.period]) if machine.extra is None else machine.extra
@@ -226,20 +228,19 @@ def _held(machine: Running) -> tuple[float, ...]:
 _TOLERANCE = 1e-10
 _OF_GUIDE = ("rho0", "moving_mass", "roller_inertia", "radius", "count", "shaft_ratio")
 _MET = 1  # index into STATUS
-_BEYOND = 1.0  # angle that a motion may go on behind its end [rad]
+_KEPT = 2000  # steps that a run is thought to take at most
 
 
 @record
 class Turning:
     """A machine as its equation takes it, until it has turned so far or is too slow."""
 
-    laws: tuple[type[Spring], ...]  #: of the spring of each track
-    #: polynomials over the angle: torque of the engine, extra torque, inertia, its slope, of each track z, z', z''
-    tables: tuple["scipy.interpolate.PPoly", ...]
-    held: tuple[float, ...]  #: see `equation` [SI]
+    rates: ca.Function  #: (t, states, tables and held values) -> rates of the states, angle and speed first
+    tables: tuple["scipy.interpolate.PPoly", ...]  #: polynomials over the angle, by the rates
+    held: tuple[float, ...] = ()  #: see `equation` [SI]
     kinks: np.ndarray  #: where a table is not smooth [rad]
     period: float  #: [rad]
-    start: tuple[float, float]  #: angle [rad] and speed [rad/s]
+    start: tuple[float, ...]  #: angle [rad], speed [rad/s] and the other states [SI]
     turned: float  #: Angle at which it ends [rad]
     stalled: float  #: Speed at which it ends [rad/s]
     longest: float  #: [s]
@@ -292,64 +293,44 @@ def equation(laws: tuple[type[Spring], ...]) -> ca.Function:
     return ca.Function("turning", [ca.SX.sym("t"), y, p], [rates])
 
 
-def turn(machine: Turning, readings: int) -> tuple[np.ndarray, np.ndarray, bool]:
-    """Run it to its end, and say whether it became too slow.
+def turn(machine: Turning) -> tuple[Second, Callable[[np.ndarray], np.ndarray], bool]:
+    """Run it to its end.
 
-    Returns t: even times from the start to the end [s], shape (readings,); y: angle [rad], speed [rad/s], work of the
-    engine and work of the load [J], shape (4, readings).
+    Returns t, states, stalled: when it ended [s]; ascending times (n,) [s] to its states, shape (states, n); whether it
+    became too slow. Raises BadInput: a step fails.
     """
     try:
         runs = _runs(machine)
-        # once to see how long it takes, and once to be read at even times
-        t = np.linspace(0, integrate(runs, "dop853").t[0], readings)
-        outcome = integrate(dataclasses.replace(runs, times=t[1:-1]), "dop853")
+        outcome = integrate(runs, "dop853")
+        if outcome.steps[0] > runs.keep:  # more than was thought: now they are counted
+            outcome = integrate(dataclasses.replace(runs, keep=int(outcome.steps[0])), "dop853")
         if outcome.status[0] > _MET:
             raise BadInput(f"the machine in time {STATUS[outcome.status[0]]}")
-        return t, np.vstack([runs.start, outcome.samples[0], outcome.y[0]]).T, bool(outcome.met[0] == 1)
+        return float(outcome.t[0]), outcome.last[0].at, bool(outcome.met[0] != 0)
     except NoCompiler:
-        return _by_scipy(machine, readings)
-
-
-def at_times(machine: Turning, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Angle [rad] and speed [rad/s], shape (1, n) each, at ascending times [s] from its start on, up to its end."""
-    # the last time is when it has turned far enough, to rounding: that must not end it before
-    machine = dataclasses.replace(machine, turned=machine.turned + _BEYOND)
-    runs = _runs(machine)
-    try:
-        outcome = integrate(
-            dataclasses.replace(runs, until=times[-1:], times=times[(times > 0) & (times < times[-1])]), "dop853"
-        )
-        states = np.vstack([*([runs.start] if times[0] <= 0 else []), outcome.samples[0], outcome.y])
-        states = states[np.isfinite(states[:, 1])]
-    except NoCompiler:
-        states = _solved(machine).sol(times).T
-    return states[:, 0][None], states[:, 1][None]
+        solution = _solved(machine)
+        return float(solution.t[-1]), solution.sol, not len(solution.t_events[0])
 
 
 def _runs(machine: Turning) -> Runs:
     return Runs(
-        rhs=equation(machine.laws), start=np.array([*machine.start, 0.0, 0.0]),
-        until=np.array([machine.longest]),
+        rhs=machine.rates, start=np.array(machine.start), until=np.array([machine.longest]),
         held=np.array([[*(0.0 for _ in machine.tables), *machine.held]]),
         tables=tuple(Table(held=i, state=0, polynomials=((p.x, p.c),)) for i, p in enumerate(machine.tables)),
         surfaces=(
             Level(state=0, level=machine.turned, direction=1), Level(state=1, level=machine.stalled, direction=-1)
         ),
         kinks=(Breaks(state=0, angles=machine.kinks, period=machine.period),), rtol=_TOLERANCE, atol=_TOLERANCE,
+        keep=_KEPT, kept_states=len(machine.start),
     )  # fmt: skip
-
-
-def _by_scipy(machine: Turning, readings: int) -> tuple[np.ndarray, np.ndarray, bool]:
-    solution = _solved(machine)
-    t = np.linspace(0, solution.t[-1], readings)
-    return t, solution.sol(t), bool(len(solution.t_events[1]))
 
 
 def _solved(machine: Turning) -> Any:
     tables = [periodic.scalar(p) for p in machine.tables]
     buffer: Any
-    buffer, call = equation(machine.laws).buffer()
-    state, p, rates = np.zeros(4), np.array([*(0.0 for _ in tables), *machine.held]), np.zeros(4)
+    buffer, call = machine.rates.buffer()
+    n, p = len(machine.start), np.array([*(0.0 for _ in tables), *machine.held])
+    state, rates = np.zeros(n), np.zeros(n)
     for i, given in enumerate((np.zeros(1), state, p)):
         buffer.set_arg(i, given.data)
     buffer.set_res(0, rates.data)
@@ -363,7 +344,7 @@ def _solved(machine: Turning) -> Any:
 
     ends = [_end(lambda y: y[0] - machine.turned, 1.0), _end(lambda y: y[1] - machine.stalled, -1.0)]
     return scipy.integrate.solve_ivp(
-        rate, (0.0, machine.longest), [*machine.start, 0.0, 0.0], method="DOP853", rtol=_TOLERANCE, atol=_TOLERANCE,
+        rate, (0.0, machine.longest), machine.start, method="DOP853", rtol=_TOLERANCE, atol=_TOLERANCE,
         events=ends, dense_output=True, max_step=machine.period / machine.start[1] / 90,
     )  # fmt: skip
 
