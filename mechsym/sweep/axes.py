@@ -13,7 +13,8 @@ import ast
 import itertools
 import math
 import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -68,11 +69,49 @@ def parse_axis(text: str, place: Place) -> Axis:
     return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=written.kind, values=written.values)
 
 
-def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict[str, int], list[tuple[Value, ...]]]:
+class Grid(Sequence[tuple[Value, ...]]):
+    """Points of a grid, the last axis fastest, each made when it is asked for."""
+
+    def __init__(self, values: Iterable[Sequence[Value]]) -> None:
+        self._values = [tuple(v) for v in values]
+        self._shape = tuple(map(len, self._values))
+
+    def __len__(self) -> int:
+        return math.prod(self._shape)
+
+    def __getitem__(self, k: Any) -> Any:
+        if isinstance(k, slice):
+            places = np.unravel_index(np.arange(*k.indices(len(self))), self._shape)
+            return list(zip(*([v[i] for i in at] for v, at in zip(self._values, places, strict=True)), strict=True))
+        at = np.unravel_index(range(len(self))[k], self._shape)
+        return tuple(v[i] for v, i in zip(self._values, at, strict=True))
+
+    def __iter__(self) -> Iterator[tuple[Value, ...]]:
+        return itertools.product(*self._values)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and len(self) == len(other) and all(map(operator.eq, self, other))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def along(self, i: int) -> np.ndarray:
+        """Values of an axis at all points [unit of the axis]."""
+        inner = math.prod(self._shape[i + 1 :])
+        return np.tile(np.repeat(np.array(self._values[i]), inner), len(self) // inner // self._shape[i])
+
+
+def along(points: Sequence[tuple[Value, ...]], i: int) -> np.ndarray:
+    """Values of an axis at all points [unit of the axis]."""
+    return points.along(i) if isinstance(points, Grid) else np.array([p[i] for p in points])
+
+
+def points(
+    axes: tuple[Axis, ...], samples: int | None, seed: int
+) -> tuple[dict[str, int], Sequence[tuple[Value, ...]]]:
     """All points of a grid, or samples that fill the space evenly (Sobol's sequence).
 
     samples: number of samples; None runs the grid. Returns dims: dict of str to int, name and length of each dimension;
-    points: list of tuple, values in the axes' order, the last axis fastest.
+    points: values in the axes' order, the last axis fastest.
     """
     if not axes:
         raise BadInput("--over must name at least one key, for example --over 'spring.p0=3..8 MPa:11'")
@@ -85,7 +124,7 @@ def points(axes: tuple[Axis, ...], samples: int | None, seed: int) -> tuple[dict
     if not 1 <= count <= MOST:
         raise BadInput(f"the sweep has {count} points; allowed are 1 to {MOST}")
     if samples is None:
-        return {a.key: len(a.values) for a in axes}, list(itertools.product(*(a.values for a in axes)))
+        return {a.key: len(a.values) for a in axes}, Grid(a.values for a in axes)
     return {"sample": samples}, drawn(axes, samples, seed)
 
 

@@ -12,7 +12,7 @@ from mechsym.files import Json
 from mechsym.quantities import results
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.quantities.units import Array, Pure
-from mechsym.sweep.axes import Axis, Value
+from mechsym.sweep.axes import Axis, Value, along
 from mechsym.sweep.outcomes import asked
 from mechsym.sweep.run import Sweep
 
@@ -63,20 +63,21 @@ def dataset(result: Sweep) -> "xarray.Dataset":
     except ImportError as error:
         raise files.without_netcdf(error) from None
     shape, names = tuple(result.dims.values()), list(result.dims)
-    along = {a.key: np.array([p[i] for p in result.points]) for i, a in enumerate(result.axes)}
-    sampled = "sample" in result.dims
+    sampled, place = "sample" in result.dims, {a.key: i for i, a in enumerate(result.axes)}
     coordinates = {
-        a.key: ("sample" if sampled else a.key, along[a.key] if sampled else list(a.values), _units(a.unit))
-        for a in result.axes
+        a.key: ("sample" if sampled else a.key, along(result.points, i) if sampled else list(a.values), _units(a.unit))
+        for i, a in enumerate(result.axes)
     }
     variables = {}
     for name, values in columns(result).items():
-        if name in along and _same(values, along[name]):
+        if name in place and _same(values, along(result.points, place[name])):
             continue
-        label = f"result.{name}" if name in along else name
+        label = f"result.{name}" if name in place else name
         variables[label] = (names, values.reshape(shape), _units(result.units[name]))
     reasons = failures(result)
-    texts = np.array([reasons.get(i, "") for i in range(len(result.points))])
+    texts = np.full(len(result.points), "", dtype=f"U{max(map(len, reasons.values()), default=1)}")
+    for i, reason in reasons.items():
+        texts[i] = reason
     variables["failure"] = (names, texts.reshape(shape), {"long_name": "why there is no result"})
     attributes = {"case": result.case, "analysis": result.analysis, "failed": len(reasons)}
     return xr.Dataset(variables, coords=coordinates, attrs=attributes | {"interrupted": int(result.interrupted)})
@@ -98,7 +99,7 @@ def write_table(result: Sweep, folder: Path) -> Path:
     """Write the sweep as CSV, one line a point; the cells of a gap are empty."""
     # the unit keeps an axis apart from a result of the same name
     table: dict[str, Any] = {
-        f"{a.key} [{a.unit}]" if a.unit else f"{a.key} [word]": [p[i] for p in result.points]
+        f"{a.key} [{a.unit}]" if a.unit else f"{a.key} [word]": along(result.points, i)
         for i, a in enumerate(result.axes)
     }
     reasons = failures(result)
@@ -194,7 +195,7 @@ class StudyNumbers:
 def numbers(sweep: Sweep, files: list[Path]) -> SweepNumbers:
     """The numbers of a sweep, and the files that were written of it."""
     data, axis_units = columns(sweep), {a.key: a.unit for a in sweep.axes}
-    along = zip(*sweep.points, strict=True) if "sample" in sweep.dims else (a.values for a in sweep.axes)
+    every = zip(*sweep.points, strict=True) if "sample" in sweep.dims else (a.values for a in sweep.axes)
     failed = tuple(
         FailedPoint(index=i, at=Columns(dict(zip(axis_units, sweep.points[i], strict=True)), axis_units), reason=reason)
         for i, reason in failures(sweep).items()
@@ -207,7 +208,7 @@ def numbers(sweep: Sweep, files: list[Path]) -> SweepNumbers:
         analysis=sweep.analysis,
         dims=dict(sweep.dims),
         shape=tuple(sweep.dims.values()),
-        axes={a.key: SweptAxis(unit=a.unit, values=tuple(v)) for a, v in zip(sweep.axes, along, strict=True)},
+        axes={a.key: SweptAxis(unit=a.unit, values=tuple(v)) for a, v in zip(sweep.axes, every, strict=True)},
         units={name: sweep.units[name] for name in data},
         data=Columns(values, sweep.units),
         failed=failed,

@@ -41,13 +41,13 @@ Outcome = Any  # a result, numbers by dotted names, or a Gap
 
 
 class Outcomes(Sequence[Any]):
-    """What came out at each point: tables of numbers by the names that their rows share, words by themselves, gaps."""
+    """What came out at each point: a column for each name, the names that each point has, gaps."""
 
     def __init__(self, count: int, gap: Gap) -> None:
         self._unreached = gap
-        self._table, self._row = np.full(count, -1, dtype=np.int32), np.zeros(count, dtype=np.int64)
+        self._kind = np.full(count, -1, dtype=np.int32)  # which names a point has; -1 of a gap
         self._names: list[tuple[str, ...]] = []
-        self._blocks: list[list[np.ndarray]] = []
+        self._columns: dict[str, np.ndarray] = {}
         self._gaps: dict[int, Gap] = {}
 
     @classmethod
@@ -62,7 +62,7 @@ class Outcomes(Sequence[Any]):
         by_names: dict[tuple[str, ...], tuple[list[int], list[Sequence[object]]]] = {}
         for i, outcome in zip(members, outcomes, strict=True):
             if isinstance(outcome, Gap):
-                self._gaps[i], self._table[i] = outcome, -1
+                self._gaps[i], self._kind[i] = outcome, -1
             else:
                 places, rows = by_names.setdefault(tuple(outcome), ([], []))
                 places.append(i)
@@ -70,29 +70,22 @@ class Outcomes(Sequence[Any]):
         for names, (places, rows) in by_names.items():
             if names not in self._names:
                 self._names.append(names)
-                self._blocks.append([])
-            number = self._names.index(names)
-            blocks = self._blocks[number]
-            self._table[places] = number
-            self._row[places] = sum(map(len, blocks)) + np.arange(len(places))
-            blocks.append(np.array(rows, dtype=object if any(name in WORDS for name in names) else float))
-
-    def _whole(self, number: int) -> np.ndarray:
-        """All rows of a table."""
-        if len(self._blocks[number]) > 1:
-            self._blocks[number] = [np.concatenate(self._blocks[number])]
-        return self._blocks[number][0]
+            self._kind[places] = self._names.index(names)
+            for name, values in zip(names, zip(*rows, strict=True), strict=True):
+                if name not in self._columns:
+                    self._columns[name] = np.full(len(self), *(("", object) if name in WORDS else (math.nan, float)))
+                self._columns[name][places] = values
 
     def __len__(self) -> int:
-        return len(self._table)
+        return len(self._kind)
 
     def __getitem__(self, i: Any) -> Any:
         if isinstance(i, slice):
             return [self[k] for k in range(*i.indices(len(self)))]
-        number = int(self._table[i])
+        number = int(self._kind[i])
         if number < 0:
             return self._gaps.get(range(len(self))[i], self._unreached)
-        return dict(zip(self._names[number], self._whole(number)[self._row[i]].tolist(), strict=True))
+        return {name: self._columns[name].item(i) for name in self._names[number]}
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Outcomes) and len(self) == len(other) and all(map(operator.eq, self, other))
@@ -102,23 +95,27 @@ class Outcomes(Sequence[Any]):
     @property
     def gaps(self) -> dict[int, Gap]:
         """The points without a result, in their order."""
-        return {i: self._gaps.get(i, self._unreached) for i in np.flatnonzero(self._table < 0).tolist()}
+        return {i: self._gaps.get(i, self._unreached) for i in np.flatnonzero(self._kind < 0).tolist()}
 
     @property
     def names(self) -> list[str]:
         """Names of all results, as the points tell them one after the other."""
-        order = sorted(range(len(self._names)), key=lambda number: int(np.argmax(self._table == number)))
+        order = sorted(range(len(self._names)), key=lambda number: int(np.argmax(self._kind == number)))
         return list(dict.fromkeys(name for number in order for name in self._names[number]))
 
-    def column(self, name: str, gap: float | str) -> np.ndarray:
-        """A result at all points, with `gap` where there is none [unit of the result]. name: without its unit."""
-        values = np.full(len(self), gap, dtype=object if isinstance(gap, str) else float)
-        for number, names in enumerate(self._names):
-            for k, full in enumerate(names):
-                if full.partition(" [")[0] == name:
-                    there = self._table == number
-                    values[there] = self._whole(number)[self._row[there], k]
-        return values.astype(str) if isinstance(gap, str) else values
+    def column(self, name: str) -> np.ndarray:
+        """A result at all points: not a number, or an empty word, where there is none [unit of the result].
+
+        name: without its unit.
+        """
+        named = [full for full in self._columns if full.partition(" [")[0] == name]
+        if len(named) == 1 and not (self._gaps or name in WORDS):
+            return self._columns[named[0]]
+        values = np.full(len(self), "" if name in WORDS else math.nan, dtype=object if name in WORDS else float)
+        for full in named:
+            there = np.isin(self._kind, [number for number, names in enumerate(self._names) if full in names])
+            values[there] = self._columns[full][there]
+        return values.astype(str) if name in WORDS else values
 
 
 def known(error: Exception) -> Gap:

@@ -8,7 +8,6 @@ the same path there.
 import contextlib
 import dataclasses
 import functools
-import math
 import os
 import threading
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
@@ -26,8 +25,8 @@ from mechsym.quantities import record
 from mechsym.quantities.ranges import MOST
 from mechsym.quantities.units import Second
 from mechsym.sweep import store, work
-from mechsym.sweep.axes import Axis, Ties, Value, override, parse_axis, points, saltelli, split, ties
-from mechsym.sweep.outcomes import WORDS, Gap, Outcome, Outcomes, asked, kept
+from mechsym.sweep.axes import Axis, Ties, Value, along, override, parse_axis, points, saltelli, split, ties
+from mechsym.sweep.outcomes import Gap, Outcome, Outcomes, asked, kept
 from mechsym.sweep.points import ANALYSES, Route, route
 
 if TYPE_CHECKING:
@@ -83,7 +82,7 @@ class Sweep:
     analysis: str
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
-    points: tuple[tuple[Value, ...], ...]  #: Values of the axes at each point, the last axis fastest
+    points: Sequence[tuple[Value, ...]]  #: Values of the axes at each point, the last axis fastest
     outcomes: Outcomes  #: Results of each point by name, or why there are none
     show: tuple[str, ...] = ()  #: Results to compute and show in place of the main ones
     sobol: int = 0  #: Base samples of Sobol indices; 0 where none were asked for
@@ -95,7 +94,7 @@ class Sweep:
     def by_name(self) -> dict[str, np.ndarray]:
         """Results by name, one for each point; see `data.columns` [SI, or as the name says]."""
         names = dict.fromkeys(name.partition(" [")[0] for name in self.outcomes.names)
-        return {name: self.outcomes.column(name, "" if name in WORDS else math.nan) for name in names}
+        return {name: self.outcomes.column(name) for name in names}
 
     @functools.cached_property
     def units(self) -> dict[str, str]:
@@ -110,7 +109,7 @@ class Layout:
 
     axes: tuple[Axis, ...]
     dims: Mapping[str, int]
-    points: tuple[tuple[Value, ...], ...]  #: Values of the axes, the last axis fastest
+    points: Sequence[tuple[Value, ...]]  #: Values of the axes, the last axis fastest
     ties: Ties  #: Values that follow from those of the axes
 
 
@@ -140,13 +139,14 @@ def layout(plan: Plan) -> Layout:
     if plan.sobol:
         values = saltelli(tuple(axes), plan.sobol, plan.seed)
         dims = {"sample": len(values)}
-    return Layout(axes=tuple(axes), dims=dims, points=tuple(values), ties=tied)
+    return Layout(axes=tuple(axes), dims=dims, points=values, ties=tied)
 
 
 def ends(laid: Layout) -> list[dict[str, str | float]]:
     """Overrides that set one value to its smallest or largest, for doubts about the case there."""
     overrides = []
-    for axis, values in zip(laid.axes, zip(*laid.points, strict=True), strict=True):
+    for i, axis in enumerate(laid.axes):
+        values = along(laid.points, i).tolist()
         overrides += [{axis.key: override(axis, value)} for value in (min(values), max(values))]
     return overrides
 
