@@ -185,13 +185,9 @@ def in_time(machine: Running, given: HingeLosses, speed: RadPerSecond, periods: 
                  for t, spring, warm in zip(machine.tracks, springs, T, strict=True))  # fmt: skip
     residual = float((gained[-1] - lost[-1] - kinetic - stored) / (abs(lost[-1]) or 1.0))
     return TimeRun(
-        t=t,
-        phi=phi,
-        omega=omega,
-        stalled=stalled,
-        energy_residual=residual,
-        dense=lambda t: (states(t)[:1], states(t)[1:2]),
-    )
+        t=t, phi=phi, omega=omega, stalled=stalled, energy_residual=residual,
+        dense=lambda times: (states(times)[:1], states(times)[1:2]),
+    )  # fmt: skip
 
 
 def _rates(

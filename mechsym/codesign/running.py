@@ -159,13 +159,9 @@ def run(machine: Running, speed: float, turns: Pure, phi_start: float = 0.0, sta
     turned_over = abs(taken[-1]) or abs(gained[-1]) or 1e-30
     residual = float((gained[-1] - taken[-1] - np.diff(kinetic)[0] - stored) / turned_over)
     return TimeRun(
-        t=t,
-        phi=phi,
-        omega=omega,
-        stalled=stalled,
-        energy_residual=residual,
-        dense=lambda t: (states(t)[:1], states(t)[1:2]),
-    )
+        t=t, phi=phi, omega=omega, stalled=stalled, energy_residual=residual,
+        dense=lambda times: (states(times)[:1], states(times)[1:2]),
+    )  # fmt: skip
 
 
 def joined(legs: Sequence[TimeRun]) -> TimeRun:

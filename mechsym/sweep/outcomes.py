@@ -109,7 +109,7 @@ class Outcomes(Sequence[Any]):
         name: without its unit.
         """
         named = [full for full in self._columns if full.partition(" [")[0] == name]
-        if len(named) == 1 and not (self._gaps or name in WORDS):
+        if len(named) == 1 and name not in WORDS and not self._gaps and all(named[0] in n for n in self._names):
             return self._columns[named[0]]
         values = np.full(len(self), "" if name in WORDS else math.nan, dtype=object if name in WORDS else float)
         for full in named:
