@@ -309,8 +309,7 @@ def turn(machine: Turning) -> tuple[Second, Callable[[np.ndarray], np.ndarray], 
             raise BadInput(f"the machine in time {STATUS[outcome.status[0]]}")
         return float(outcome.t[0]), outcome.last[0].at, bool(outcome.met[0] != 0)
     except NoCompiler:
-        solution = _solved(machine)
-        return float(solution.t[-1]), solution.sol, not len(solution.t_events[0])
+        return _by_scipy(machine)
 
 
 def _runs(machine: Turning) -> Runs:
@@ -326,7 +325,7 @@ def _runs(machine: Turning) -> Runs:
     )  # fmt: skip
 
 
-def _solved(machine: Turning) -> Any:
+def _by_scipy(machine: Turning) -> tuple[Second, Callable[[np.ndarray], np.ndarray], bool]:
     tables = [periodic.scalar(p) for p in machine.tables]
     buffer: Any
     buffer, call = machine.rates.buffer()
@@ -344,10 +343,11 @@ def _solved(machine: Turning) -> Any:
         return rates.copy()
 
     ends = [_end(lambda y: y[0] - machine.turned, 1.0), _end(lambda y: y[1] - machine.stalled, -1.0)]
-    return scipy.integrate.solve_ivp(
+    solution = scipy.integrate.solve_ivp(
         rate, (0.0, machine.longest), machine.start, method="DOP853", rtol=_TOLERANCE, atol=_TOLERANCE,
         events=ends, dense_output=True, max_step=machine.period / machine.start[1] / 90,
     )  # fmt: skip
+    return float(solution.t[-1]), solution.sol, not len(solution.t_events[0])
 
 
 def _end(value: Callable[[Scalar], float], direction: float) -> Any:

@@ -19,10 +19,10 @@ def turning(load=(0.0, 0.0, 1.0), speed=12.0, turns=1.5, **changes):
     z = periodic.fit(lambda phi: 0.2 - 0.15 * np.cos(phi), [], period)
     inertia = periodic.fit(lambda phi: 500 + 60 * np.cos(2 * phi), [], period)
     given = {
-        "laws": (AirAbsolute,),
+        "rates": running.equation((AirAbsolute,)),
         "tables": (nothing, nothing, inertia, inertia.derivative(), z, z.derivative(), z.derivative(2)),
         "held": (100.0, *load, *running.of_track(HARDWARE, 3e5)), "kinks": np.array([1.0]), "period": period,
-        "start": (0.0, speed), "turned": turns * period, "stalled": 1.0, "longest": 100.0,
+        "start": (0.0, speed, 0.0, 0.0), "turned": turns * period, "stalled": 1.0, "longest": 100.0,
     }  # fmt: skip
     return running.Turning(**given | changes)
 
@@ -34,19 +34,19 @@ def energy(machine, phi, omega):
     return inertia * omega**2 / 2 + h.charged(3e5).energy(z)
 
 
-def compiled(machine, readings):
+def compiled(machine):
     """The run in C, which must not be taken from scipy where no compiler is at hand."""
     with pytest.MonkeyPatch.context() as patch:
         patch.delattr(running, "_by_scipy")
-        return running.turn(machine, readings)
+        return running.turn(machine)
 
 
 @pytest.mark.parametrize("integrator", [compiled, running._by_scipy])
 def test_a_machine_without_losses_keeps_its_energy(integrator):
     machine = turning()
-    t, (phi, omega, gained, taken), stalled = integrator(machine, 50)
+    t, states, stalled = integrator(machine)
+    phi, omega, gained, taken = states(np.linspace(0, t, 50))
     assert not stalled and phi[-1] == pytest.approx(machine.turned, rel=1e-12) and np.ptp(omega) > 0.5
-    np.testing.assert_allclose(np.diff(t), t[1], rtol=1e-9)
     np.testing.assert_allclose(energy(machine, phi, omega), energy(machine, 0.0, 12.0), rtol=1e-8)
     assert np.abs([gained, taken]).max() == 0
 
@@ -54,8 +54,9 @@ def test_a_machine_without_losses_keeps_its_energy(integrator):
 @pytest.mark.parametrize("load", [(300.0, 0.0, 1.0), (0.0, 300.0, 12.0)])
 def test_a_load_takes_its_work_and_both_integrators_agree(load):
     machine = turning(load)
-    (t, y, _), (t_other, other, _) = compiled(machine, 30), running._by_scipy(machine, 30)
-    assert t[-1] == pytest.approx(t_other[-1], rel=1e-9)
+    (t, states, _), (t_other, others, _) = compiled(machine), running._by_scipy(machine)
+    assert t == pytest.approx(t_other, rel=1e-9)
+    y, other = states(np.linspace(0, t, 30)), others(np.linspace(0, t_other, 30))
     np.testing.assert_allclose(y[:2], other[:2], rtol=1e-8)
     np.testing.assert_allclose(energy(machine, *y[:2]) + y[3] - y[2], energy(machine, 0.0, 12.0), rtol=1e-8)
     if load[0]:
@@ -64,22 +65,24 @@ def test_a_load_takes_its_work_and_both_integrators_agree(load):
 
 def test_a_machine_that_is_braked_stalls_and_without_a_compiler_too(monkeypatch):
     machine = turning((4e4, 0.0, 1.0))
-    _, y, stalled = running.turn(machine, 20)
+    t, states, stalled = running.turn(machine)
+    y = states(np.linspace(0, t, 20))
     assert stalled and y[1, -1] == pytest.approx(1.0, rel=1e-9)
 
     def no_compiler(*_):
         raise running.NoCompiler("none here")
 
     monkeypatch.setattr(running, "integrate", no_compiler)
-    _, other, stalled = running.turn(machine, 20)
+    t, states, stalled = running.turn(machine)
     assert stalled
-    np.testing.assert_allclose(other, y, rtol=1e-7, atol=1e-6)
+    np.testing.assert_allclose(states(np.linspace(0, t, 20)), y, rtol=1e-7, atol=1e-6)
 
 
-def test_what_is_read_of_a_motion_reaches_its_end():
-    for speed in np.linspace(8.0, 16.0, 9):
-        machine = turning(speed=speed)
-        t, y, _ = compiled(machine, 90)
-        phi, omega = running.at_times(machine, t)
-        assert phi.shape == omega.shape == (1, 90)
-        np.testing.assert_allclose([phi[0, -1], omega[0, -1]], y[:2, -1], rtol=1e-12)
+def test_more_steps_than_were_thought_are_kept_all_the_same(monkeypatch):
+    machine = turning(turns=6)
+    t, states, _ = compiled(machine)
+    monkeypatch.setattr(running, "_KEPT", 10)
+    again, others, _ = compiled(machine)
+    times = np.linspace(0, t, 90)
+    assert again == t
+    np.testing.assert_array_equal(states(times), others(times))
