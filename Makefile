@@ -86,6 +86,7 @@ compare: | $(READY)
 records: | $(READY)
 	$(BIN)/python -m tests.matrix --write tests/recorded --light $(ONLY)
 
+# QUICK=1: few pairs, three minutes
 bench: | $(READY)
 	$(BIN)/python -m benchmarks
 

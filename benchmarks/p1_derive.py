@@ -14,7 +14,7 @@ import casadi as ca
 import numpy as np
 
 from benchmarks import models
-from benchmarks.measure import Route, Row, take_turns
+from benchmarks.measure import PAIRS, Route, Row, take_turns
 from mechsym import native
 from mechsym.mechanisms import crank_train
 from mechsym.mechanisms.record import acceleration_function
@@ -40,9 +40,9 @@ def rows(skipped: list[str]) -> list[Row]:
     found = []
     for throws in THROWS:
         routes = {
-            "mechsym (warm)": (functools.partial(_warm, throws), 7),
+            "mechsym (warm)": (functools.partial(_warm, throws), PAIRS),
             "mechsym (compiling)": (functools.partial(_cold, throws), 5),
-            "casadi autodiff, interpreted": (functools.partial(_casadi, throws), 5),
+            "casadi autodiff, interpreted": (functools.partial(_casadi, throws), PAIRS),
         }
         if throws in (1, _SLOW):
             routes["sympy LagrangesMethod + lambdify"] = (functools.partial(_sympy, throws), 1)

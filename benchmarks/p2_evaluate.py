@@ -10,7 +10,7 @@ import casadi as ca
 import numpy as np
 
 from benchmarks import models, references, translate
-from benchmarks.measure import Route, Row, take_turns
+from benchmarks.measure import PAIRS, Route, Row, take_turns
 from mechsym import native
 
 POINTS = 100_000
@@ -48,16 +48,16 @@ def _batch(system: str, function: ca.Function, x: list[np.ndarray], skipped: lis
     wanted = _reference(function, x)
     out = np.empty_like(wanted)
     routes: dict[str, tuple[Callable[[], Any], int]] = {
-        "mechsym (fast)": (lambda: fast(*x, out=out), 15),
-        "mechsym (strict)": (lambda: strict(*x, out=out), 15),
-        "hand-written C": (_hand(system, x, out), 15),
+        "mechsym (fast)": (lambda: fast(*x, out=out), PAIRS),
+        "mechsym (strict)": (lambda: strict(*x, out=out), PAIRS),
+        "hand-written C": (_hand(system, x, out), PAIRS),
         "sympy lambdify (numpy, cse)": (_lambdified(function, x), 3),
         "casadi map, interpreted": (_mapped(function, x, compiled=False), 3),
         "casadi map, compiled": (_mapped(function, x, compiled=True), 3),
     }
     for name, make in (("numba on lambdify", _numba), ("heyoka", _heyoka)):
         try:
-            routes[name] = (make(function, x), 9)
+            routes[name] = (make(function, x), PAIRS)
         except ImportError:
             skipped.append(name)
     return [_checked(name, call, wanted, rounds) for name, (call, rounds) in routes.items()]

@@ -8,7 +8,7 @@ import casadi as ca
 import numpy as np
 
 from benchmarks import models, references, translate
-from benchmarks.measure import Route, Row, take_turns
+from benchmarks.measure import PAIRS, Route, Row, take_turns
 from mechsym import native
 from mechsym.native.integrate import integrate
 from mechsym.native.runs import Runs
@@ -45,10 +45,10 @@ def rows(skipped: list[str]) -> list[Row]:
 
 def _single(tolerance: float, exact: np.ndarray, skipped: list[str]) -> list[Route]:
     calls: dict[str, tuple[Callable[[], np.ndarray], int]] = {
-        "mechsym (fast)": (_mechsym(tolerance, "fast"), 9),
-        "mechsym (strict)": (_mechsym(tolerance, "strict"), 9),
-        "mechsym DOP853 (fast)": (_mechsym(tolerance, "fast", "dop853"), 9),
-        "hand-written C DOP853": (_hand(tolerance), 9),
+        "mechsym (fast)": (_mechsym(tolerance, "fast"), PAIRS),
+        "mechsym (strict)": (_mechsym(tolerance, "strict"), PAIRS),
+        "mechsym DOP853 (fast)": (_mechsym(tolerance, "fast", "dop853"), PAIRS),
+        "hand-written C DOP853": (_hand(tolerance), PAIRS),
         "scipy DOP853 + lambdify": (_scipy(tolerance, "lambdify"), 1),
         "scipy DOP853 + mechsym scalar": (_scipy(tolerance, "mechsym"), 1),
     }
@@ -56,7 +56,7 @@ def _single(tolerance: float, exact: np.ndarray, skipped: list[str]) -> list[Rou
         calls["scipy DOP853 + casadi buffer"] = (_scipy(tolerance, "buffer"), 1)
         calls["casadi cvodes (Adams)"] = (_cvodes(tolerance), 2)
     try:
-        calls["heyoka"] = (_heyoka(tolerance), 5)
+        calls["heyoka"] = (_heyoka(tolerance), PAIRS)
     except ImportError:
         skipped.append("heyoka")
     routes = []
@@ -185,7 +185,7 @@ def _ensemble(tolerance: float, skipped: list[str]) -> list[Route]:
         error = float(np.max(np.abs(call()[:, :2] - exact[:, :2])))
         if not error < 1.0:
             raise AssertionError(f"{name} ends elsewhere: {error:.3g} rad")
-        routes.append(Route(name=name, call=call, size=RUNS, error=error, rounds=7))
+        routes.append(Route(name=name, call=call, size=RUNS, error=error))
     return routes
 
 

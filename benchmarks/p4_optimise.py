@@ -42,7 +42,7 @@ def rows(skipped: list[str]) -> list[Row]:
         found = solve()
         wanted = found if wanted is None else wanted
         error = float(np.max(np.abs(found - wanted)) / np.max(np.abs(wanted)))
-        routes.append(Route(name=name, call=solve, error=_checked(name, error), rounds=7))
+        routes.append(Route(name=name, call=solve, error=_checked(name, error)))
     try:
         solve = _opty()
     except ImportError:

@@ -12,7 +12,7 @@ import casadi as ca
 import numpy as np
 
 from benchmarks import references, translate
-from benchmarks.measure import Route, Row, take_turns
+from benchmarks.measure import PAIRS, Route, Row, take_turns
 from mechsym.native.march import marcher
 
 SPEEDS = 800
@@ -43,9 +43,9 @@ def rows(skipped: list[str]) -> list[Row]:
     stages = _stages()
     calls: dict[str, tuple[Callable[[], np.ndarray], int]] = {
         "numpy over speeds": (lambda: _numpy(stages, omega), 5),
-        "mechsym (fast)": (_mechsym(stages, omega, "fast"), 15),
-        "mechsym (strict)": (_mechsym(stages, omega, "strict"), 15),
-        "hand-written C": (lambda: _hand(stages, omega), 15),
+        "mechsym (fast)": (_mechsym(stages, omega, "fast"), PAIRS),
+        "mechsym (strict)": (_mechsym(stages, omega, "strict"), PAIRS),
+        "hand-written C": (lambda: _hand(stages, omega), PAIRS),
         "casadi interpreted": (_casadi(stages, omega), 3),
     }
     try:

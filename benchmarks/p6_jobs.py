@@ -1,14 +1,15 @@
-"""P6: whole commands as a user types them, start of Python and imports included: processor seconds."""
+"""P6: whole commands as a user types them, start of Python and imports included, beside Python with numpy and casadi."""
 
-import resource
-import statistics
+import functools
 import subprocess
 import sys
 import tempfile
+from pathlib import Path
 
-from benchmarks.measure import Row
+from benchmarks.measure import PAIRS, Route, Row, take_turns
 
-_ROUNDS = 3
+_ROUNDS = min(PAIRS, 7)
+STARTED = "python -c 'import numpy, casadi'"
 _SPRINGS = ["sweep", "zotov-89", "--over", "spring.p0=3..8MPa:1000", "--jobs", "1", "--json"]
 JOBS: dict[str, list[str]] = {
     "eval": ["eval", "crosshead", "--case", "zotov-89", "--set", "phi=1"],
@@ -22,8 +23,12 @@ JOBS: dict[str, list[str]] = {
 }
 
 
+_ENGINE = ["new", "engine", "--kind", "inline", "--bore", "86 mm", "--stroke", "86 mm", "--cylinders", "6", "--out"]
+_RUNS = ["--of", "simulate", "--over", "parameters.I_f=0.12..0.18:64", "--jobs", "1", "--json"]
+
+
 def rows(skipped: list[str]) -> list[Row]:
-    """Processor seconds of each command, after one run that fills the caches.
+    """Processor time of each command, after one run that fills the caches.
 
     Parameters
     ----------
@@ -33,22 +38,29 @@ def rows(skipped: list[str]) -> list[Row]:
     Returns
     -------
     rows : list of Row
-        Time of one command with its children
+        Of one command with its children, and of the start of Python
     """
     found = []
-    for name, words in JOBS.items():
-        times = sorted([_seconds(words) for _ in range(_ROUNDS + 1)][1:])
-        found.append(
-            Row(problem="P6 whole jobs", case=name, route="mechsym", median_s=statistics.median(times),
-                best_s=times[0], error=None)
-        )  # fmt: skip
+    with tempfile.TemporaryDirectory() as place:
+        engine = str(Path(place, "six.toml"))
+        _mechsym([*_ENGINE, engine])
+        for name, words in {**JOBS, "64 runs of an engine": ["sweep", engine, *_RUNS]}.items():
+            call = functools.partial(_mechsym, words)
+            call()
+            started = Route(name=STARTED, call=_started, rounds=_ROUNDS)
+            found += take_turns("P6 whole jobs", name, [Route(name="mechsym", call=call, rounds=_ROUNDS), started])
     return found
 
 
-def _seconds(words: list[str]) -> float:
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+def _mechsym(words: list[str]) -> None:
+    _called(["-m", "mechsym", *words])
+
+
+def _started() -> None:
+    _called(["-c", "import numpy, casadi"])
+
+
+def _called(words: list[str]) -> None:
     with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, "-m", "mechsym", *words]
-        subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        subprocess.run([sys.executable, *words], cwd=folder, check=True, **quiet)
