@@ -77,7 +77,7 @@ def _close(system: str, function: ca.Function, x: list[np.ndarray], skipped: lis
         routes["heyoka"] = _heyoka(function, x)
     except ImportError:
         skipped.append("heyoka")
-    return [_checked(name, call, wanted, 9) for name, call in routes.items()]
+    return [_checked(name, call, wanted, PAIRS) for name, call in routes.items()]
 
 
 def _reference(function: ca.Function, x: list[np.ndarray]) -> np.ndarray:

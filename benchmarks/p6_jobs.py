@@ -1,4 +1,4 @@
-"""P6: whole commands as a user types them, start of Python and imports included, beside Python with numpy and casadi."""
+"""P6: whole commands as a user types them, start of Python and imports included, beside Python and its libraries."""
 
 import functools
 import subprocess
