@@ -102,18 +102,24 @@ static void ms_time_to_kink(const ms_work *w, long state, double *time)
     }
 }
 
-/* Steps that would come near a kink end on it, or half way to it. */
+/* Steps that would come near a kink end on it, or half way to it. From kink to kink there are MS_BETWEEN steps or
+ * more: the length that a step brings from the other side of a kink may be too much for its error to show. */
+#define MS_BETWEEN 4.0
 static void ms_aim_at_kinks(const ms_run *run, ms_work *w)
 {
     ms_row time, least;
     long next[MS_L];
     MS_EACH least[l] = INFINITY;
     for (long i = 0; i < run->kinked; i++) {
-        ms_time_to_kink(w, run->kinked_states[i], time);
+        const long state = run->kinked_states[i];
+        ms_time_to_kink(w, state, time);
         MS_EACH
         {
+            const double between = w->window.above[state][l] - w->window.below[state][l];
+            const double most = between / (MS_BETWEEN * fabs(w->q[0][state][l]));
             next[l] = time[l] < least[l] ? i : next[l];
             least[l] = ms_fmin(time[l], least[l]);
+            w->step[l] = w->forced[l] > 0.0 ? w->step[l] : ms_fmin(w->step[l], most);
         }
     }
     for (int l = 0; l < MS_L; l++) {
