@@ -1,8 +1,8 @@
 """What an engine does over its speeds and other values, by the method that its cycle names."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import fields, replace
+from collections.abc import Callable, Mapping
+from dataclasses import fields
 from functools import cached_property, partial
 from pathlib import Path
 
@@ -12,7 +12,7 @@ import scipy
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel, volume
 from mechsym.cycle.closed.model import ClosedEngine, check_blowdown, closed_period, open_period
 from mechsym.cycle.closed.performance import Performance, performance
-from mechsym.cycle.closed.run import at_angles, run
+from mechsym.cycle.closed.run import FINE, ClosedCurves, closed_curves, run
 from mechsym.cycle.friction import mechanical_efficiency
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.heat import ConstantGamma
@@ -27,7 +27,7 @@ from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import Array, Radian, RadPerSecond
 
 _BLOCK = 1000
-_STEP = math.radians(0.25)  # of the tabulated cycle
+_EVEN = 1033  # angles at which the highest temperature is looked for
 
 
 def over_speeds(engine: ClosedEngine, omega: RadPerSecond[Array], progress: Progress = unseen) -> Performance:
@@ -109,7 +109,9 @@ def curves(engine: ClosedEngine, omega: RadPerSecond, step: Radian = np.radians(
         result = marched(engine, np.array([omega]))
         phi, p, t = np.radians(result.theta_deg - 360.0), result.p[:, 0], result.t[:, 0]
     else:
-        phi, p, t = at_angles(run(partial(closed_period, engine), {"omega": omega}), step)
+        first, last = engine.cycle.inlet_closes, engine.cycle.exhaust_opens
+        phi = np.linspace(first, last, round((last - first) / step) + 1)
+        p, t = closed_at(engine, omega).at(phi)
     force = piston_force(room, phi, omega, p)
     return {
         "phi_deg": np.degrees(phi),
@@ -121,35 +123,57 @@ def curves(engine: ClosedEngine, omega: RadPerSecond, step: Radian = np.radians(
     }
 
 
+def closed_at(engine: ClosedEngine, omega: RadPerSecond) -> ClosedCurves:
+    """Pressure and temperature of the closed period at one speed."""
+    return closed_curves(run(partial(closed_period, engine), {"omega": omega}, FINE))
+
+
 _PERIOD = 4 * math.pi
 
 
 def gas_of_engine(engine: ClosedEngine, omega: RadPerSecond) -> Gas:
     """Gas of an engine at one speed."""
-    curve, room, charge = curves(engine, omega, _STEP), chamber(engine.chamber, engine.motion), engine.cycle
-    phi, p, left, gamma = np.radians(curve["phi_deg"]), curve["p_pa"], charge.intake_pressure, 1.0
-    events: tuple[float, ...] = (charge.exhaust_opens, charge.inlet_closes)
+    room, charge = chamber(engine.chamber, engine.motion), engine.cycle
+    closed, events, warm = _closed_period(engine, omega)
+    left, gamma, last, behind = charge.intake_pressure, 1.0, charge.exhaust_opens, None
     fact = "gas exchange takes place at intake pressure: assumed, the cycle models the closed period only"
     if engine.blowdown is not None:
-        build = partial(closed_period, engine)
-        exchange = open_period(build, {"omega": np.array([omega])}, curve["t_k"][-1:])
-        phi, p = np.append(phi, exchange.phi[0, 1:]), np.append(p, exchange.p[0, 1:])
-        left, gamma = float(p[-1]), float(exchange.gamma[0])
+        exchange = open_period(partial(closed_period, engine), {"omega": np.array([omega])}, warm[-1:])
+        once = np.append(np.diff(exchange.phi[0]) > 0, True)
+        behind = scipy.interpolate.CubicSpline(exchange.phi[0, once], exchange.p[0, once])
+        left, gamma, last = float(exchange.p[0, -1]), float(exchange.gamma[0]), float(exchange.phi[0, -1])
         events = (*events, 2 * math.pi, _drawn_from(room, left / charge.intake_pressure, gamma))
-        behind, before = (quantity_text(value, "Pa") for value in (engine.blowdown.pressure, charge.intake_pressure))
-        fact = f"the exhaust blows down through its valve against {behind}; fresh gas comes in at {before}: assumed"
+        against, before = (quantity_text(value, "Pa") for value in (engine.blowdown.pressure, charge.intake_pressure))
+        fact = f"the exhaust blows down through its valve against {against}; fresh gas comes in at {before}: assumed"
 
     def cycle(angle: np.ndarray) -> np.ndarray:
-        known = (angle >= phi[0]) & (angle <= phi[-1])
+        angle = np.asarray(angle, dtype=float)
         # what is left in the clearance expands until fresh gas comes in
         drawn = np.maximum(charge.intake_pressure, left * (room.clearance / np.asarray(volume(room, angle))) ** gamma)
-        return np.where(known, np.interp(angle, phi, p), drawn)
+        p = closed(angle) if behind is None else np.where(angle <= charge.exhaust_opens, closed(angle), behind(angle))
+        return np.where((angle >= charge.inlet_closes) & (angle <= last), p, drawn)
 
     absolute = periodic(cycle, _PERIOD, -2 * math.pi)  # from the dead centre of gas exchange on
-    hottest = float(curve["t_k"].max())
-    pressure = pressure_over("spark-ignition", absolute, _PERIOD, (), room, t_max=hottest, facts=(fact,))
     # where the pressure jumps, or its slope
-    return Gas(pressure=replace(pressure, kinks=tuple(sorted(angle % _PERIOD for angle in events))), chamber=room)
+    kinks = tuple(sorted(angle % _PERIOD for angle in events))
+    pressure = pressure_over("spark-ignition", absolute, _PERIOD, kinks, room, t_max=float(warm.max()), facts=(fact,))
+    return Gas(pressure=pressure, chamber=room)
+
+
+def _closed_period(
+    engine: ClosedEngine, omega: RadPerSecond
+) -> tuple[Callable[[np.ndarray], np.ndarray], tuple[float, ...], np.ndarray]:
+    """Pressure over the angle [Pa], angles of the events [rad], and temperatures on even angles [K]."""
+    cycle = engine.cycle
+    events = (cycle.exhaust_opens, cycle.inlet_closes)
+    if cycle.method == "nunes2017_printed":
+        printed = curves(engine, omega)
+        phi = np.radians(printed["phi_deg"])
+        return lambda angle: np.interp(angle, phi, printed["p_pa"]), events, printed["t_k"]
+    whole = closed_at(engine, omega)
+    even = np.linspace(cycle.inlet_closes, cycle.exhaust_opens, _EVEN)
+    starts = (phase.first for phase in whole.phases[1:])
+    return lambda angle: whole.at(angle)[0], (*events, *starts), whole.at(even)[1]
 
 
 def _drawn_from(room: Chamber, ratio: float, gamma: float) -> float:

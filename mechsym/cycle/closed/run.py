@@ -186,6 +186,7 @@ _STEPS, _MOST_STEPS = 120, 7680
 MANY = 100  # points for which it pays to compile, or to read what is compiled
 _SAME = 1e-12  # angles closer than this are one [rad]
 TOLERANCE = 1e-10  # first-law residual of a cycle over the fuel's energy
+FINE, _DEGREE = 480, 7  # steps of a period whose curves are wanted, and the degree of the splines through them
 
 
 @record
@@ -289,18 +290,44 @@ def dense(result: ClosedRun, parts: int = 4) -> tuple[Radian[Array], Pascal[Arra
     return phi[:, once], p[:, once], t[:, once]
 
 
-def at_angles(result: ClosedRun, step: Radian) -> tuple[Radian[Array], Pascal[Array], Kelvin[Array]]:
-    """Pressure and temperature of the first point on even angles.
+@record
+class _PhaseCurves:
+    first: float  #: Where it begins and ends [rad]
+    last: float
+    power: int  #: phi = first + (last - first) s**power [-]
+    spline: Callable[[np.ndarray], np.ndarray]  #: s (n,) to pressure [Pa] and temperature [K], shape (n, 2)
 
-    step: distance of the angles. Returns phi: from inlet closing to exhaust opening, both included, shape (k,); p:
-    pressure, shape (k,); t: temperature, shape (k,).
+
+@record
+class ClosedCurves:
+    """Pressure and temperature of one closed period over the angle, smooth from event to event."""
+
+    phases: tuple[_PhaseCurves, ...]  #: One behind the other; none without length
+
+    def at(self, phi: Radian[Array]) -> tuple[Pascal[Array], Kelvin[Array]]:
+        """Pressure and temperature; where two phases meet that of the later, outside those of the nearest."""
+        of = np.searchsorted([phase.first for phase in self.phases[1:]], phi, side="right")
+        values = np.empty((2, *np.shape(phi)))
+        for k, phase in enumerate(self.phases):
+            share = (phi[of == k] - phase.first) / (phase.last - phase.first)
+            values[:, of == k] = phase.spline(np.clip(share, 0.0, 1.0) ** (1 / phase.power)).T
+        return values[0], values[1]
+
+
+def closed_curves(result: ClosedRun) -> ClosedCurves:
+    """The curves of the first point, by splines of degree 7 in the variable in which a phase is smooth.
+
+    With `FINE` steps they are off by less than 1e-8 of their peak; cubics between nodes and across events were by 1e-3.
     """
-    once = np.append(np.diff(result.phi[0]) > _SAME, True)
-    nodes = result.phi[0, once]
-    phi = np.linspace(nodes[0], nodes[-1], round((nodes[-1] - nodes[0]) / step) + 1)
-    curves = ((result.p, result.dp_dphi), (result.t, result.dt_dphi))
-    p, t = (scipy.interpolate.CubicHermiteSpline(nodes, y[0, once], slope[0, once])(phi) for y, slope in curves)
-    return phi, p, t
+    steps, at, phases = result.phi.shape[1] - len(PHASES), 0, []
+    for phase in PHASES:
+        n = steps_of(phase, steps)
+        phi, values = result.phi[0, at : at + n + 1], np.stack([result.p, result.t], axis=-1)[0, at : at + n + 1]
+        at += n + 1
+        if phi[-1] - phi[0] > _SAME:
+            spline = scipy.interpolate.make_interp_spline(np.arange(n + 1) / n, values, k=_DEGREE)
+            phases.append(_PhaseCurves(first=phi[0], last=phi[-1], power=GRADING[phase], spline=spline))
+    return ClosedCurves(phases=tuple(phases))
 
 
 def _run(build: Build, names: tuple[str, ...], values: np.ndarray, steps: int) -> ClosedRun:
