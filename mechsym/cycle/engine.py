@@ -27,7 +27,7 @@ from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import Array, Radian, RadPerSecond
 
 _BLOCK = 1000
-_EVEN = 1033  # angles at which the highest temperature is looked for
+_STEP = math.radians(0.25)  # of the angles at which the highest temperature is looked for
 
 
 def over_speeds(engine: ClosedEngine, omega: RadPerSecond[Array], progress: Progress = unseen) -> Performance:
@@ -109,9 +109,7 @@ def curves(engine: ClosedEngine, omega: RadPerSecond, step: Radian = np.radians(
         result = marched(engine, np.array([omega]))
         phi, p, t = np.radians(result.theta_deg - 360.0), result.p[:, 0], result.t[:, 0]
     else:
-        first, last = engine.cycle.inlet_closes, engine.cycle.exhaust_opens
-        phi = np.linspace(first, last, round((last - first) / step) + 1)
-        p, t = closed_at(engine, omega).at(phi)
+        phi, p, t = closed_at(engine, omega).even(step)
     force = piston_force(room, phi, omega, p)
     return {
         "phi_deg": np.degrees(phi),
@@ -171,9 +169,8 @@ def _closed_period(
         phi = np.radians(printed["phi_deg"])
         return lambda angle: np.interp(angle, phi, printed["p_pa"]), events, printed["t_k"]
     whole = closed_at(engine, omega)
-    even = np.linspace(cycle.inlet_closes, cycle.exhaust_opens, _EVEN)
     starts = (phase.first for phase in whole.phases[1:])
-    return lambda angle: whole.at(angle)[0], (*events, *starts), whole.at(even)[1]
+    return lambda angle: whole.at(angle)[0], (*events, *starts), whole.even(_STEP)[2]
 
 
 def _drawn_from(room: Chamber, ratio: float, gamma: float) -> float:

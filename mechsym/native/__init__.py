@@ -5,7 +5,7 @@ kernels.py    equal parts rolled into loops                  source.py    C text
 evaluate.py   scalar and batch calls, derivatives; the same without a compiler
 cache.py      compiled files, checked before use             arc.py       motion along the arc length of each angle
 adams.py      steps that look back, in lanes                 c/adams.h    their control
-integrate.py  runs in time: DOP853 in lanes, collocation
+integrate.py  runs in time: DOP853 in lanes, collocation; runs.py says what they take and give
 march.py      a recurrence over stages, and equal Runge-Kutta steps at many designs, in many lanes
 c/*.h         what does not depend on the program: elementary functions, methods, step control
 """
@@ -13,12 +13,12 @@ c/*.h         what does not depend on the program: elementary functions, methods
 from mechsym.quantities import lazily
 
 _NAMES = {
-    "Breaks": "mechsym.native.integrate:Breaks",
+    "Breaks": "mechsym.native.runs:Breaks",
     "Compiled": "mechsym.native.evaluate:Compiled",
-    "Level": "mechsym.native.integrate:Level",
-    "Outcome": "mechsym.native.integrate:Outcome",
-    "Runs": "mechsym.native.integrate:Runs",
-    "Table": "mechsym.native.integrate:Table",
+    "Level": "mechsym.native.runs:Level",
+    "Outcome": "mechsym.native.runs:Outcome",
+    "Runs": "mechsym.native.runs:Runs",
+    "Table": "mechsym.native.runs:Table",
     "compiled": "mechsym.native.evaluate:compiled",
     "compiled_all": "mechsym.native.evaluate:compiled_all",
     "folder": "mechsym.native.march:folder",

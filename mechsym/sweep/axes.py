@@ -69,7 +69,7 @@ def parse_axis(text: str, place: Place) -> Axis:
     return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=written.kind, values=written.values)
 
 
-class Grid(Sequence[tuple[Value, ...]]):
+class GridPoints(Sequence[tuple[Value, ...]]):
     """Points of a grid, the last axis fastest, each made when it is asked for."""
 
     def __init__(self, values: Iterable[Sequence[Value]]) -> None:
@@ -102,7 +102,7 @@ class Grid(Sequence[tuple[Value, ...]]):
 
 def along(points: Sequence[tuple[Value, ...]], i: int) -> np.ndarray:
     """Values of an axis at all points [unit of the axis]."""
-    return points.along(i) if isinstance(points, Grid) else np.array([p[i] for p in points])
+    return points.along(i) if isinstance(points, GridPoints) else np.array([p[i] for p in points])
 
 
 def points(
@@ -124,7 +124,7 @@ def points(
     if not 1 <= count <= MOST:
         raise BadInput(f"the sweep has {count} points; allowed are 1 to {MOST}")
     if samples is None:
-        return {a.key: len(a.values) for a in axes}, Grid(a.values for a in axes)
+        return {a.key: len(a.values) for a in axes}, GridPoints(a.values for a in axes)
     return {"sample": samples}, drawn(axes, samples, seed)
 
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+import itertools
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from mechsym.cases import load
 from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.performance import performance
-from mechsym.cycle.closed.run import closed_function, closed_map, dense, run
+from mechsym.cycle.closed.run import FINE, closed_curves, closed_function, closed_map, dense, run
 from mechsym.cycle.heat import Adiabatic, Annand, Hohenberg, NasaMixture, Woschni
 from mechsym.cycle.kinds.spark_ignition import otto_efficiency
 from mechsym.errors import BadInput
@@ -171,3 +172,16 @@ def test_many_designs_give_what_single_ones_give(slider_crank, law, gas):
             wanted = np.asarray(value).ravel()
             scale = np.maximum(np.abs(wanted), 1e-3 * np.abs(wanted).max())
             assert np.all(np.abs(many[name][i] - wanted) <= 1e-11 * scale), name
+
+
+@pytest.mark.parametrize("wiebe_m", [2.0, 0.7247])
+def test_curves_are_smooth_from_event_to_event(slider_crank, wiebe_m):
+    build = period_of(cycle_of(slider_crank, wiebe_m=wiebe_m))
+    fine = closed_curves(run(build, {"omega": 4000 * RPM}, 7680))
+    phi, p, t = fine.even(np.radians(0.01))
+    usual = closed_curves(run(build, {"omega": 4000 * RPM}, FINE)).at(phi)
+    np.testing.assert_allclose(usual[0], p, atol=1e-7 * p.max())
+    np.testing.assert_allclose(usual[1], t, atol=1e-7 * t.max())
+    for before, after in itertools.pairwise(fine.phases):  # there the curves meet, their slopes need not
+        assert before.last == after.first
+        np.testing.assert_allclose(before.spline(1.0), after.spline(0.0), rtol=1e-12)

@@ -14,7 +14,7 @@ from mechsym.cases import load, text
 from mechsym.cli.cycle import cycle as cycle_command
 from mechsym.cycle.chamber import chamber
 from mechsym.cycle.closed.model import closed_period
-from mechsym.cycle.closed.run import at_angles, run
+from mechsym.cycle.closed.run import closed_curves, run
 from mechsym.cycle.measured.checks import _EXPANSION_TOLD
 from mechsym.cycle.measured.combustion import fit_double_wiebe, fit_wiebe, least_squares_fit
 from mechsym.cycle.measured.heat_release import (
@@ -50,7 +50,7 @@ def synthetic():
     """Engine, its run, and its pressure every half degree."""
     machine = one_piston(vaporisation="none")
     result = run(partial(closed_period, machine), {"omega": OMEGA}, steps=960)
-    phi, p, t = at_angles(result, 0.5 * DEG)
+    phi, p, t = closed_curves(result).even(0.5 * DEG)
     return machine, result.scalars, phi, p
 
 
@@ -80,7 +80,7 @@ def test_wiebe_function_and_burn_points_come_back(synthetic):
 def test_the_walls_raise_the_expansion_as_the_limit_allows(rpm, more):
     """The limit of the expansion that is told: burnt gas, 1.3, and what the walls of a small slow engine take."""
     machine = engine(load("nunes-slider-crank"))
-    phi, p, _ = at_angles(run(partial(closed_period, machine), {"omega": rpm * RPM}), 0.5 * DEG)
+    phi, p, _ = closed_curves(run(partial(closed_period, machine), {"omega": rpm * RPM})).even(0.5 * DEG)
     found = combustion(phi, p, cylinder_of(machine), 1.32, (phi[0], phi[-1]))
     assert found.n_expansion - machine.gas.gamma == pytest.approx(more, abs=0.01)
     assert 1.3 + more <= _EXPANSION_TOLD[1] + 0.01

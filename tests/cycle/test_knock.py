@@ -13,7 +13,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.closed.performance import design_function
-from mechsym.cycle.closed.run import at_angles, run, steps_of
+from mechsym.cycle.closed.run import closed_curves, run, steps_of
 from mechsym.cycle.heat import ConstantGamma
 from mechsym.cycle.knock import ATM, end_gas_temperature, ignition_delay, knock_along, knock_of_runs, share_of_delay
 from mechsym.jobs.cycle import engine
@@ -86,7 +86,7 @@ def test_integral_of_an_engine_is_that_of_its_curves():
     machine, omega = engine(case), 2000 * np.pi / 30
     k = float(design_function(machine, ["omega"]).call({"design": omega})["knock"])
     result = run(partial(closed_period, machine), {"omega": np.array([omega])})
-    phi, p, t = at_angles(result, np.radians(0.02))
+    phi, p, t = closed_curves(result).even(np.radians(0.02))
     starts, ends = float(result.scalars["starts"][0]), float(result.scalars["ends"][0])
     first = np.searchsorted(phi, starts)
     T = np.where(phi < starts, t, end_gas_temperature(p, p[first], t[first], 2 / 7))

@@ -292,7 +292,8 @@ def dense(result: ClosedRun, parts: int = 4) -> tuple[Radian[Array], Pascal[Arra
 
 @record
 class _PhaseCurves:
-    first: float  #: Where it begins and ends [rad]
+    #: Where it begins and ends [rad]
+    first: float
     last: float
     power: int  #: phi = first + (last - first) s**power [-]
     spline: Callable[[np.ndarray], np.ndarray]  #: s (n,) to pressure [Pa] and temperature [K], shape (n, 2)
@@ -312,6 +313,12 @@ class ClosedCurves:
             share = (phi[of == k] - phase.first) / (phase.last - phase.first)
             values[:, of == k] = phase.spline(np.clip(share, 0.0, 1.0) ** (1 / phase.power)).T
         return values[0], values[1]
+
+    def even(self, step: Radian) -> tuple[Radian[Array], Pascal[Array], Kelvin[Array]]:
+        """Even angles from inlet closing to exhaust opening, and pressure and temperature there."""
+        first, last = self.phases[0].first, self.phases[-1].last
+        phi = np.linspace(first, last, round((last - first) / step) + 1)
+        return phi, *self.at(phi)
 
 
 def closed_curves(result: ClosedRun) -> ClosedCurves:
