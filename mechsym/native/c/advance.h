@@ -104,7 +104,7 @@ static void ms_time_to_kink(const ms_work *w, long state, double *time)
 
 /* Steps that would come near a kink end on it, or half way to it. From kink to kink there are MS_BETWEEN steps or
  * more: the length that a step brings from the other side of a kink may be too much for its error to show. */
-#define MS_BETWEEN 4.0
+#define MS_BETWEEN 6.0
 static void ms_aim_at_kinks(const ms_run *run, ms_work *w)
 {
     ms_row time, least;
