@@ -126,7 +126,7 @@ def ready(case: Case, kept: Kept | None = None) -> Ready:
     """The run of a case, with the parts that it is made of. kept: see `problem_of`."""
     case = at_recorded_speed(case)
     wanted, mechanism = simulation_of(case), mechanism_of(case)
-    driving = driving_of(case, kept)
+    driving = driving_of(case, kept, mechanism)
     drive = drive_on(case, mechanism) if "drive" in case.sections else None
     declared = [r.angle for r in mechanisms.roles_of(case.mechanism).rotors if r.load]
     shaft = _Shaft(
@@ -277,14 +277,15 @@ def guide_of(case: Case, diagram: str | None = None) -> tuple[Machine, Hinge, Gu
     return engine, wanted, guide
 
 
-def driving_of(case: Case, kept: Kept | None = None) -> Driving:
-    """What turns the shaft of a case over its angle; nothing without `[cycle]` and `[torque]`. kept: see `problem_of`.
+def driving_of(case: Case, kept: Kept | None = None, mechanism: Mechanism | None = None) -> Driving:
+    """What turns the shaft of a case over its angle; nothing without `[cycle]` and `[torque]`.
 
+    kept: see `problem_of`; mechanism: with all coordinates, where it is built already.
     Raises BadInput: Pistons on two throws of a shaft that share one gas, or a torque on a shaft that twists.
     """
     if not {"cycle", "torque"} & set(case.sections):
         return Driving()
-    whole = mechanism_of(case)
+    whole = mechanism or mechanism_of(case)
     if len(whole.coordinates) - len(whole.dependents) > 1:
         form = form_of(whole)
         if kept is None or form is None or form.pushed is None:
