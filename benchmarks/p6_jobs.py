@@ -44,7 +44,7 @@ def rows(skipped: list[str]) -> list[Row]:
     with tempfile.TemporaryDirectory() as place:
         engine = str(Path(place, "six.toml"))
         _mechsym([*_ENGINE, engine])
-        for name, words in {**JOBS, "64 runs of an engine": ["sweep", engine, *_RUNS]}.items():
+        for name, words in {**JOBS, "64 engine runs": ["sweep", engine, *_RUNS]}.items():
             call = functools.partial(_mechsym, words)
             call()
             started = Route(name=STARTED, call=_started, rounds=_ROUNDS)
