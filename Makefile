@@ -86,7 +86,7 @@ compare: | $(READY)
 records: | $(READY)
 	$(BIN)/python -m tests.matrix --write tests/recorded --light $(ONLY)
 
-# QUICK=1: few pairs, three minutes
+# QUICK=1: a few pairs of each, too few for intervals
 bench: | $(READY)
 	$(BIN)/python -m benchmarks
 

@@ -34,6 +34,7 @@ from mechsym.jobs.machine import (
     load_input,
     machine,
     mechanism_of,
+    turn,
     turned_by,
     turning,
 )
@@ -52,7 +53,7 @@ from mechsym.simulate.problem import Kinks, Part, Periodic, Problem, Steps, Stop
 from mechsym.simulate.settings import Simulation
 from mechsym.simulate.steady import mean_torque
 
-# of the largest force: a cycle leaves open ten times as much, and its table has a corner every half degree
+# of the largest force: finer than what any cycle leaves open, 4e-10 of its peak where it is closed, else 3e-5
 _FOLLOWED = 1e-10
 _AFTER = ("parameters", "flywheel", "simulation")  # sections that do not change what drives a train of one form
 # the window whose mean, least and greatest speed is reported is sampled this finely
@@ -334,4 +335,7 @@ def _on_throws(case: Case, mechanism: Mechanism) -> Driving:
         value = Periodic(coordinate=name, value=fired, period=period, kinks=angles)
         parts.append(Part(name=f"gas_{number}", input=one.face.input, value=value))
     kinks = (Kinks(coordinate=q, angles=tuple(sorted(bent)), period=period) for q, bent in bends.items() if bent)
-    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=float(np.mean(shaft_torque(case))))
+    mean = float(np.mean(shaft_torque(case)))
+    if not math.isfinite(mean):
+        turn(case)  # which says where the loop opens
+    return Driving(parts=tuple(parts), kinks=tuple(kinks), torque=mean)

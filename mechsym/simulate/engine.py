@@ -87,6 +87,10 @@ class _Propeller:
         return propeller_torque(u[self.index], torque, speed)
 
 
+def _constant(t: Scalar, q: Scalar, u: Scalar, torque: Scalar) -> Scalar:
+    return torque
+
+
 def load_value(load: Load, index: int = 0) -> FormulaForce | Callable[[float, list[float], list[float]], float]:
     """A load law as the value of a part.
 
@@ -98,4 +102,4 @@ def load_value(load: Load, index: int = 0) -> FormulaForce | Callable[[float, li
             return lambda t, q, u: float(load_torque(load, u[index]))
         case PropellerLoad():
             return FormulaForce(function=_Propeller(index=index), numbers=reference(load))
-    return FormulaForce(function=lambda t, q, u: load_torque(load, u[index]))
+    return FormulaForce(function=_constant, numbers=(load_torque(load, 0.0),))

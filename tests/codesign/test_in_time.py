@@ -78,6 +78,15 @@ def test_a_machine_that_is_braked_stalls_and_without_a_compiler_too(monkeypatch)
     np.testing.assert_allclose(states(np.linspace(0, t, 20)), y, rtol=1e-7, atol=1e-6)
 
 
+def test_what_is_read_of_a_motion_reaches_its_end():
+    for speed in np.linspace(8.0, 16.0, 9):
+        machine = turning(speed=speed)
+        t, states, _ = compiled(machine)
+        phi, omega = states(np.linspace(0, t, 90))[:2]
+        assert phi[-1] == pytest.approx(machine.turned, rel=1e-12)
+        np.testing.assert_allclose(energy(machine, phi[-1], omega[-1]), energy(machine, 0.0, speed), rtol=1e-8)
+
+
 def test_more_steps_than_were_thought_are_kept_all_the_same(monkeypatch):
     machine = turning(turns=6)
     t, states, _ = compiled(machine)

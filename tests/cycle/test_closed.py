@@ -180,8 +180,8 @@ def test_curves_are_smooth_from_event_to_event(slider_crank, wiebe_m):
     fine = closed_curves(run(build, {"omega": 4000 * RPM}, 7680))
     phi, p, t = fine.even(np.radians(0.01))
     usual = closed_curves(run(build, {"omega": 4000 * RPM}, FINE)).at(phi)
-    np.testing.assert_allclose(usual[0], p, atol=1e-7 * p.max())
-    np.testing.assert_allclose(usual[1], t, atol=1e-7 * t.max())
+    np.testing.assert_allclose(usual[0], p, atol=1e-8 * p.max())
+    np.testing.assert_allclose(usual[1], t, atol=1e-8 * t.max())
     for before, after in itertools.pairwise(fine.phases):  # there the curves meet, their slopes need not
         assert before.last == pytest.approx(after.first, abs=1e-15)
         np.testing.assert_allclose(before.spline(1.0), after.spline(0.0), rtol=1e-12)
