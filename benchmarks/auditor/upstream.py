@@ -56,6 +56,22 @@ def cam_radius(arm: float = 1.8, pivot: float = 2.0, start: float = np.pi / 6) -
     return radius, (arm * np.cos(b) * (1 - rate) + pivot) / ((1 + uh) * np.cos(u))
 
 
+def cam_pressure_angle(base: float = 30.0, roller: float = 8.0, offset: float = 15.0) -> tuple[float, float]:
+    """Largest pressure angle of an offset roller that rises by 5 (1 - cos a), by its centre's path, and as written."""
+    a = np.radians(np.arange(0, 360, 0.1))
+    s, rate = 5 * (1 - np.cos(a)), 5 * np.sin(a)
+
+    def angle(foot: float) -> np.ndarray:
+        centre = (offset + 1j * (foot + s)) * np.exp(-1j * a)  # in the cam's frame, the follower moves along 1j
+        along = np.gradient(centre, a) * np.exp(1j * a)
+        normal = 1j * along / abs(along)
+        return np.arcsin(np.clip(abs(normal.real), 0, 1))[1:-1]
+
+    foot = np.sqrt((base + roller) ** 2 - offset**2)
+    written = abs(np.arctan((rate - offset) / (s + np.hypot(base + roller, offset))))
+    return float(np.degrees(angle(foot).max())), float(np.degrees(written.max()))
+
+
 def main() -> None:
     """Print the numbers in the order of the page."""
     for target in (25, 35):
@@ -67,6 +83,12 @@ def main() -> None:
     worst = int(np.argmax(np.abs(written / right - 1)))
     print(f"EMAE360: at {worst} degrees {written[worst]:.1f} cm^3 as written, {right[worst]:.1f} cm^3")
     print("Chrono: radius {:.4f} by differences, {:.3f} as written".format(*cam_radius()))
+    print(
+        "mechanism: largest pressure angle {:.2f} degrees by the path, {:.2f} as written".format(*cam_pressure_angle())
+    )
+    modulus = 1 / (2 * (1 - 0.33) / 200), 1 / (2 * (1 - 0.33**2) / 200)
+    pressure = np.sqrt(modulus[0] / modulus[1]) - 1
+    print(f"Gear-Calculators: {modulus[0]:.0f} GPa as written, {modulus[1]:.0f} GPa; pressure {pressure:.0%} too high")
     print(f"ModelingProject3: 1e-3 m^3 and 10 have {9 / 1e-3:.0f} as written, {1e-3 / 9:.2e} m^3")
     print(f"gearCalculator: 24 teeth of pitch 10, outside 2.6 in: {2.6 * 10 + 2:.0f} teeth as written")
     swept = np.pi * 0.04**2 * 0.02 / 2

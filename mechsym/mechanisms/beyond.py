@@ -33,7 +33,10 @@ def meets(mechanism: Mechanism) -> bool:
     for i, row in enumerate(roots(at)):
         value, largest = np.nan_to_num(row), np.nanmax(row, initial=0.0)
         ends = np.isfinite(row[:-2]) & np.isfinite(row[2:])
-        for k in np.flatnonzero(ends & (value[1:-1] <= value[:-2]) & (value[1:-1] <= value[2:])) + 1:
+        before, middle, after = value[:-2], value[1:-1], value[2:]
+        # what comes down to 0 between two angles, as a parabola or as the sides of a V, is at most half of its neighbour
+        low = (middle <= before) & (middle <= after) & (middle <= 0.55 * np.maximum(before, after))
+        for k in np.flatnonzero(ends & low) + 1:
             least = scipy.optimize.minimize_scalar(
                 lambda x, i=i: float(np.nan_to_num(roots(np.array([x]))[i, 0])),
                 bounds=(at[k - 1], at[k + 1]), method="bounded", options={"xatol": 1e-9},

@@ -76,6 +76,10 @@ ATTACKS = {
     "a derivative by degrees": "def f(a, t):\n    V = a*sin(t*pi/180)\n    dV_dt = a*cos(t*pi/180)*pi/180\n",
     "a partial derivative": "def f(a, t):\n    y = interp(a, t)\n    V = a*y\n    dV_dt = a*0 + y*t\n    return V\n",
     "changed in place": "def f(bore, stroke):\n    V_d = bore**2*stroke\n    V_d *= 0.785398\n    return V_d\n",
+    "a sum under a comment": "def f(base_radius, roller_radius):\n    # check of the radius of curvature\n"
+    "    Rp = base_radius + roller_radius\n    return Rp\n",
+    "a contact of two spheres by the same modulus": "def f(E1, E2, nu1, nu2):\n"
+    "    k = (1 - nu1**2)/(pi*E1) + (1 - nu2**2)/(pi*E2)\n    return k\n",
     "in a branch": "def f(bore, stroke, n):\n    if n > 1:\n        stroke = stroke/2\n    V = bore*stroke\n",
 }
 
@@ -105,6 +109,28 @@ def test_a_mean_speed_that_counts_one_stroke_and_a_fraction_turned_over(tmp_path
     text = "def f(Vd, compression_ratio):\n    clearance_volume = (compression_ratio - 1)/Vd\n"
     (row,) = rows_of(tmp_path / "2", {"v.py": text})
     assert row["claim"] == "cylinder_volume.V_c" and "inverted" in row["note"]
+
+
+def test_the_size_of_a_cams_pressure_angle_by_the_steps_of_its_program(tmp_path):
+    text = (
+        "def largest(base_radius, roller_radius, offset, motion):\n    rate = motion.velocity/motion.omega\n"
+        "    y = motion.lift\n"
+        "    foot = sqrt((base_radius + roller_radius)**2 {sign} offset**2)\n"
+        "    phi = np.abs(np.arctan((rate - offset)/(y + foot)))\n    return phi\n"
+    )
+    assert rows_of(tmp_path / "right", {"a.py": text.format(sign="-")}) == []
+    rows = rows_of(tmp_path / "wrong", {"a.py": text.format(sign="+")})
+    assert [row["claim"] for row in rows] == ["roller_cam.d0", "roller_cam.pressure_angle"]
+    assert all("by sign" in row["note"] for row in rows)
+
+
+def test_a_slip_that_stands_in_both_halves_of_a_sum(tmp_path):
+    text = "def modulus(E1, E2, nu1, nu2):\n    return 1/((1 - nu1{power})/E1 + (1 - nu2{power})/E2)\n"
+    assert rows_of(tmp_path / "right", {"a.py": text.format(power="**2")}) == []
+    (row,) = rows_of(tmp_path / "wrong", {"a.py": text.format(power="")})
+    assert row["note"].count("by power") == 2
+    # of two slips of different kinds nothing is said
+    assert rows_of(tmp_path / "two", {"a.py": text.format(power="").replace("(1 - nu2)", "(1 + nu2**2)")}) == []
 
 
 def test_whole_numbers_of_c_divide_as_c_divides_them():

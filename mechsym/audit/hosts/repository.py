@@ -5,9 +5,11 @@ import hashlib
 import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 from functools import cache
 from pathlib import Path
+
+import numpy as np
 
 from mechsym.audit.judge.asked import Asked, question_of
 from mechsym.audit.judge.conventions import also_exact
@@ -143,7 +145,7 @@ def _shown(tree: Node) -> str:
 
 def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
     """The best of what theories say of a claim: it agrees with one, or it is a slip away from just one."""
-    doubts: list[tuple[float, Fitted, Formula, str]] = []
+    doubts: list[tuple[float, Fitted, Formula, str, Probes]] = []
     matched = False
     for vocabulary in vocabularies:
         fitted = fit(claim, vocabulary)
@@ -157,13 +159,13 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
         for away, quantity in _met(fitted, form, vocabulary.states):
             if away == 0.0:
                 return {"verdict": "agrees", "claim": f"{fitted.theory.name}.{quantity}"}
-            doubts.append((away, fitted, form, quantity))
+            doubts.append((away, fitted, form, quantity, vocabulary.states))
     if not matched:
         return None
     doubts = [d for d in doubts if _told_enough(d[0], d[1], d[3])]
     doubts.sort(key=lambda d: (not d[1].quantities, d[0]))
-    for _, fitted, form, quantity in doubts[:2]:
-        row = _slip(fitted, form, quantity)
+    for _, fitted, form, quantity, states in doubts[:2]:
+        row = _slip(fitted, form, quantity, states)
         if row is not None:
             return row
     return {"verdict": "", "claim": ""}
@@ -191,13 +193,15 @@ def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
     return away <= _NEAR and many > 2 and strong > 1
 
 
-def _asked_once(text: str, theory: Theory, quantity: str, own: Mapping[str, str]) -> Row:
-    # the row of a formula, of one slip at most
+def _asked_once(text: str, theory: Theory, quantity: str, own: Mapping[str, str], twice: bool = False) -> Row:
+    # the row of a formula, of one slip at most; twice: the same one may stand in both of its halves
     against = f"{theory.name}.{quantity}"
     try:
         asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory)
         question = question_of(asked, statement(text))
-        verdict = decide(question, one=True)
+        verdict = decide(question, one=not twice)
+        if twice and verdict.repairs and len({edit.kind for edit in verdict.repairs[0].edits}) > 1:
+            verdict = decide(question, one=True)
         right = also_exact(question) if verdict.verdict not in PASSED else ""
     except BadInput as error:
         return unread_row("", against, text, str(error))
@@ -205,13 +209,34 @@ def _asked_once(text: str, theory: Theory, quantity: str, own: Mapping[str, str]
     return row | {"verdict": "convention", "note": f"exact with {right}"} if right else row
 
 
-def _slip(fitted: Fitted, form: Formula, quantity: str) -> Row | None:
+_OTHER_OF_TWO = str.maketrans("12", "21")
+
+
+def _is_of_two_alike(fitted: Fitted, form: Formula, states: Probes) -> bool:
+    # 1 and 2 may change places in it, as the bodies of a contact do
+    letter_of = {meaning: safe(letter) for letter, meaning in fitted.meanings.items()}
+    other = {letter: letter_of.get(meaning.translate(_OTHER_OF_TWO), "") for meaning, letter in letter_of.items()}
+    if not all(other.values()) or all(one == another for one, another in other.items()):
+        return False
+    turned = replace(form, tree=trees.substitute(form.tree, lambda n: _renamed_to(n, other)))
+    try:
+        one, another = (states.values(states.random, each, fitted.theory.results[0])[0] for each in (form, turned))
+    except (BadInput, ArithmeticError, ValueError, KeyError):
+        return False
+    return bool(np.allclose(one, another, rtol=1e-9, atol=0.0))
+
+
+def _renamed_to(node: Node, names: Mapping[str, str]) -> Node | None:
+    return trees.name(names[node.id]) if isinstance(node, ast.Name) and node.id in names else None
+
+
+def _slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row | None:
     # a formula that one slip takes away from a quantity
     theory = fitted.theory
     if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
         return None
     own = {safe(k): v for k, v in fitted.meanings.items()}
-    row = _asked_once(to_python(form.tree), theory, quantity, own)
+    row = _asked_once(to_python(form.tree), theory, quantity, own, twice=_is_of_two_alike(fitted, form, states))
     if row["verdict"] in PASSED:
         return row | {"verdict": "agrees"}
     # a step on the way to a quantity lacks a term or a factor: that is no slip
@@ -272,7 +297,7 @@ def _slopes(reading: Reading) -> Iterator[tuple[Claim, Row]]:
 
 
 def _with_name(tree: Node, old: str, new: str) -> Node:
-    return trees.substitute(tree, lambda n: trees.name(new) if isinstance(n, ast.Name) and n.id == old else None)
+    return trees.substitute(tree, lambda n: _renamed_to(n, {old: new}))
 
 
 def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | None:

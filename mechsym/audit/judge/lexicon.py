@@ -143,7 +143,7 @@ def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
     """A claim in a theory's letters; None where a name in it means nothing there."""
     theory = vocabulary.theory
     rank, called = _called(claim, vocabulary)
-    tree, meanings, strong = claim.tree, {}, 0
+    tree, meanings, strong = _of_either_sign(claim.tree), {}, 0
     for _ in range(12):
         put_in = {}
         for letter in letters(tree):
@@ -171,6 +171,13 @@ def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
     return Fitted(
         theory=theory, claim=claim, tree=tree, meanings=meanings, quantities=called if rank else (), strong=strong
     )
+
+
+def _of_either_sign(tree: Node) -> Node:
+    # the size of a quantity is the quantity, as signs are not told
+    while isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) and tree.func.id == "abs":
+        tree = tree.args[0]
+    return tree
 
 
 def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
