@@ -34,7 +34,7 @@ def meets(mechanism: Mechanism) -> bool:
         value, largest = np.nan_to_num(row), np.nanmax(row, initial=0.0)
         ends = np.isfinite(row[:-2]) & np.isfinite(row[2:])
         before, middle, after = value[:-2], value[1:-1], value[2:]
-        # what comes down to 0 between two angles, as a parabola or as the sides of a V, is at most half of its neighbour
+        # what comes down to 0 between two angles, as a parabola or as a V, is at most half of its neighbour
         low = (middle <= before) & (middle <= after) & (middle <= 0.55 * np.maximum(before, after))
         for k in np.flatnonzero(ends & low) + 1:
             least = scipy.optimize.minimize_scalar(

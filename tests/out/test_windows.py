@@ -10,7 +10,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from mechsym import cases
+from mechsym.cli import mechsym
+from mechsym.jobs.problem import ready
+from mechsym.out.block import block_of
 from mechsym.out.fmi import fmu
 
 fmpy = pytest.importorskip("fmpy", reason="the extra fmu is not installed")
@@ -21,12 +26,22 @@ HEADERS = HERE.parents[1] / "mechsym" / "out" / "fmi" / "headers"
 WINE = shutil.which("wine64") or shutil.which("wine64", path="/usr/lib/wine") or shutil.which("wine")
 
 
-@pytest.fixture(scope="module")
-def unit(exported, tmp_path_factory):
-    """File of an FMU with both libraries."""
-    made = fmu(exported("zotov-89")[1], 2, ("linux64", "win64"))
+TWELVE = ["new", "engine", "twelve", "--kind", "v", "--bore", "90 mm", "--stroke", "80 mm", "--cylinders", "12"]
+
+
+@pytest.fixture(scope="module", params=["zotov_89", "twelve"])
+def unit(request, exported, tmp_path_factory):
+    """File of an FMU with both libraries; functions of the twelve cylinders need more than a page of stack."""
+    folder = tmp_path_factory.mktemp("windows")
+    if request.param == "twelve":
+        assert CliRunner().invoke(mechsym, [*TWELVE, "--out", str(folder)]).exit_code == 0
+        case = cases.load(str(folder / "twelve.toml"))
+        block = block_of(case.name, case.about, ready(case))
+    else:
+        block = exported("zotov-89")[1]
+    made = fmu(block, 2, ("linux64", "win64"))
     assert made.missing == {}
-    path = tmp_path_factory.mktemp("windows") / "zotov_89.fmu"
+    path = folder / f"{request.param}.fmu"
     path.write_bytes(made.data)
     return path
 
@@ -34,7 +49,7 @@ def unit(exported, tmp_path_factory):
 @pytest.fixture(scope="module")
 def library(unit):
     with zipfile.ZipFile(unit) as archive:
-        return Path(archive.extract("binaries/win64/zotov_89.dll", unit.parent))
+        return Path(archive.extract(f"binaries/win64/{unit.stem}.dll", unit.parent))
 
 
 def test_all_functions_of_the_standard_are_there(library):
@@ -71,4 +86,6 @@ def test_steps_are_those_of_linux(unit, library):
     )  # fmt: skip
     wanted = np.array([[row[state.name] for state in states] for row in truth][1 : steps + 1])
     assert found.shape == wanted.shape
-    assert np.abs(found - wanted).max() <= 1e-9 * np.abs(wanted).max()
+    # corners of twelve pressures: the last digit of a sine moves the steps, which differ by their own error
+    near = 1e-9 if unit.stem == "zotov_89" else 1e-8
+    assert np.abs(found - wanted).max() <= near * np.abs(wanted).max()

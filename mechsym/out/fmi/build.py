@@ -42,6 +42,7 @@ _NAMESPACE = uuid.UUID("5a1d7bb4-93b8-5b2c-9d3c-0d7e60f2a1c5")
 _OPTIONS = ("-std=c99", "-O2", "-shared", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off")
 _FOLDERS = {2: {"linux64": "linux64", "win64": "win64"}, 3: {"linux64": "x86_64-linux", "win64": "x86_64-windows"}}
 _ENDINGS = {"linux64": "so", "win64": "dll"}
+_WINDOWS = "windows.c"  # what stands in for the start-up code of a C library
 
 
 @record
@@ -124,32 +125,43 @@ def _binaries(
         forecast(sum(map(len, sources.values())), len(platforms))
     for name in platforms:
         try:
-            command = _compiler(name)
+            command, more = _compiler(name)
             place = f"binaries/{_FOLDERS[version][name]}/{identifier(block.name)}.{_ENDINGS[name]}"
-            binaries[place] = _compiled(command, version, sources)
+            binaries[place] = _compiled(command, more, version, sources)
         except compiler.NoCompiler as error:
             missing[name] = str(error)
     return binaries, missing
 
 
-def _compiler(name: str) -> tuple[str, ...]:
+def _compiler(name: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    # words before the sources and after them
     host = platform.system() == "Linux" and platform.machine().lower() in ("x86_64", "amd64")
     if name == "linux64" and host:
-        return compiler.find().command
-    if importlib.util.find_spec("ziglang") is None:
+        return compiler.find().command, ("-lm",)
+    zig = importlib.util.find_spec("ziglang")
+    if zig is None or not zig.submodule_search_locations:
         raise compiler.NoCompiler(f"no compiler for {name}; install the extra web: pip install 'mechsym[web]'")
-    target = {"linux64": "x86_64-linux-gnu.2.17", "win64": "x86_64-windows-gnu"}[name]
-    return (sys.executable, "-m", "ziglang", "cc", "-target", target, "-s")
+    command = (sys.executable, "-m", "ziglang", "cc", "-s", "-target")
+    if name == "linux64":
+        return (*command, "x86_64-linux-gnu.2.17"), ("-lm",)
+    # Windows has a C library; that of the compiler would be built first, for more than a minute
+    headers = Path(zig.submodule_search_locations[0]) / "lib" / "libc" / "include" / "any-windows-any"
+    parts = [f"-lapi-ms-win-crt-{part}-l1-1-0" for part in ("heap", "math", "string", "private")]
+    return (*command, "x86_64-windows-gnu", "-nostdlib", "-isystem", str(headers)), (_WINDOWS, *parts)
 
 
-def _compiled(command: Sequence[str], version: int, sources: Mapping[str, str]) -> bytes:
+def _compiled(command: Sequence[str], more: Sequence[str], version: int, sources: Mapping[str, str]) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         for name, text in sources.items():
             (Path(folder) / name).write_text(text, encoding="utf-8")
+        if _WINDOWS in more:
+            own = resources.files("mechsym.out") / "fmi" / _WINDOWS
+            (Path(folder) / _WINDOWS).write_text(own.read_text(encoding="utf-8"), encoding="utf-8")
         target = Path(folder) / "unit.bin"
         # file names are given relative to the folder, so that no path of this machine gets into the binary
-        words = [*command, *_OPTIONS, f"-DFMI{version}_OVERRIDE_FUNCTION_PREFIX", f"fmi{version}.c", "-o", target.name]
-        compiler.call([*words, "-lm"], "the sources", target, Path(folder))
+        prefix = f"-DFMI{version}_OVERRIDE_FUNCTION_PREFIX"
+        words = [*command, *_OPTIONS, prefix, f"fmi{version}.c", *more, "-o", target.name]
+        compiler.call(words, "the sources", target, Path(folder))
         binary = target.read_bytes()
         if not binary.startswith((b"\x7fELF", b"MZ")):
             raise compiler.NoCompiler("{} made no library; {}".format(*compiler.way_out(command)))
