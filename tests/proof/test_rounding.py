@@ -135,7 +135,7 @@ def test_broken_machine_code_is_found(small, right, wrong, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", (*MECHANISMS, *LINKS, GUIDES))
+@pytest.mark.parametrize("name", (*MECHANISMS, *LINKS, pytest.param(GUIDES, marks=pytest.mark.heavy)))
 def test_bounds_are_near_what_is_seen(name):
     case = cases.load(usual_case(name))
     subjects, words = subjects_of(name, case, {})
