@@ -119,7 +119,8 @@ def _whole(paper: Path, against: str | None, out: Path | None, said: dict[str, A
         click.echo(str(write_text(out / "audit.html", page_of(str(paper), rows, cover))), err=True)
     result = {"rows": rows, "coverage": tell(cover)}
     emit(result, lambda: "\n".join([summary_of(rows, cover), *listed(rows)]))
-    return _status([r for r in rows if r["verdict"] != "untestable"])
+    # of single equations nobody expects a verdict; where none was read nothing is right
+    return _status([r for r in rows if r["verdict"] != "untestable" or not cover.read])
 
 
 def _repository(

@@ -75,6 +75,20 @@ def test_a_thesis_as_it_is_has_seven_findings_that_its_registry_knows():
     assert cover.read == cover.equations == 133 and cover.judged >= 0.6 * cover.equations
 
 
+def test_equations_of_plain_text_are_listed_with_why_they_are_not_read(tmp_path, monkeypatch, capsys):
+    file = tmp_path / "copied.txt"
+    file.write_text(
+        "The speed of the pin is found from the crank, v=rω, and\n\n3\nT=12mv2+12Iφ˙2,\n\nwhere m is a mass.\n"
+    )
+    rows, cover = check_whole(file)
+    assert [(r["equation"], r["line"], r["read"]) for r in rows] == [("3", 4, False)] and cover.read == 0
+    assert "12 may be 1/2" in rows[0]["note"]
+    monkeypatch.setattr("sys.argv", ["mechsym", "audit", str(file)])
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert ended.value.code == 3 and "1 equation: 0 read" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("text", "sides"),
     [

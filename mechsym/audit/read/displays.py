@@ -159,3 +159,23 @@ def _parts(equation: Displayed) -> Iterator[Displayed]:
             part = part[: unit.start()]
         if part.strip(" .,;\\"):
             yield replace(equation, text=part.strip(" .,;"), aside=aside, unit=known or "")
+
+
+_PROSE = re.compile(r"(?:^|\s)[A-Za-z]{3,}(?=[\s,.:;]|$)")  # a word, which no formula has
+_MARK = re.compile(r"[$\\]")
+_NUMBER = re.compile(r"\(?(\d{1,3}(?:\.\d+)*)\)?")
+
+
+def flattened(text: str) -> list[Displayed]:
+    """Lines that are equations in a text that marks none, as one copied from a page is: their fraction bars, roots
+    and powers are lost."""
+    equations: list[Displayed] = []
+    lines = text.split("\n")
+    for i, line in enumerate(lines):
+        left, equals, _ = line.strip().partition("=")
+        if not equals or not left or _PROSE.search(line.strip()) or _MARK.search(line):
+            continue
+        number = _NUMBER.fullmatch(lines[i - 1].strip()) if i else None
+        one = Displayed(number=number[1] if number else "", label="", text=line.strip(), line=i + 1)
+        equations.append(one)
+    return equations[:MOST]

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from itertools import islice
 
-from mechsym.audit.read.displays import MOST, Displayed, displayed
+from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.reader import statement
 from mechsym.audit.read.spelling import SYMBOLS
@@ -38,6 +38,9 @@ _TIDY = (
     (re.compile(r"[−–]"), "-"),
     (re.compile(r"\\(?:bar|overline)\s*\{\s*([A-Za-z])\s*\}\s*([a-z])(?![A-Za-z_])"), r"\\bar{\\text{\1\2}}"),
 )
+
+
+_FLAT = "it stands in plain text, where 12 may be 1/2 and x2 a square; give it between $$, as LaTeX"
 
 
 @record
@@ -83,6 +86,9 @@ def read_text_whole(text: str) -> Text:
     starts = [m.start() for m in _SECTION.finditer(text)]
     lines = [0]
     lines += [m.end() for m in re.finditer("\n", text)]
+    if not shown:
+        lost = [Said(shown=e, name=e.number or f"line {e.line}", why=_FLAT) for e in flattened(text)]
+        return Text(said=lost, named=named, prose=text)
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
     said = []
     for equation, inline in everything:
