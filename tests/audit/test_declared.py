@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import scipy
 
 from mechsym.audit.hosts.formula import check_formula
 from mechsym.audit.judge.asked import Asked
@@ -71,6 +72,65 @@ def test_anyone_may_ask(tmp_path, declared, quantity, wrong, right):
     assert row["verdict"] == "misprint" and row["corrected_max_rel_error"] < 1e-9
 
 
+RANGES = """
+angle = "phi"
+[letters]
+k = { unit = "-", value = 0.5, domain = [0.2, 0.8] }
+r = "50 mm"
+l = "180 mm"
+t_1 = { unit = "s", value = 2.0, sign = "positive" }
+[define]
+K = "integral(1/sqrt(1 - k**2*sin(t)**2), t, 0, pi/2)"
+E = "integral(sqrt(1 - k**2*sin(t)**2), t, 0, pi/2)"
+K_slope = "d(K, k)"
+x = "r*cos(phi) + sqrt(l**2 - r**2*sin(phi)**2)"
+deceleration = "-d(x, phi, 2)"
+most = "peak(deceleration)"
+height = "r*sin(phi) + k*r*abs(cos(phi))"
+highest = "peak(height)"
+upto = "integral(t_1*cos(u*k), u, 0, k)"
+ends = "d(upto, k)"
+turned = "integral(deceleration*r, phi, 0, pi)"
+low = "least((u - k)**2 + r/l, u, -1, 1)"
+edge = "least(u*(1 + k), u, 0.5, 2)"
+cap = "table(k, [0.3, 0.5, 0.7], [1, 4, 2])"
+"""
+OVER_RANGES = [
+    ("K_slope", "(E - (1 - k**2)*K)/(k*(1 - k**2))", "(E + (1 - k**2)*K)/(k*(1 - k**2))"),
+    ("most", "r + r**2/l", "r - r**2/l"),
+    ("highest", "r*sqrt(1 + k**2)", "r*sqrt(1 - k**2)"),
+    ("upto", "t_1*sin(k**2)/k", "t_1*cos(k**2)/k"),
+    ("ends", "2*t_1*cos(k**2) - t_1*sin(k**2)/k**2", "2*t_1*cos(k**2) + t_1*sin(k**2)/k**2"),
+    ("low", "r/l", "l/r"),
+    ("edge", "(1 + k)/2", "(1 - k)/2"),
+    ("cap", "piecewise(k < 0.3, 1, piecewise(k < 0.5, 15*k - 3.5, piecewise(k < 0.7, 9 - 10*k, 2)))", "15*k - 3.5"),
+]
+
+
+@pytest.mark.parametrize(("quantity", "right", "wrong"), OVER_RANGES, ids=[row[0] for row in OVER_RANGES])
+def test_integrals_peaks_and_tables_are_their_closed_forms(tmp_path, quantity, right, wrong):
+    file = tmp_path / "mine.toml"
+    file.write_text(RANGES)
+    assert check_formula(right, f"mine.{quantity}", theory=str(file))["verdict"] == "exact"
+    assert check_formula(wrong, f"mine.{quantity}", theory=str(file))["verdict"] not in ("exact", "truncation")
+
+
+def test_an_integral_over_the_angle_is_that_of_numbers():
+    names = {"r": np.array([0.05, 0.06]), "l": np.array([0.18, 0.2]), "k": np.array([0.5, 0.4])}
+    names |= {"phi": np.array([0.7, 1.0]), "t_1": np.array([2.0, 1.0]), "pi": np.float64(math.pi)}
+    complete(theory_of(RANGES, "mine", "mine"), names, ["turned", "K"], FLOATS)
+    # from dead centre to dead centre the speed comes back to nought
+    assert names["turned"] == pytest.approx([0.0, 0.0], abs=1e-14)
+    assert names["K"] == pytest.approx(scipy.special.ellipk(names["k"] ** 2), rel=1e-13)
+
+
+def test_an_integral_without_a_value_is_none():
+    text = "[letters]\nk = 2.0\n[define]\nx = 'integral(1/(u - k/4), u, 0, 1)'"
+    names = {"k": np.array([2.0]), "pi": np.float64(math.pi)}
+    complete(theory_of(text, "mine", "mine"), names, ["x"], FLOATS)
+    assert np.isnan(names["x"]).all()
+
+
 def test_rates_and_harmonics_are_those_of_numbers():
     found = theory_of(CAM, "cam", "cam")
     names = {"R_b": np.array([0.03]), "h": np.array([0.01]), "phi": np.array([0.7]), "phid": np.array([2.0])}
@@ -100,6 +160,12 @@ def test_shipped_theories_have_values_everywhere(name):
         ("[letters]\nr = 'm'\n[define]\nx = 'd(r, q)'", "not a free letter"),
         ("[letters]\nr = 'm'\n[define]\nx = 'curve(r, r).curvature'", "needs the angle"),
         ("[letters]\nr = 'm'\n[define]\nx = 'root(r, u, 1)'", "root is written"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'integral(r, u, 1)'", r"integral is written integral\(e, u, from, to\)"),
+        ("[letters]\nr = 'm'\n[define]\nx = '2*integral(r, u, 0, 1)'", "give it a name and use that"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'r'\ny = 'peak(r, x, 0, 1)'", "x is defined above"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'peak(r*u, u, 0, 1)'\ny = 'd(x, r)'", "has no derivative"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'table(r, [2, 1], [0, 1])'", "places of a table ascend"),
+        ("[letters]\nr = 'm'\n[define]\nx = 'table(r, [1], 2)'", "a table is written"),
         ("[letters]\npi = 3.0\n[define]\nx = 'pi'", "not pi"),
         ("[letters]\nsin = 3.0\n[define]\nx = 'sin'", "nor a function"),
         ("[letters]\nr = 'm'\n[define]\nsin = 'r'", "no letter or function yet"),

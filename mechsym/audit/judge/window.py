@@ -26,7 +26,7 @@ from mechsym.audit.judge.question import (
 from mechsym.audit.read.algebra import DIGITS, FLOATS, Values
 from mechsym.audit.read.tree import Node, argument_of, binary, function_of, is_operation, letters, value_of, walk
 from mechsym.audit.theory.record import dependencies
-from mechsym.audit.theory.tape import Harmonic, Root
+from mechsym.audit.theory.tape import Harmonic, Ranged, Root
 from mechsym.quantities import record
 
 DECADES = 3  # that letters lie away from their data, either way
@@ -41,10 +41,10 @@ Floats = Mapping[str, np.ndarray]
 
 
 def is_wide(question: Question) -> bool:
-    """Whether states may lie far from the data: not where a root is found from a start, or a turn is summed up."""
+    """Whether states may lie far from the data: not where a root is found from a start, or a range is summed up."""
     tape = question.theory.tape
     names = dependencies(question.theory, [question.quantity, *used_names(question.formula)])
-    return not any(isinstance(tape.get(k), (Root, Harmonic)) for k in names)
+    return not any(isinstance(tape.get(k), (Root, Harmonic, Ranged)) for k in names)
 
 
 @record

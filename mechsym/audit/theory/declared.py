@@ -23,6 +23,9 @@ root("equation", u, start)         the u near start for which the equation vanis
 curve(x, y).curvature .radius      of the curve that the angle runs through
 curve(x, y).normal.x  .offset(R).y its unit normal, to the left of its sense, and the curve at a distance along it
 sum(e, k, 1, 4)                    e for k = 1 to 4
+integral(e, u, a, b)               of e over u, a letter of its own or of the theory; only as a whole definition
+peak(e, u, a, b) least(e, u, a, b) largest and least value over that range; peak(e) over a turn
+table(e, [0, 1, 3], [2, 5, 4])     a curve through points by e, straight between them, held beyond its ends
 piecewise(a < b, e, f)             e where a < b, else f; also atan2, min, max, hypot, radians
 """
 
@@ -30,14 +33,16 @@ import ast
 import re
 import tomllib
 from collections.abc import Mapping
+from fractions import Fraction
 from functools import partial
+from itertools import pairwise
 from pathlib import Path
 
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.spelling import from_greek
 from mechsym.audit.read.tree import Node, binary, call, check, letters, meaning, name, number, substitute, value_of
 from mechsym.audit.theory.record import Letter, Theory
-from mechsym.audit.theory.tape import Entry, Root, TheoryTape, derivative, minus, over, plus, times
+from mechsym.audit.theory.tape import Entry, Ranged, Root, TheoryTape, derivative, minus, over, plus, times
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.files.inputs import read_text
@@ -46,7 +51,8 @@ from mechsym.quantities import dimension, parse
 _ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "ln": "log"}
 _MOST = 40  # terms of a sum
 _EXAMPLE = "'2*r*(1 - cos(phi))'"
-_WORDS = "d(e, phi), dt(e), root, curve, sum(e, k, 1, 4) and piecewise(a < b, e, f)"
+_WORDS = "d(e, phi), dt(e), root, curve, integral, peak, least, table, sum(e, k, 1, 4) and piecewise(a < b, e, f)"
+_RANGED = ("integral", "peak", "least")
 
 
 def define(own: str, text: str, tape: TheoryTape) -> Entry:
@@ -67,9 +73,43 @@ def define(own: str, text: str, tape: TheoryTape) -> Entry:
         if own not in letters(renamed):
             raise BadInput(f"the unknown {unknown} does not stand in the equation of {own}")
         return Root(equation=renamed, unknown=own, start=start)
+    if isinstance(tree, ast.Call) and isinstance(tree.func, ast.Name) and tree.func.id in _RANGED:
+        return _over_range(tree.func.id, tree, tape)
     expanded = _expanded(tree, tape)
     _check(expanded, tape, ())
     return expanded
+
+
+def _over_range(kind: str, tree: ast.Call, tape: TheoryTape) -> Ranged:
+    arguments = list(tree.args)
+    if kind != "integral" and len(arguments) == 1 and tape.angle:
+        arguments += [name(tape.angle), number(0), _parsed("2*pi")]
+    if len(arguments) != 4 or not isinstance(arguments[1], ast.Name):
+        raise BadInput(f"{kind} is written {kind}(e, u, from, to)")
+    by = arguments[1].id
+    if by in tape:
+        raise BadInput(f"{kind}(.., {by}, ..): {by} is defined above; take a free letter, or a new one")
+    within = tape if by in tape.free else tape.like(tape.base, {**tape.free, by: None})
+    of, low, high = _expanded(arguments[0], within), *(_expanded(end, tape) for end in arguments[2:])
+    _check(of, tape, (by,))
+    for end in (low, high):
+        _check(end, tape, ())
+    return Ranged(kind=kind, of=of, by=by, low=low, high=high, free=frozenset(tape.free))
+
+
+def _tabulated(node: ast.Call, tape: TheoryTape) -> Node:
+    lists = [[value_of(v) for v in a.elts] if isinstance(a, ast.List) else [] for a in node.args[1:]]
+    if len(lists) != 2 or len(lists[0]) != len(lists[1]) or len(lists[0]) < 2 or None in lists[0] + lists[1]:
+        raise BadInput("a table is written table(e, [0, 1, 3], [2, 5, 4]): where, and how much there")
+    places, values = ([Fraction(v) for v in column if v is not None] for column in lists)
+    if any(a >= b for a, b in pairwise(places)):
+        raise BadInput("the places of a table ascend")
+    x, curve = _expanded(node.args[0], tape), number(values[-1])
+    for (a, b), (y, z) in reversed(list(zip(pairwise(places), pairwise(values), strict=True))):
+        line = plus(number(y), times(number((z - y) / (b - a)), minus(x, number(a))))
+        curve = ast.IfExp(test=ast.Compare(left=x, ops=[ast.Lt()], comparators=[number(b)]), body=line, orelse=curve)
+    low = ast.Compare(left=x, ops=[ast.Lt()], comparators=[number(places[0])])
+    return ast.IfExp(test=low, body=number(values[0]), orelse=curve)
 
 
 def _parsed(text: str) -> ast.expr:
@@ -128,6 +168,10 @@ def _called(function: str, node: ast.Call, tape: TheoryTape) -> Node:
         return total
     if function in ("d", "dt"):
         return _derived(function, node, tape)
+    if function == "table":
+        return _tabulated(node, tape)
+    if function in (*_RANGED, "root"):
+        raise BadInput(f"{function} is a definition of its own; give it a name and use that")
     arguments = [_expanded(a, tape) for a in node.args]
     several = meaning(function, arguments)
     if several is not None:

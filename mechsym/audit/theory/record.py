@@ -1,7 +1,7 @@
 """The record of a theory, made from sympy expressions: what printed formulas are compared with."""
 
 import ast
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from fractions import Fraction
 from functools import partial
@@ -11,13 +11,13 @@ import numpy as np
 
 from mechsym.audit.read.algebra import DIGITS, FLOATS, SYMBOLS, Algebra, Values, evaluate
 from mechsym.audit.read.reader import CONSTANTS, read_expression
-from mechsym.audit.read.tree import Node, children, function_of, number, walk
-from mechsym.audit.theory.tape import Entry, Harmonic, Root, TheoryTape, derivative, needed
+from mechsym.audit.read.tree import Node, children, function_of, letters, number, walk
+from mechsym.audit.theory.ranges import harmonic, ranged
+from mechsym.audit.theory.tape import Entry, Harmonic, Ranged, Root, TheoryTape, derivative, needed
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
 
 _STEPS = 60
-_POINTS = 32
 
 
 def root(entry: Root, names: dict[str, Values], algebra: Algebra) -> Values:
@@ -47,33 +47,6 @@ def _newton(entry: Root, slope: Node, names: dict[str, Values], value: Values, a
         left = np.abs(evaluate(entry.equation, {**names, entry.unknown: value}, algebra))
         value = np.where(left < 1e-9 * (1 + np.max(np.where(np.isfinite(left), left, 0.0))), value, np.nan)
     return value
-
-
-def harmonic(
-    entry: Harmonic, names: dict[str, Values], algebra: Algebra, fill: Callable[[dict[str, Values]], None]
-) -> Values:
-    """Fourier coefficient of a name at all states, in its unit; nan where the points of a turn do not suffice."""
-    if algebra is SYMBOLS:
-        raise BadInput("a harmonic is decided by its digits alone")
-    close = 1e-12 if algebra is FLOATS else mpmath.mpf(10) ** (6 - mpmath.mp.dps)
-    before: Values = None
-    count = _POINTS
-    while count <= 16 * _POINTS:
-        now = sum(_term(entry, names, algebra, fill, k, count) for k in range(count))
-        now = now * (2 if entry.order else 1) / count
-        if before is not None and np.all(np.abs(now - before) <= close * (1 + np.abs(now))):
-            return now
-        before, count = now, 2 * count
-    return now * (np.nan if algebra is FLOATS else mpmath.nan)
-
-
-def _term(entry: Harmonic, names: dict[str, Values], algebra: Algebra, fill: Values, k: int, count: int) -> Values:
-    angle = 2 * algebra.pi() * k / count
-    like = names[entry.angle]
-    turned = {n: v for n, v in names.items() if n in entry.free} | {"pi": names["pi"], entry.angle: like * 0 + angle}
-    fill(turned)
-    function = algebra.functions["sin" if entry.sine else "cos"]
-    return turned[entry.of] * function(like * 0 + entry.order * angle)
 
 
 @record
@@ -142,6 +115,10 @@ def complete(theory: Theory, names: dict[str, Values], wanted: Iterable[str], al
             names[wish] = harmonic(entry, names, algebra, fill)
             continue
         complete(theory, names, needed(entry), algebra)
+        if isinstance(entry, Ranged):
+            inside = [k for k in letters(entry.of) if k != entry.by]
+            names[wish] = ranged(entry, names, algebra, partial(complete, theory, wanted=inside, algebra=algebra))
+            continue
         if isinstance(entry, Root):
             names[wish] = root(entry, names, algebra)
         elif isinstance(entry, tuple):

@@ -8,8 +8,20 @@ Where a declaration calls something else so (a volume V beside a displacement V_
 import ast
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 
-from mechsym.audit.read.tree import Node, binary, call, function_of, letters, name, negative, number, value_of
+from mechsym.audit.read.tree import (
+    Node,
+    binary,
+    call,
+    function_of,
+    letters,
+    name,
+    negative,
+    number,
+    substitute,
+    value_of,
+)
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -126,7 +138,19 @@ class Harmonic:
     sine: bool = False
 
 
-Entry = Node | tuple[Node, ...] | Root | Harmonic
+@record
+class Ranged:
+    """What an expression comes to over a range of a letter, which may be its own: `integral`, `peak` or `least`."""
+
+    kind: str
+    of: Node
+    by: str
+    low: Node
+    high: Node
+    free: frozenset[str]
+
+
+Entry = Node | tuple[Node, ...] | Root | Harmonic | Ranged
 _TIMED = re.compile(r"(?P<of>\w+?)_(?P<dots>d{1,3})$")
 _HARMONIC = re.compile(r"(?P<of>\w+?)_(?:mean|(?P<kind>cos|sin)(?P<order>[1-9]\d?))$")
 
@@ -191,11 +215,11 @@ class TheoryTape(Mapping[str, Entry]):
         of = match["of"] if match else _sloped(key, self.free)
         return f"{key}_" if of in self.base and self._taken(key) else key
 
-    def slope(self, of: str, by: str) -> Node | None:
+    def slope(self, of: str, by: str) -> Entry | None:
         """Derivative of a name by a letter; None where it has none."""
         return self._rate(of, lambda k: number(1) if k == by else self.slope_of(k, by))
 
-    def timed(self, of: str) -> Node | None:
+    def timed(self, of: str) -> Entry | None:
         """Derivative of a name in time; None where nothing turns."""
         return self._rate(of, lambda k: name(f"{k}d") if f"{k}d" in self.free else self.rate_of(k))
 
@@ -207,8 +231,10 @@ class TheoryTape(Mapping[str, Entry]):
         """Name of the derivative of a name in time, or 0."""
         return self.rate_name(of, f"{of}d" if _TIMED.match(of) and not self._is_authors(of) else f"{of}_d")
 
-    def _rate(self, of: str, rate: Rate) -> Node | None:
+    def _rate(self, of: str, rate: Rate) -> Entry | None:
         entry = self[of]
+        if isinstance(entry, Ranged):
+            return self._under_integral(entry, rate) if entry.kind == "integral" and entry.by not in self.free else None
         if isinstance(entry, Root):
             inside = derivative(entry.equation, lambda k: number(0) if k == entry.unknown else rate(k))
             across = derivative(entry.equation, lambda k: number(int(k == entry.unknown)))
@@ -216,6 +242,23 @@ class TheoryTape(Mapping[str, Entry]):
         if isinstance(entry, (tuple, Harmonic)):
             return None
         return derivative(entry, rate)
+
+    def _under_integral(self, entry: Ranged, rate: Rate) -> Entry:
+        # Leibniz: the integral of the derivative, and what the ends bring
+        def end(at: Node) -> Node:
+            there = substitute(entry.of, lambda n: at if isinstance(n, ast.Name) and n.id == entry.by else None)
+            return times(there, derivative(at, rate))
+
+        inside = derivative(entry.of, lambda k: number(0) if k == entry.by else rate(k))
+        ends = minus(end(entry.high), end(entry.low))
+        if is_zero(inside):
+            return ends
+        within = replace(entry, of=inside)
+        if is_zero(ends):
+            return within
+        key = f"within_{len(self.made)}"
+        self.made[key] = within
+        return plus(name(key), ends)
 
     def rate_name(self, of: str, derived: str) -> Node:
         """Name of a derivative; the number 0 where it vanishes, or where `of` is a letter."""
@@ -225,7 +268,7 @@ class TheoryTape(Mapping[str, Entry]):
         entry = self.get(derived)
         if entry is None:
             raise BadInput(f"{of} has no derivative {derived}")
-        return number(0) if not isinstance(entry, (tuple, Root, Harmonic)) and is_zero(entry) else name(derived)
+        return number(0) if not isinstance(entry, (tuple, Root, Harmonic, Ranged)) and is_zero(entry) else name(derived)
 
 
 def retaped(tape: Mapping[str, Entry], more: Mapping[str, Entry], free: Mapping[str, object], angle: str) -> TheoryTape:
@@ -241,6 +284,9 @@ def needed(entry: Entry) -> list[str]:
         return [k for k in dict.fromkeys([*letters(entry.equation), *letters(entry.start)]) if k != entry.unknown]
     if isinstance(entry, Harmonic):
         return [entry.of]
+    if isinstance(entry, Ranged):
+        inside = [k for k in letters(entry.of) if k != entry.by]
+        return list(dict.fromkeys([*inside, *letters(entry.low), *letters(entry.high)]))
     return [k for part in (entry if isinstance(entry, tuple) else (entry,)) for k in letters(part)]
 
 
