@@ -263,7 +263,7 @@ class _Judge:
         )  # fmt: skip
         try:
             return answer(asked, one=True)
-        except BadInput:
+        except (BadInput, KeyError):  # of a broken text a letter that nothing gives a value
             return None
 
     def _finding(self, row: Row, said: Said, side: Node, matched: str) -> Judged | None:
