@@ -9,6 +9,7 @@ One book of fresh gas: what is drawn gives air, fuel and filling (Heywood 1988, 
 The work of the two strokes of gas exchange is part of the mean indicated pressure (net), and so of all brake figures.
 """
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
@@ -133,11 +134,16 @@ def pressure(breathed: BreathingRun) -> Pressure:
 def _curve(breath: Breath) -> Callable[[Scalar], Scalar]:
     """Pressure in the cylinder at any angle; the cycle repeats but for `closure`, which the last node gives up."""
     p = breath.pressures["cylinder"]
-    return periodic(
-        scipy.interpolate.CubicSpline(breath.phi, np.append(p[:-1], p[0]), bc_type="periodic"),
-        PERIOD,
-        float(breath.phi[0]),
-    )
+    return periodic(_between(breath, np.append(p[:-1], p[0])), PERIOD, float(breath.phi[0]))
+
+
+def _between(breath: Breath, values: np.ndarray) -> scipy.interpolate.PPoly:
+    # a cubic spline from event to event, so that none rounds off a corner
+    parts = [
+        scipy.interpolate.CubicSpline(breath.phi[a : b + 1], values[a : b + 1])
+        for a, b in itertools.pairwise(breath.marks)
+    ]
+    return scipy.interpolate.PPoly(np.concatenate([part.c for part in parts], axis=1), breath.phi)
 
 
 def figures(breathed: BreathingRun) -> Json:
@@ -193,7 +199,7 @@ def _at(breathed: BreathingRun, breath: Breath) -> dict[str, float]:
 
 def _knock(breathed: BreathingRun, breath: Breath) -> float:
     c, closes = breathed.engine.cycle, breathed.engine.breathing.inlet_closes
-    temperature = scipy.interpolate.CubicSpline(breath.phi, breath.temperature)
+    temperature = _between(breath, breath.temperature)
     angles = (closes, PERIOD + c.ignition, PERIOD + c.ignition + c.duration)
     return knock_along((_curve(breath), temperature), angles, breath.omega, (c.gamma - 1) / c.gamma, c.octane)
 

@@ -106,6 +106,7 @@ class Breath:
 
     omega: float  #: Crank speed [rad/s]
     phi: np.ndarray  #: Crank angle from firing top dead centre [rad]
+    marks: tuple[int, ...]  #: Where of these something begins or ends: the pressure may have a corner there [-]
     #: Absolute pressures of plenum, cylinder, manifold [Pa], temperature in the cylinder [K], volume of it [m^3]
     pressures: dict[str, np.ndarray]
     temperature: np.ndarray

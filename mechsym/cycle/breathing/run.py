@@ -21,11 +21,13 @@ neighbours run away from it, so that |eigenvalue of g'| > 1, is none that an eng
 """
 
 import functools
+import itertools
 import math
 from collections.abc import Callable, Sequence
 
 import casadi as ca
 import numpy as np
+import scipy
 
 from mechsym.cycle.breathing.flow import (
     PERIOD,
@@ -52,6 +54,9 @@ STATES = (*(f"{q}_{v}" for v in VOLUMES for q in ("m", "E", "b")),
           "work", "pumping", "m_in", "b_in", "H_in", "m_out", "H_out", "heat", "wall_heat")  # fmt: skip
 # speed [rad/s], fresh mass [kg] and state [Pa, K] when the inlet closes, state of the surroundings [Pa, K, Pa]
 GIVEN = ("omega", "fresh", "p_closed", "T_closed", "p_in", "T_in", "p_out")
+# a stretch between two events: where it begins and how long it is [rad]; 1 where gas burns, where burning stirs it,
+# and in the two strokes about the dead centre of exchange [-]
+STRETCH = ("begins", "length", "burns", "stirs", "exchanges")
 _MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
 
 
@@ -69,14 +74,13 @@ class Cylinder:
 
 
 def rate(cylinder: Cylinder) -> ca.Function:
-    """Slope of the states over s, which runs from 0 to 1 over a cycle that begins where the inlet closes."""
-    s, y, z = ca.SX.sym("s"), ca.SX.sym("y", len(STATES)), ca.SX.sym("z", len(GIVEN))
-    angle = ca.SX.sym("phi")
-    slope = ca.Function(
-        "slope", [angle, y, z], [_slopes(cylinder, angle, y, dict(zip(GIVEN, ca.vertsplit(z), strict=True)))]
-    )
-    here = cylinder.breathing.inlet_closes + PERIOD * s
-    return ca.Function("rate", [s, y, z], [slope(here, y, z) * PERIOD], list("syz"), ["ds"])
+    """Slope of the states over s, which runs from 0 to 1 over a stretch."""
+    names = (*GIVEN, *STRETCH)
+    s, y, z = ca.SX.sym("s"), ca.SX.sym("y", len(STATES)), ca.SX.sym("z", len(names))
+    angle, held = ca.SX.sym("phi"), dict(zip(names, ca.vertsplit(z), strict=True))
+    slope = ca.Function("slope", [angle, y, z], [_slopes(cylinder, angle, y, held)])
+    here = held["begins"] + held["length"] * s
+    return ca.Function("rate", [s, y, z], [slope(here, y, z) * held["length"]], list("syz"), ["ds"])
 
 
 def _slopes(cylinder: Cylinder, phi: Scalar, y: Scalar, z: dict[str, ca.SX]) -> Scalar:
@@ -84,14 +88,12 @@ def _slopes(cylinder: Cylinder, phi: Scalar, y: Scalar, z: dict[str, ca.SX]) -> 
     cv, size = c.R / (c.gamma - 1), (b.plenum_volume, room, b.manifold_volume)
     inside = [((c.gamma - 1) * y[3 * i + 1] / size[i], y[3 * i + 1] / (y[3 * i] * cv)) for i in range(3)]
     flows, heats, shares = _exchanged(cylinder, phi, y, inside, z)
-    release, work = z["fresh"] * _burning(c, phi), inside[1][0] * ca.jacobian(room, phi)
-    lost = _to_walls(cylinder, phi, inside[1], room, z)
+    release, work = z["fresh"] * z["burns"] * _burning(c, phi), inside[1][0] * ca.jacobian(room, phi)
+    lost = _to_walls(cylinder, inside[1], room, z)
     rows = [[flows[i] - flows[i + 1], heats[i] - heats[i + 1], shares[i] - shares[i + 1]] for i in range(3)]
     rows[1][1] += c.heat * release - work - lost
     rows[1][2] += release
-    # the two strokes about the dead centre of exchange
-    exchange = ca.if_else(ca.fabs(phi - 6 * math.pi) < math.pi, work, 0.0)
-    last = [work, exchange, flows[0], shares[0], heats[0], flows[3], heats[3], c.heat * release, lost]
+    last = [work, z["exchanges"] * work, flows[0], shares[0], heats[0], flows[3], heats[3], c.heat * release, lost]
     return ca.vertcat(*(value for row in rows for value in row), *last)
 
 
@@ -113,16 +115,15 @@ def _exchanged(
     return flows, heats, shares
 
 
-def _to_walls(cylinder: Cylinder, phi: Scalar, inside: tuple[ca.SX, ca.SX], room: ca.SX, z: dict[str, ca.SX]) -> Scalar:
+def _to_walls(cylinder: Cylinder, inside: tuple[ca.SX, ca.SX], room: ca.SX, z: dict[str, ca.SX]) -> Scalar:
     """Heat from the gas to the walls [J/rad]; Woschni's term of combustion counts while the valves are closed."""
-    walls, opens = cylinder.walls, cylinder.breathing.exhaust_opens
+    walls = cylinder.walls
     if isinstance(walls.law, Adiabatic):
         return 0.0
     closed = cylinder.volume(cylinder.breathing.inlet_closes)
     scale = walls.displacement * z["T_closed"] / (z["p_closed"] * closed)
     motored = z["p_closed"] * (closed / room) ** _MOTORED_EXPONENT
-    burning = ca.logic_and(phi > PERIOD + cylinder.charge.ignition, phi < PERIOD + opens)
-    swirl = ca.if_else(burning, motored_swirl(walls.law, inside[0], motored, scale), 0.0)
+    swirl = z["stirs"] * motored_swirl(walls.law, inside[0], motored, scale)
     state = GasAtWall(
         p=inside[0], t=inside[1], v=room, gas_constant=cylinder.charge.R, bore=walls.bore,
         piston_speed=walls.stroke * z["omega"] / math.pi, swirl=swirl,
@@ -150,12 +151,56 @@ def _burning(c: FreshCharge, phi: Scalar) -> Scalar:
     # the turn begins where the inlet closes, so its firing dead centre is at 4 pi
     y = ca.fmin(ca.fmax((phi - PERIOD - c.ignition) / c.duration, 0.0), 1.0)
     slope = c.a * (c.m + 1) * y**c.m * ca.exp(-c.a * y ** (c.m + 1)) / c.duration
-    inside = ca.logic_and(y > 0, y < 1)
     # the share that Wiebe's function leaves at its end burns along with the rest
-    return ca.if_else(inside, slope / (1 - math.exp(-c.a)), 0.0)
+    return slope / (1 - math.exp(-c.a))
+
+
+@record
+class _Stretch:
+    """A part of the cycle in which nothing begins or ends, so that the steps keep their order."""
+
+    held: tuple[float, ...]  #: In the order of `STRETCH`
+    steps: int
+
+    @property
+    def phi(self) -> np.ndarray:
+        """Ends of its steps [rad]."""
+        begins, length, *_ = self.held
+        return begins + length * np.arange(1, self.steps + 1) / self.steps
+
+
+def _stretches(cylinder: Cylinder, steps: int) -> list[_Stretch]:
+    b, c = cylinder.breathing, cylinder.charge
+    begins = b.inlet_closes
+    fires, ends, opens = PERIOD + c.ignition, PERIOD + c.ignition + c.duration, PERIOD + b.exhaust_opens
+    events = (fires, ends, opens, b.exhaust_closes, b.inlet_opens, 5 * math.pi, 7 * math.pi)
+    inner = sorted(begins + float(np.remainder(angle - begins, PERIOD)) for angle in events)
+    marks = [begins]
+    for mark in (*inner, begins + PERIOD):
+        if mark - marks[-1] > _APART:
+            marks.append(mark)
+    marks[-1] = begins + PERIOD
+    stretches = []
+    for low, high in itertools.pairwise(marks):
+        middle = (low + high) / 2
+        flags = (fires < middle < ends, fires < middle < opens, abs(middle - 6 * math.pi) < math.pi)
+        count = math.ceil((high - low) / PERIOD * steps - 1e-9)
+        stretches.append(_Stretch(held=(low, high - low, *map(float, flags)), steps=count))
+    return stretches
+
+
+def _followed(fold: Fold, state: np.ndarray, given: np.ndarray, stretches: Sequence[_Stretch]) -> np.ndarray:
+    """States at the ends of all steps of a cycle, shape (steps, states, speeds)."""
+    history = []
+    for stretch in stretches:
+        held = np.repeat(np.array(stretch.held)[:, None], given.shape[1], axis=1)
+        history.append(fold(state, np.vstack([given, held]), stretch.steps))
+        state = history[-1][-1]
+    return np.concatenate(history)
 
 
 _STEPS, _CYCLES, _SETTLED = 1440, 40, 1e-10
+_APART = 1e-6  # events that are nearer are one [rad]
 _FINER = (1, 4)  # times as many steps, where small volumes behind wide throats ask for it
 _SLOW = 200.0  # below this speed pressures settle within fewer degrees, and steps are finer in proportion [rad/s]
 _SIZES = [0, 1, 0, 3, 4, 3, 6, 7, 6]  # the state by which each is measured: burnt masses by whole ones
@@ -178,7 +223,9 @@ def breathe(cylinder: Cylinder, around: Surroundings, omega: Sequence[RadPerSeco
 
 def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps: int) -> list[Breath] | None:
     """The periodic cycles; None where the steps are too wide for the volumes, or no cycle repeats."""
-    phi = cylinder.breathing.inlet_closes + np.linspace(0.0, PERIOD, steps + 1)
+    stretches = _stretches(cylinder, steps)
+    phi = np.concatenate([[cylinder.breathing.inlet_closes], *(stretch.phi for stretch in stretches)])
+    marks = tuple(np.cumsum([0, *(stretch.steps for stretch in stretches)]).tolist())
     fold, room = _fold(cylinder), _rooms(cylinder, phi)
     closed = float(room[0])
     # first guess of all states, shape (states, speeds)
@@ -192,7 +239,7 @@ def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps
     state = np.vstack([*rows, np.zeros((_SUMS, outside.shape[1]))])
     past: list[tuple[np.ndarray, np.ndarray]] = []
     for count in range(_CYCLES + 1):
-        history = fold(state, _given(cylinder, state, closed, speeds, outside), steps)
+        history = _followed(fold, state, _given(cylinder, state, closed, speeds, outside), stretches)
         if not np.isfinite(history[-1]).all():
             return None
         gain = history[-1, :9] - state[:9]
@@ -200,7 +247,8 @@ def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps
         if np.all(closure < _SETTLED):
             break
         past = [*past[-4:], (state[:9], gain)]
-        ahead = _ahead(past) if count < _CYCLES - 1 else _repeating(cylinder, state[:9], closed, speeds, outside, steps)
+        late = count == _CYCLES - 1
+        ahead = _repeating(cylinder, state[:9], closed, speeds, outside, stretches) if late else _ahead(past)
         if ahead is None:
             return None
         state = np.vstack([ahead, np.zeros((_SUMS, len(speeds)))])
@@ -208,19 +256,25 @@ def _breathed(cylinder: Cylinder, outside: np.ndarray, speeds: np.ndarray, steps
         return None
     whole = np.concatenate([state[None], history])
     return [
-        _summed(cylinder, float(speed), (phi, room), outside[:, k], whole[:, :, k], float(closure[k]))
+        _summed(cylinder, float(speed), (phi, room, marks), outside[:, k], whole[:, :, k], float(closure[k]))
         for k, speed in enumerate(speeds)
     ]
 
 
 def _repeating(
-    cylinder: Cylinder, state: np.ndarray, closed: float, speeds: np.ndarray, outside: np.ndarray, steps: int
+    cylinder: Cylinder,
+    state: np.ndarray,
+    closed: float,
+    speeds: np.ndarray,
+    outside: np.ndarray,
+    stretches: Sequence[_Stretch],
 ) -> np.ndarray | None:
     fold = _fold(cylinder)
 
     def cycle(states: np.ndarray, lane: np.ndarray) -> np.ndarray:
         whole = np.vstack([states, np.zeros((_SUMS, len(lane)))])
-        return np.asarray(fold(whole, _given(cylinder, whole, closed, speeds[lane], outside[:, lane]), steps)[-1, :9])
+        given = _given(cylinder, whole, closed, speeds[lane], outside[:, lane])
+        return np.asarray(_followed(fold, whole, given, stretches)[-1, :9])
 
     return repeating(cycle, state, _SIZES, _SETTLED)
 
@@ -264,24 +318,24 @@ def _ahead(past: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
 def _summed(
     cylinder: Cylinder,
     omega: float,
-    along: tuple[np.ndarray, np.ndarray],
+    along: tuple[np.ndarray, np.ndarray, tuple[int, ...]],
     outside: np.ndarray,
     history: np.ndarray,
     closure: float,
 ) -> Breath:
-    b, c, (p_in, T_in, _), (phi, room) = cylinder.breathing, cylinder.charge, outside, along
+    b, c, (p_in, T_in, _), (phi, room, marks) = cylinder.breathing, cylinder.charge, outside, along
     cv = c.R / (c.gamma - 1)
     sizes: dict[str, Scalar] = dict(zip(VOLUMES, (b.plenum_volume, room, b.manifold_volume), strict=True))
     pressures = {name: (c.gamma - 1) * history[:, 3 * i + 1] / sizes[name] for i, name in enumerate(VOLUMES)}
     temperature = history[:, 4] / (history[:, 3] * cv)
     sums, trapped = dict(zip(STATES[9:], history[-1, 9:].tolist(), strict=True)), float(history[0, 3])
     fresh, drawn = trapped - float(history[0, 5]), sums["m_in"] - sums["b_in"]
-    leaving = _leaving(cylinder, outside, pressures["manifold"], history[:, 7] / (history[:, 6] * cv))
+    leaving = _leaving(cylinder, outside, phi, pressures["manifold"], history[:, 7] / (history[:, 6] * cv))
     first, last = history[0], history[-1]
     mass, energy, _ = (last[:9] - first[:9]).reshape(3, 3).sum(axis=0)
     left = energy - sums["H_in"] + sums["H_out"] - sums["heat"] + sums["wall_heat"] + sums["work"]
     return Breath(
-        omega=omega, phi=phi, pressures=pressures, temperature=temperature, room=room, trapped=trapped,
+        omega=omega, phi=phi, marks=marks, pressures=pressures, temperature=temperature, room=room, trapped=trapped,
         residual=1 - fresh / trapped,
         volumetric_efficiency=drawn / (p_in * float(np.ptp(room)) / (c.R * T_in)), drawn=drawn,
         trapping_efficiency=fresh / drawn, T_exhaust=leaving, work=sums["work"], pumping=sums["pumping"],
@@ -291,13 +345,13 @@ def _summed(
     )  # fmt: skip
 
 
-def _leaving(cylinder: Cylinder, outside: np.ndarray, p: np.ndarray, T: np.ndarray) -> float:
+def _leaving(cylinder: Cylinder, outside: np.ndarray, phi: np.ndarray, p: np.ndarray, T: np.ndarray) -> float:
     """Mean temperature of the gas that leaves the manifold, what flows back not counted [K]."""
     state, c = ca.SX.sym("state", 2), cylinder.charge
     behind = (float(outside[2]), float(outside[1]))
     flow = ca.Function("flow", [state], [orifice_flow(1.0, (state[0], state[1]), behind, c.gamma, c.R)])
     out = np.maximum(np.asarray(flow(np.vstack([p, T]))).ravel(), 0.0)
-    return float(np.sum(out * T) / np.sum(out))
+    return float(scipy.integrate.trapezoid(out * T, phi) / scipy.integrate.trapezoid(out, phi))
 
 
 _ROUNDS, _BESIDE, _WORTH = 12, 1e-6, 0.5
