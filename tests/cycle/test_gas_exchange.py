@@ -9,6 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
+from mechsym.cycle.breathing import run
+from mechsym.cycle.breathing.engine import _curve
 from mechsym.cycle.breathing.flow import (
     Breathing,
     FreshCharge,
@@ -107,6 +109,24 @@ def test_mass_and_energy_are_conserved_and_the_cycle_repeats():
         assert found.energy_residual < 1e-9
         assert 0 < found.residual < 0.15
         assert found.work > 0 > found.pumping
+
+
+def test_events_between_the_steps_of_a_grid_cost_no_order(monkeypatch):
+    """Where combustion ends the pressure has a corner; a step across it would be of first order."""
+    burns = FreshCharge(heat=2.5e6, ignition=-0.1771, duration=0.7123)
+    valves = SMALL | {"exhaust_opens": 2.4567, "inlet_closes": 10.3211}
+    phi = np.linspace(0, 4 * math.pi, 7919)
+    curves, works = [], []
+    for steps in (1440, 5760):
+        monkeypatch.setattr(run, "_STEPS", steps)
+        (breath,) = breathed(Breathing(**valves), burns, [300.0])
+        curves.append(_curve(breath)(phi))
+        works.append(breath.work)
+    fine = curves[1]
+    assert np.abs(curves[0] - fine).max() < 1e-5 * fine.max() and works[0] == pytest.approx(works[1], rel=1e-6)
+    # at the corner itself, too, where one spline through all nodes would swing
+    corner = abs(phi - (burns.ignition + burns.duration)) < 0.05
+    assert corner.any() and np.abs(curves[0] - fine)[corner].max() < 1e-6 * fine.max()
 
 
 def test_what_is_drawn_is_what_burns_and_what_is_lost():
