@@ -159,8 +159,8 @@ def _burning(c: FreshCharge, phi: Scalar) -> Scalar:
 class _Stretch:
     """A part of the cycle in which nothing begins or ends, so that the steps keep their order."""
 
-    held: tuple[float, ...]  #: In the order of `STRETCH`
-    steps: int
+    held: tuple[float, ...]  #: In the order and the units of `STRETCH` [rad, rad, -, -, -]
+    steps: int  #: Of equal length [-]
 
     @property
     def phi(self) -> np.ndarray:
