@@ -78,6 +78,16 @@ ATTACKS = {
     "changed in place": "def f(bore, stroke):\n    V_d = bore**2*stroke\n    V_d *= 0.785398\n    return V_d\n",
     "a sum under a comment": "def f(base_radius, roller_radius):\n    # check of the radius of curvature\n"
     "    Rp = base_radius + roller_radius\n    return Rp\n",
+    "an exponent counted otherwise": "def burned(a, m, theta, theta0, dtheta):\n"
+    "    x = (theta - theta0)/dtheta\n    return 1 - np.exp(-a*x**m)  # mass fraction burned\n",
+    "millimetres and cubic centimetres": "def f(bore, volume):\n"
+    "    surface_area = np.pi*bore*(bore/2 + volume*1000/(np.pi*(bore/2)**2))\n    return surface_area\n",
+    "the height of a pitch cone": "def f(module, num_teeth, pitch_angle):\n"
+    "    height = module*num_teeth/2/tan(pitch_angle)  # largest, from the cone's apex\n    return height\n",
+    "a sign for what is called otherwise": "def f(module, num_teeth, pressure_angle_deg):\n"
+    "    phi = np.radians(pressure_angle_deg)\n    r_base = module*num_teeth/2*np.cos(phi)\n    return r_base\n",
+    "the first of two terms": "def velocity(crank_radius, omega, theta, rod_length, offset):\n"
+    "    term1 = -crank_radius*omega*np.sin(theta)  # slider velocity\n    return term1\n",
     "a contact of two spheres by the same modulus": "def f(E1, E2, nu1, nu2):\n"
     "    k = (1 - nu1**2)/(pi*E1) + (1 - nu2**2)/(pi*E2)\n    return k\n",
     "in a branch": "def f(bore, stroke, n):\n    if n > 1:\n        stroke = stroke/2\n    V = bore*stroke\n",

@@ -43,6 +43,7 @@ from mechsym.quantities import record
 
 _LEFT_OUT = {*"node_modules venv __pycache__ build dist third_party site-packages".split()}  # and what a dot begins
 _NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
+_EXACT = 1e-9  # relative error of a correction that explains a formula: a limit of long rods does not [-]
 _MOST_FILES = 20_000
 _LARGEST = 120  # parts of a formula for which a slip is searched: the search is the one thing here that takes long
 
@@ -209,6 +210,12 @@ def _asked_once(text: str, theory: Theory, quantity: str, own: Mapping[str, str]
     return row | {"verdict": "convention", "note": f"exact with {right}"} if right else row
 
 
+def _counts_otherwise(note: str, tree: Node) -> bool:
+    # m becomes m + 1: an exponent, or a number of teeth, that its author counts in another way
+    found = re.search(r"repaired by \w+: (\w+) becomes \1 [+-] 1$", note)
+    return found is not None and sum(isinstance(n, ast.Name) and n.id == found[1] for _, n in trees.walk(tree)) == 1
+
+
 _OTHER_OF_TWO = str.maketrans("12", "21")
 
 
@@ -239,9 +246,13 @@ def _slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row |
     row = _asked_once(to_python(form.tree), theory, quantity, own, twice=_is_of_two_alike(fitted, form, states))
     if row["verdict"] in PASSED:
         return row | {"verdict": "agrees"}
-    # a step on the way to a quantity lacks a term or a factor: that is no slip
-    step = re.search(r"repaired by (?:left out|put back|lost|missing|term|degrees)", row["note"])
-    if row["verdict"] == "misprint" and not step:
+    # a step on the way to a quantity lacks a term or a factor, or is its limit: that is no slip; and programs mix units
+    step = re.search(r"repaired by (?:left out|put back|lost|missing|term|degrees|unit)", row["note"])
+    exact = (row["corrected_max_rel_error"] or 0.0) < _EXACT
+    # nobody mistakes a variable for one that the program has not
+    its_own = set(re.findall(r"[A-Za-z_]\w*(?!\w*\()", row["correction"] or "")) <= {*own, "pi"}
+    slip = exact and its_own and not step and not _counts_otherwise(row["note"], form.tree)
+    if row["verdict"] == "misprint" and slip:
         return _renamed(row, fitted) | {"letters": {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}}
     return None
 

@@ -111,7 +111,7 @@ class Lexicon:
         for phrase, meaning in self.phrases:
             rank, whole = 0, _joined(phrase)
             if whole in (_joined(own), _joined(tail)):
-                rank = min(len(whole), 3)
+                rank = 1 if whole in _GREEK else min(len(whole), 3)
             elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):
                 rest = own[: -len(phrase)] if own[-len(phrase) :] == phrase else own[len(phrase) :]
                 rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
@@ -128,6 +128,8 @@ class Lexicon:
         return ranked[0] if ranked and not several else (0, "")
 
 
+# a sign spelled out is no word
+_GREEK = set("alpha beta gamma delta theta phi varphi psi omega lambda lam rho mu nu sigma tau epsilon eta".split())
 # what stands beside a name without changing what it is
 _QUALIFIERS = set(
     "m c i M C 0 1 2 rad deg cyl engine geom mm cm in inst piston get calc compute calculate formula".split()
@@ -150,7 +152,9 @@ def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
             if letter in meanings or letter == "pi":
                 continue
             shared, meaning = vocabulary.meaning(base(letter), claim.abouts.get(base(letter), ""))
-            if meaning and base(meaning) not in called:
+            if _is_told_better(letter, shared, claim, vocabulary):
+                put_in[letter] = claim.values[letter]
+            elif meaning and base(meaning) not in called:
                 meanings[letter] = meaning
                 strong += shared > 1
             elif letter in claim.values:
@@ -171,6 +175,13 @@ def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
     return Fitted(
         theory=theory, claim=claim, tree=tree, meanings=meanings, quantities=called if rank else (), strong=strong
     )
+
+
+def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon) -> bool:
+    # phi = radians(pressure_angle): another letter in its place, whose name says more
+    inside = letters(claim.values[letter]) if letter in claim.values else []
+    named = [k for k in inside if k != "pi"]
+    return len(named) == 1 and vocabulary.meaning(base(named[0]), claim.abouts.get(base(named[0]), ""))[0] > told
 
 
 def _of_either_sign(tree: Node) -> Node:
