@@ -112,7 +112,9 @@ def test_files_that_move_into_place_do_so_to_the_end(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["hinge", "sweep-jobs", "study", "derive", "fmu"])
+@pytest.mark.parametrize(
+    "name", ["hinge", "sweep-jobs", "study", *(pytest.param(k, marks=pytest.mark.heavy) for k in ("derive", "fmu"))]
+)
 def test_a_command_ends_soon_and_keeps_what_is_finished(tmp_path, monkeypatch, name):
     monkeypatch.setattr(times, "LATEST", 3.0)  # other tests keep the machine busy; `make interrupts` asks for one
     times.prepare(tmp_path)

@@ -100,6 +100,7 @@ MEASURED = {
     "chmielewski": ("crankshaft_flywheel", "I2", ""),
 }
 SLOW = ("hinge", "flywheel", "simulate", "guide", "fmu", "report", "page", "sweep", "export")
+LONG = ("nunes-hypocycloid report", "balandin report", "throw report")  # the others' reports are asked for the same
 QUICK = (
     "moroianu export",
     "chmielewski simulate",
@@ -179,7 +180,8 @@ def plain(answer, mechanism):
     [
         pytest.param(
             name, command, id=f"{name} {command[0]}",
-            marks=[pytest.mark.slow] * (command[0] in SLOW and f"{name} {command[0]}" not in QUICK),
+            marks=[pytest.mark.slow] * (command[0] in SLOW and f"{name} {command[0]}" not in QUICK)
+            + [pytest.mark.heavy] * (f"{name} {command[0]}" in LONG),
         )
         for name, (_, _, commands) in TRIED.items()
         for command in commands
