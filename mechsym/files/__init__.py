@@ -262,7 +262,7 @@ _FLOATS = (float, np.floating)
 
 
 def _cells(values: Sequence[object] | np.ndarray) -> list[object]:
-    # Python's own numbers are written in half the time of numpy's; a gap, which differs from itself, is an empty cell
+    # Python's own numbers are written faster than numpy's; a gap, which differs from itself, is an empty cell
     plainly = values.tolist() if isinstance(values, np.ndarray) else values
     return [("" if v != v else format(v, ".12g")) if isinstance(v, _FLOATS) else v for v in plainly]
 

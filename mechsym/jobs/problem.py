@@ -53,7 +53,7 @@ from mechsym.simulate.problem import Kinks, Part, Periodic, Problem, Steps, Stop
 from mechsym.simulate.settings import Simulation
 from mechsym.simulate.steady import mean_torque
 
-# of the largest force: finer than what any cycle leaves open, 4e-10 of its peak where it is closed, else 3e-5
+# of the largest force: finer than any cycle, off by 4e-10 of its peak where it is closed, by 2e-6 where it breathes
 _FOLLOWED = 1e-10
 _AFTER = ("parameters", "flywheel", "simulation")  # sections that do not change what drives a train of one form
 # the window whose mean, least and greatest speed is reported is sampled this finely

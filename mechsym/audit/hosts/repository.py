@@ -32,6 +32,7 @@ from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import Formula, statement
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.repair.examination import Repair
 from mechsym.audit.row import Row, formula_row, unread_row
 from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Letter, Theory
@@ -194,8 +195,10 @@ def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
     return away <= _NEAR and many > 2 and strong > 1
 
 
-def _asked_once(text: str, theory: Theory, quantity: str, own: Mapping[str, str], twice: bool = False) -> Row:
-    # the row of a formula, of one slip at most; twice: the same one may stand in both of its halves
+def _asked_once(
+    text: str, theory: Theory, quantity: str, own: Mapping[str, str], twice: bool = False
+) -> tuple[Row, Repair | None]:
+    # the row of a formula, of one slip at most, with its repair; twice: the same one may stand in both of its halves
     against = f"{theory.name}.{quantity}"
     try:
         asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory)
@@ -205,15 +208,30 @@ def _asked_once(text: str, theory: Theory, quantity: str, own: Mapping[str, str]
             verdict = decide(question, one=True)
         right = also_exact(question) if verdict.verdict not in PASSED else ""
     except BadInput as error:
-        return unread_row("", against, text, str(error))
+        return unread_row("", against, text, str(error)), None
     row = {"claim": against} | formula_row(question, verdict, text, "", "")
-    return row | {"verdict": "convention", "note": f"exact with {right}"} if right else row
+    if right:
+        row |= {"verdict": "convention", "note": f"exact with {right}"}
+    return row, verdict.repairs[0] if verdict.repairs else None
 
 
-def _counts_otherwise(note: str, tree: Node) -> bool:
+# edits that take away no slip: what is on the way to a quantity lacks a term or a factor, and programs mix units
+_NO_SLIP = {"left out", "put back", "degrees", "unit"}
+
+
+def _explains(repair: Repair, tree: Node, own: Mapping[str, str]) -> bool:
+    # nobody mistakes a variable for one that the program has not; a limit of long rods is a step, too
+    if repair.max_rel_error >= _EXACT or not set(letters(repair.tree)) <= {*own, "pi"}:
+        return False
+    return not any(edit.kind in _NO_SLIP or _counts_otherwise(edit.new, tree) for edit in repair.edits)
+
+
+def _counts_otherwise(new: Node, tree: Node) -> bool:
     # m becomes m + 1: an exponent, or a number of teeth, that its author counts in another way
-    found = re.search(r"repaired by \w+: (\w+) becomes \1 [+-] 1$", note)
-    return found is not None and sum(isinstance(n, ast.Name) and n.id == found[1] for _, n in trees.walk(tree)) == 1
+    if not trees.is_operation(new, ast.Add, ast.Sub) or not isinstance(new.left, ast.Name):
+        return False
+    times = sum(isinstance(n, ast.Name) and n.id == new.left.id for _, n in trees.walk(tree))
+    return trees.value_of(new.right) == 1 and times == 1
 
 
 _OTHER_OF_TWO = str.maketrans("12", "21")
@@ -243,16 +261,11 @@ def _slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row |
     if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
         return None
     own = {safe(k): v for k, v in fitted.meanings.items()}
-    row = _asked_once(to_python(form.tree), theory, quantity, own, twice=_is_of_two_alike(fitted, form, states))
+    twice = _is_of_two_alike(fitted, form, states)
+    row, repair = _asked_once(to_python(form.tree), theory, quantity, own, twice)
     if row["verdict"] in PASSED:
         return row | {"verdict": "agrees"}
-    # a step on the way to a quantity lacks a term or a factor, or is its limit: that is no slip; and programs mix units
-    step = re.search(r"repaired by (?:left out|put back|lost|missing|term|degrees|unit)", row["note"])
-    exact = (row["corrected_max_rel_error"] or 0.0) < _EXACT
-    # nobody mistakes a variable for one that the program has not
-    its_own = set(re.findall(r"[A-Za-z_]\w*(?!\w*\()", row["correction"] or "")) <= {*own, "pi"}
-    slip = exact and its_own and not step and not _counts_otherwise(row["note"], form.tree)
-    if row["verdict"] == "misprint" and slip:
+    if row["verdict"] == "misprint" and repair is not None and _explains(repair, form.tree, own):
         return _renamed(row, fitted) | {"letters": {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}}
     return None
 
@@ -335,7 +348,7 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
         return None
     if met is None or of_units(met.ratio):
         return None if met is None else {"verdict": "agrees", "claim": f"derivative of {of}"}
-    row = _asked_once(to_python(slope), theory, "slope", {})
+    row, _ = _asked_once(to_python(slope), theory, "slope", {})
     if row["verdict"] in (*PASSED, "untestable"):
         return row | {"verdict": "agrees"}
     why = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"

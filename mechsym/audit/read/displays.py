@@ -39,6 +39,9 @@ _TWO = re.compile(
     rf"Leftrightarrow)(?![A-Za-z])|\\q?quad{_SPACE}*(?=\\?[A-Za-z][^=,;]{{0,40}}=)|\\text\s*\{{\s*,?\s*and\s*\}}"
 )
 _LIMIT = re.compile(r"(?<![\\{]),[^=,]*(?:<|>|\\leq?\b|\\geq?\b|\\ll\b|\\gg\b)[^=]*$")
+_PROSE = re.compile(r"(?:^|\s)[A-Za-z]{3,}(?=[\s,.:;]|$)")  # a word, which no formula has
+_MARK = re.compile(r"[$\\]")
+_NUMBER = re.compile(r"\(?(\d{1,3}(?:\.\d+)*)\)?")
 _BRACKET = re.compile(rf"{_SPACE}*(?:\\left)?\[([^\[\]]{{1,60}}?)(?:\\right)?\]{_SPACE}*[.,;]?\s*$")
 
 
@@ -159,11 +162,6 @@ def _parts(equation: Displayed) -> Iterator[Displayed]:
             part = part[: unit.start()]
         if part.strip(" .,;\\"):
             yield replace(equation, text=part.strip(" .,;"), aside=aside, unit=known or "")
-
-
-_PROSE = re.compile(r"(?:^|\s)[A-Za-z]{3,}(?=[\s,.:;]|$)")  # a word, which no formula has
-_MARK = re.compile(r"[$\\]")
-_NUMBER = re.compile(r"\(?(\d{1,3}(?:\.\d+)*)\)?")
 
 
 def flattened(text: str) -> list[Displayed]:

@@ -1,6 +1,6 @@
 """Values of entries that take a whole turn or range: harmonics, integrals, the largest and the least value."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 
 import mpmath
@@ -12,10 +12,8 @@ from mechsym.errors import BadInput
 
 _POINTS = 32
 _GRID = 256  # places of a range, between which its largest value is narrowed
-_ORDERS = {
-    "float": (32, 64, 128, 256),
-    "digits": (5, 6, 7, 8),
-}  # of Gauss and Legendre; with digits 3*2**(n - 1) points
+# of Gauss and Legendre: points, and with digits n for 3*2**(n - 1) of them
+_ORDERS = {"float": (32, 64, 128, 256), "digits": (5, 6, 7, 8)}
 _GROWN = 0.01  # share by which the integral of the absolute value may still change [-]
 _GOLDEN = (5**0.5 - 1) / 2
 _STEPS = {"float": 80, "digits": 260}  # of the golden section: a kink's place is needed to all digits
@@ -96,11 +94,12 @@ def _nodes(kind: str, order: int, bits: int) -> Sequence[tuple[Values, Values]]:
 def _extreme(at: Callable[[Values], Values], low: Values, high: Values, algebra: Algebra, sign: int) -> Values:
     # the best of a grid, then its neighbourhood by the golden section, which asks for no derivative
     best, value = low, sign * at(low)
-    for place in _grid(low, high):
+    step = (high - low) / _GRID
+    for k in range(1, _GRID + 1):
+        place = low + k * step
         now = sign * at(place)
         better = now > value
         best, value = np.where(better, place, best), np.where(better, now, value)
-    step = (high - low) / _GRID
     left, right = np.maximum(best - step, low), np.minimum(best + step, high)
     share = _GOLDEN if algebra is FLOATS else (mpmath.sqrt(5) - 1) / 2
     a, b = right - share * (right - left), left + share * (right - left)
@@ -114,7 +113,3 @@ def _extreme(at: Callable[[Values], Values], low: Values, high: Values, algebra:
         a, b = np.where(nearer, new, b), np.where(nearer, a, new)
         of_a, of_b = np.where(nearer, of_new, of_b), np.where(nearer, of_a, of_new)
     return sign * value
-
-
-def _grid(low: Values, high: Values) -> Iterator[Values]:
-    yield from (low + (high - low) * k / _GRID for k in range(1, _GRID + 1))
