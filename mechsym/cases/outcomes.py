@@ -15,7 +15,7 @@ from mechsym.cycle.motion import pistons_of, travel_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.result import Forces
-from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.plan import plan_of, roles_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.plausible import PROPORTIONS, Doubt, inputs, moving_mass, piston_speed, proportion, proportions, results
 from mechsym.quantities.units import Pure, RadPerSecond, Second
@@ -61,24 +61,28 @@ def of_limits(case: Case, columns: Json) -> tuple[Doubt, ...]:
 
 
 def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...]:
-    r"""A mechanism that says no stroke, by the travel of its pistons: speed, stroke, and the mass that the crank feels.
+    r"""Whether a mechanism can turn; one that says no stroke, by its pistons: speed, stroke, mass that the crank feels.
 
     .. math:: I(\varphi) \approx I_0 + m \sum_i x_i'(\varphi)^2
 
     turning: gives the mechanism with one coordinate; asked where there is something to judge.
     """
-    bores = [getattr(case.sections.get(name), "bore", None) for name in ("chamber", "cycle")]
-    bore = next(filter(None, bores), None)
-    if bore is None or "operation" not in case.sections:
-        return ()
-    if plan_of(case.mechanism).proportions(case.need("parameters")) is not None:
+    if "operation" not in case.sections or plan_of(case.mechanism).proportions(case.need("parameters")) is not None:
         return ()
     try:
-        inertia, x, dx = _motion_of(case, turning(case))
+        mechanism = turning(case)
     except BadInput:  # one that cannot turn is refused by the command itself
         return ()
-    if not np.isfinite(x).all():  # a loop is open
-        return ()
+    phi = np.linspace(0.0, math.tau, 361)[None, :-1]
+    dynamics = mechanism.functions["dynamics"]
+    inertia = np.asarray(dynamics(phi, *[0.0] * (dynamics.n_in() - 1))[0]).ravel()
+    closed = np.isfinite(inertia)
+    bores = [getattr(case.sections.get(name), "bore", None) for name in ("chamber", "cycle")]
+    bore = next(filter(None, bores), None)
+    if bore is None or not closed.all():
+        return proportion("open_loop", "operation: share of a turn in which the loops close", float(closed.mean()))
+    travels = [travel_of(mechanism, piston.travel)(phi) for piston in pistons_of(case.mechanism)]
+    x, dx = (np.array([np.asarray(travel[k]).ravel() for travel in travels]) for k in (0, 1))
     stroke, area, omega = float(np.ptp(x, axis=1).max()), math.pi / 4 * bore**2, case.need("operation").speed
     raised = proportions(stroke, None, omega, fired(case.sections))
     raised += proportion("stroke_ratio", "stroke of the pistons / bore", stroke / bore)
@@ -95,16 +99,6 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     work = 1e6 * area * stroke * len(x)  # at ten bar, about full load
     return raised + (proportion("shaft_energy", "work of a turn / energy of the shaft", work / (least * omega**2))
                     if least > 0 and omega else ())  # fmt: skip
-
-
-def _motion_of(case: Case, mechanism: Mechanism) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Inertia that the crank feels, travels and slopes of the pistons over a turn [kg*m^2, m, m/rad]."""
-    phi = np.linspace(0.0, math.tau, 361)[None, :-1]
-    travels = [travel_of(mechanism, piston.travel)(phi) for piston in pistons_of(case.mechanism)]
-    dynamics = mechanism.functions["dynamics"]
-    inertia = dynamics(phi, *[0.0] * (dynamics.n_in() - 1))[0]
-    x, dx = (np.array([np.asarray(travel[k]).ravel() for travel in travels]) for k in (0, 1))
-    return np.asarray(inertia).ravel(), x, dx
 
 
 def of_run(
@@ -155,6 +149,11 @@ def of_forces(case: Case, forces: Forces) -> tuple[Doubt, ...]:
     largest = max((float(np.hypot(x, y).max()) for x, y in vectors), default=0.0)
     largest = max([largest, *(float(np.abs(side).max()) for side in forces.loads.guides.values())])
     doubts = of_gas(case, forces.turn.gas) + _driven(case, forces)
+    if forces.turn.gas is None and any(rotor.drive for rotor in roles_of(case.mechanism).rotors):
+        mean = -float(np.mean(forces.turn.torque))
+        # what only swings to and fro takes nothing but rounding
+        swing = 1e-9 * float(np.abs(forces.turn.torque).max())
+        doubts += proportion("driven_drive", "mean torque of the drive over a turn", mean) if mean < -swing else ()
     if forces.turn.gas is None or not max(pushes, default=0.0) > 0:
         return doubts
     beyond = _inertia(case, forces, max(pushes))
