@@ -5,8 +5,8 @@ r"""Values of a case by the laws of its machine: speeds, timing at speed, fire, 
 Of the links of a user's own mechanism, what a bar of their length can weigh and hold: l is the largest distance of two
 joints of the link, c its centre of mass, R the reach from its pivot, b from the middle of its joints to the farthest of
 what it may be made of. A zero leaves the part away and is never doubted; a link that turns with a coordinate may carry
-a flywheel: where it is a rotor, or balanced. A link with one joint reaches as far behind its centre. A piston, with one
-joint, is held against the longest link.
+a flywheel: where it is a rotor, or balanced. A link with one joint reaches as far behind its centre, and is no wheel far
+wider than the longest link. A piston, with one joint, is held against the longest link.
 
 .. math:: \frac{I}{m l^2} \le \frac{b^2 - |c - \bar p|^2}{l^2}, \qquad
     \frac{|c - \bar p|}{l}, \qquad \frac{m}{l^3}, \qquad \omega R
@@ -357,6 +357,9 @@ def _of(
         if mass > 0 and inertia:
             about = f"inertia of {name} / (mass * (twice its centre from its joint)^2)"
             yield from proportion("link_needle", about, inertia / (mass * length**2))
+            wide = inertia / (mass * max(longest, length) ** 2)
+            if link["turns"] not in rotors and wide > 1:  # a wheel as wide as the machine, and no flywheel
+                yield from proportion("link_inertia", f"inertia of {name} / (mass * (longest link)^2)", wide, _CARRIES)
         return
     share = inertia / (moving * length**2) if moving > 0 and not mass else 0.0
     if link["turns"] in rotors and 0 < share < 1:  # a crank that is given by its inertia alone, and no heavy flywheel
