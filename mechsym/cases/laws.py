@@ -5,7 +5,7 @@ r"""Values of a case by the laws of its machine: speeds, timing at speed, fire, 
 Of the links of a user's own mechanism, what a bar of their length can weigh and hold: l is the largest distance of two
 joints of the link, c its centre of mass, R the reach from its pivot, b from the middle of its joints to the farthest of
 what it may be made of. A zero leaves the part away and is never doubted; a link that turns with a coordinate may carry
-a flywheel: where it is a rotor, or balanced. A link with one joint reaches as far behind its centre, and is no wheel far
+a flywheel: where it is a rotor, or balanced. A link with one joint reaches as far behind its centre; it is no wheel far
 wider than the longest link. A piston, with one joint, is held against the longest link.
 
 .. math:: \frac{I}{m l^2} \le \frac{b^2 - |c - \bar p|^2}{l^2}, \qquad
