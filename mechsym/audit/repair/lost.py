@@ -265,9 +265,10 @@ def insertions(
             factor = quotient(asked, wish, old)
             if is_product(place):
                 gaps.append((place, True, factor))
-            # a multiple of what stands there is no term of its own
+            # a multiple of what stands there is no term of its own, nor is what takes it away
             shares = np.asarray(factor, dtype=float)
-            if is_term(place) and not np.ptp(shares) <= _CLOSE * np.abs(np.median(shares)):
+            alike = np.ptp(shares) <= _CLOSE * np.abs(np.median(shares)) or np.max(np.abs(shares)) < _CLOSE
+            if is_term(place) and not alike:
                 gaps.append((place, False, wish - old))
     for place, factor, gap in gaps if solve is None else _screened(asked, gaps, solve, min(4, most)):
         lost = product(asked, words, gap)

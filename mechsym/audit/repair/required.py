@@ -181,6 +181,8 @@ def _alike(question: Question, letter: str) -> list[str]:
     alike.sort(key=lambda k: re.sub(r"\d+$", "", k) != stem)
     # m_fuel for mdot_fuel: another dimension, and still taken for each other
     same = [k for k in names if "_" in letter and k[0] == letter[0] and k.partition("_")[2] == letter.partition("_")[2]]
+    # phi for phid for phidd: dots that are lost, or one too many
+    same += [k for k in free if k.rstrip("d") == letter.rstrip("d")]
     return [k for k in dict.fromkeys([*alike, *same]) if k != letter]
 
 

@@ -77,7 +77,12 @@ def symbols(tree: Node) -> Counter[str]:
 def description(tree: Node, edit: Edit) -> float:
     """Length of the description of a slip: its kind, and the symbols that it lost or that it brought [bits]."""
     new, old = symbols(edit.new), symbols(at(tree, edit.path))
-    brought, lost = (Counter(dict.fromkeys(d, 1)) if edit.about else d for d in (new - old, old - new))
+    if edit.kind == "degrees":  # whose kind tells the numbers
+        new, old = ({k: n for k, n in d.items() if k not in ("pi", "180")} for d in (new, old))
+    brought, lost = (
+        Counter(dict.fromkeys(d, 1)) if edit.about else d
+        for d in (Counter(new) - Counter(old), Counter(old) - Counter(new))
+    )
     return BITS[edit.kind] + max(_told(brought), _told(lost))
 
 
@@ -254,7 +259,7 @@ def _where(place: Spot) -> frozenset[str]:
         "whole": isinstance(node, ast.Constant) and isinstance(node.value, int) and not exponent,
         "factor": single and not power,
         "base": (isinstance(node, ast.Name) or is_operation(node, *_SUM, ast.Div)) and not power,
-        "plain": not exponent and value_of(node) is None and not isinstance(node, ast.UnaryOp),
+        "plain": not exponent and value_of(node) is None and not isinstance(node, (ast.UnaryOp, ast.Compare)),
         "pure": isinstance(node, ast.Name) and node.id != "pi",
         "inner": bool(children(node)) and value_of(node) is None,
     }

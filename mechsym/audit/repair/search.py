@@ -6,6 +6,7 @@ is a quotient that is the same at all states; what was left out is found for all
 """
 
 import ast
+import dataclasses
 from collections.abc import Callable, Iterator, Mapping
 from decimal import Decimal
 from fractions import Fraction
@@ -18,7 +19,19 @@ from mechsym.audit.judge.orders import EXACT, Powers, changed_powers, expansions
 from mechsym.audit.judge.prover import is_exact
 from mechsym.audit.judge.question import Bench, names, part_values, peak, scratch, shaped, value
 from mechsym.audit.read.algebra import Values, evaluate
-from mechsym.audit.read.tree import Node, Path, at, is_operation, letters, number, replace, value_of, walk
+from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.tree import (
+    Node,
+    Path,
+    at,
+    function_of,
+    is_operation,
+    letters,
+    number,
+    replace,
+    value_of,
+    walk,
+)
 from mechsym.audit.repair.edits import Edit, apply, places, tidy
 from mechsym.audit.repair.examination import (
     Examination,
@@ -32,7 +45,7 @@ from mechsym.audit.repair.examination import (
 )
 from mechsym.audit.repair.lost import Vocabulary, candidate_words, insertions, vocabulary
 from mechsym.audit.repair.required import numbers, required, words_of
-from mechsym.audit.repair.rules import Words, description, forms, length, rewritten
+from mechsym.audit.repair.rules import CIRCULAR, Words, description, forms, length, rewritten
 from mechsym.quantities import record
 
 _SAME = 1e-9
@@ -41,6 +54,7 @@ _NOISE = 1e-12
 # an error beyond this at the source's data is no approximation, whatever its powers
 LARGEST_ERROR = 5.0
 _MOST = 2.0  # a truncation is off by little more than the first term that it leaves out
+_HALF_TURN = 180
 _NOTHING = 1e-12  # of a term, by which another one beside it is none
 _PLAIN = {*"root sign factor argument number unit letter power degrees angle".split(), "sine and cosine"}
 
@@ -106,15 +120,24 @@ def search(exam: Examination, start: Repair, one: bool = False) -> Found:
         added = is_operation(lost.edits[-1].new, ast.Add, ast.Sub)
         if not mixed or added or _of_number(start.tree) or _is_slip(exam, start.tree, lost.edits):
             return Found(repairs=(lost,))
-    if mixed or mended:
+    evident = _of_number(start.tree) or _in_degrees(start.tree)
+    if mended or mixed and (one or not evident):
         return Found(repairs=() if mixed else tuple(mended), mixed=mixed, note=mixed)
     pair, cut = (None, "") if one else paired_repair(exam, start)
-    return Found(repairs=(pair,)) if pair else Found(nearer=raised[0] if raised else None, note=cut)
+    if pair or mixed:
+        return Found(repairs=(pair,)) if pair else Found(mixed=mixed, note=mixed)
+    return Found(nearer=raised[0] if raised else None, note=cut)
 
 
 def _of_number(tree: Node) -> bool:
     # nobody writes sqrt(1) - x: what the function is of has lost something
     return any(isinstance(n, ast.Call) and value_of(n.args[0]) is not None for _, n in walk(tree))
+
+
+def _in_degrees(tree: Node) -> bool:
+    """Whether the angle of a sine, cosine or tangent is turned from degrees, or into them."""
+    circular = [n for _, n in walk(tree) if isinstance(n, ast.Call) and function_of(n) in CIRCULAR]
+    return any(value_of(n) == _HALF_TURN for call in circular for _, n in walk(call.args[0]))
 
 
 def _is_slip(exam: Examination, tree: Node, edits: tuple[Edit, ...]) -> bool:
@@ -160,9 +183,9 @@ def _mends(exam: Examination, start: Repair, repair: Repair) -> bool:
 
 
 def is_plausible(exam: Examination, tree: Node) -> bool:
-    """Whether a formula that is not exact may be what was meant: no odd angles, no part that changes nothing."""
+    """Whether a formula that is not exact may be what was meant: angles in radians, no part that changes nothing."""
     question = exam.question
-    if odd_arguments(question.theory, tree, question.formula.letters):
+    if _in_degrees(tree) or odd_arguments(question.theory, tree, question.formula.letters):
         return False
     values = part_values(exam.judged.quick, tree)
     for _, node in walk(tree):
@@ -222,6 +245,7 @@ def rounded_constant(exam: Examination, tree: Node) -> str:
 MAX_PARTS = 90
 LONGEST = 0.85  # share of a formula's own description that two edits may take: more make anything of anything
 MAX_FIRST = 700
+MAX_PAIRS = 3000
 MAX_WORK = 30_000  # first slips times parts of the formula: beyond, some seconds, no further first slip is tried
 _MET = 1e-7
 Wishes = Mapping[Path, Values]  # what each part would have to be
@@ -233,9 +257,12 @@ class _Known:
 
     asked: Bench
     listed: list[Edit]
-    values: np.ndarray  #: shape (edits, states): What stands at the place of each edit [-]
+    parts: set[int]  #: Identities of the formula's parts
+    seen: list[Path]  #: Of each edit, the sine, cosine or tangent that its angle stands in, or else its own place
+    edits_of: Mapping[int, list[int]]  #: By the identity of what stands there, which of them
+    values: np.ndarray  #: shape (edits, states): What stands there with the edit [-]
     words: Vocabulary
-    angles: Words  #: Of all that rules may bring in
+    nested: Words  #: What rules may bring in within a first edit and around it
     solve: np.ndarray  #: shape (words + 1, states): Exponents of words from logarithms [-]
 
 
@@ -245,24 +272,21 @@ def paired_repair(exam: Examination, start: Repair) -> tuple[Repair | None, str]
     if count > MAX_PARTS:
         return None, ""
     known = _prepare(exam, start.tree)
-    pairs: list[tuple[tuple[float, int], Edit, Edit]] = []
+    pairs: list[tuple[float, int, Node, Edit, Edit]] = []
     firsts = known.listed[:MAX_FIRST]
     most = MAX_WORK // count
     note = f"of two slips at once only the first {most} of {len(firsts)} were tried" if len(firsts) > most else ""
     with np.errstate(all="ignore"):
         for first in firsts[:most]:
-            tree = apply(start.tree, first)
+            once = apply(start.tree, first)
+            bits = description(start.tree, first) + 2 * np.log2(count)
             with scratch(known.asked):
-                seconds = list(_seconds(known, first, tree))
+                seconds = list(_seconds(known, first, once))
             for second in seconds:
-                rank = [simplicity(e, t) for e, t in ((first, tree), (second, apply(tree, second)))]
-                pairs.append(((rank[0][0] + rank[1][0], rank[1][1]), first, second))
-    for _, first, second in sorted(pairs, key=lambda f: f[0])[:60]:
-        once = apply(start.tree, first)
-        tree = apply(once, second)
-        bits = description(start.tree, first) + description(once, second) + 2 * np.log2(count)
-        if bits > LONGEST * length(tree):
-            continue
+                tree, both = apply(once, second), bits + description(once, second)
+                if both <= LONGEST * length(tree):
+                    pairs.append((both, len(to_python(tree)), tree, first, second))
+    for _, _, tree, first, second in sorted(pairs, key=lambda pair: pair[:2])[:MAX_PAIRS]:
         if is_exact(exam.judged, tree):
             return standing(exam, tidy(tree, start.tree), (*start.edits, first, second)), ""
     return None, note
@@ -271,26 +295,44 @@ def paired_repair(exam: Examination, start: Repair) -> tuple[Repair | None, str]
 def _prepare(exam: Examination, tree: Node) -> _Known:
     asked = search_bench(exam, "exact")
     edits = [e for e in slips(exam, tree)[0] if _plain_letter(exam, tree, e)]
-    listed = sorted(_distinct(asked, edits), key=lambda e: simplicity(e, e.new))
+    listed = _distinct(asked, sorted(edits, key=lambda e: simplicity(e, e.new)))
     # with two slips a derived name would mend anything
     used = {*letters(tree), *exam.question.theory.letters}
     candidates = candidate_words(exam.question, tree)
-    words = vocabulary(
-        asked, [w for w in candidates if isinstance(w, ast.Call) or isinstance(w, ast.Name) and w.id in used]
-    )
+    words = vocabulary(asked, [w for w in candidates if isinstance(w, ast.Call) or used.issuperset(letters(w))])
     matrix = np.column_stack([np.ones(len(asked.expected)), words.logs[list(words.basis)].T])
+    seen = [_seen(tree, e.path) for e in listed]
+    edits_of: dict[int, list[int]] = {}
+    for k, path in enumerate(seen):
+        edits_of.setdefault(id(at(tree, path)), []).append(k)
+    news = [replace(at(tree, p), e.path[len(p) :], e.new) for p, e in zip(seen, listed, strict=True)]
     with np.errstate(all="ignore"):
-        known = names(asked, {n for e in listed for n in letters(e.new)})
-        values = [shaped(asked, evaluate(e.new, known, asked.algebra, asked.memo)) for e in listed]
+        known = names(asked, {n for new in news for n in letters(new)})
+        values = [shaped(asked, evaluate(new, known, asked.algebra, asked.memo)) for new in news]
     known_values = np.array(values, dtype=float).reshape(len(listed), len(asked.expected))
+    every = words_of(exam.question)
     return _Known(
         asked=asked,
         listed=listed,
+        parts={id(node) for _, node in walk(tree)},
+        seen=seen,
+        edits_of=edits_of,
         values=known_values,
         words=words,
-        angles=Words(turned=words_of(exam.question).turned),
+        nested=Words(
+            turned=every.turned,
+            pure=every.pure,
+            is_pure=every.is_pure,
+            alike=lambda k: [a for a in every.alike(k) if a in used],
+        ),
         solve=np.linalg.pinv(matrix),
     )
+
+
+def _seen(tree: Node, path: Path) -> Path:
+    """The sine, cosine or tangent whose argument stands at a path: of its values alone the angle is not known."""
+    above = at(tree, path[:-1]) if path[-1:] == ("argument",) else None
+    return path[:-1] if above is not None and function_of(above) in CIRCULAR else path
 
 
 def _plain_letter(exam: Examination, tree: Node, edit: Edit) -> bool:
@@ -316,24 +358,26 @@ def _seconds(known: _Known, first: Edit, tree: Node) -> Iterator[Edit]:
     asked = known.asked
     memo = part_values(asked, tree)
     wishes = {path: nearest for path, (nearest, *_) in required(asked, tree, memo, both=False).items()}
-    yield from _elsewhere(known, first, wishes)
-    yield from _near(known, first, tree, wishes)
+    yield from _standing(known, tree, wishes)
+    yield from _changed(known, first, tree, wishes)
     single = {path: (wish,) for path, wish in wishes.items()}
     yield from numbers(asked, tree, single, memo)
     yield from insertions(asked, tree, single, memo, known.words, known.solve)
 
 
-def _elsewhere(known: _Known, first: Edit, wishes: Wishes) -> Iterator[Edit]:
-    usable = []
-    for k, edit in enumerate(known.listed):
-        depth = min(len(edit.path), len(first.path))
-        if edit.path in wishes and edit.path[:depth] != first.path[:depth]:
-            usable.append(k)
+def _standing(known: _Known, tree: Node, wishes: Wishes) -> Iterator[Edit]:
+    """Edits of parts that the first edit has left as they were, wherever they stand now."""
+    usable, paths = [], []
+    for path, node in walk(tree):
+        found = known.edits_of.get(id(node), ()) if path in wishes else ()
+        usable += found
+        paths += [path] * len(found)
     if not usable:
         return
-    wanted = np.array([wishes[known.listed[i].path] for i in usable], dtype=float)
+    wanted = np.array([wishes[path] for path in paths], dtype=float)
     for i in np.flatnonzero(_meets(known.values[usable], wanted)):
-        yield known.listed[usable[i]]
+        edit, seen = known.listed[usable[i]], known.seen[usable[i]]
+        yield dataclasses.replace(edit, path=paths[i] + edit.path[len(seen) :])
 
 
 def _meets(values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
@@ -342,17 +386,18 @@ def _meets(values: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     return np.all(close | ~valid, axis=-1) & (np.mean(valid, axis=-1) > 0.6)
 
 
-def _near(known: _Known, first: Edit, tree: Node, wishes: Wishes) -> Iterator[Edit]:
-    # on the way to the first edit, and in what it brought
-    asked = known.asked
+def _changed(known: _Known, first: Edit, tree: Node, wishes: Wishes) -> Iterator[Edit]:
+    """Edits of parts that the first edit has brought, or put elsewhere, or that it stands in."""
+    asked, within = known.asked, len(first.path)
     for form in forms(tree, wide=False):
         path = form.place.path
-        if not (path[: len(first.path)] == first.path or first.path[: len(path)] == path):
+        stands = path[:within] != first.path or id(form.place.parent) in known.parts
+        if stands and id(form.place.node) in known.parts:
             continue
-        above = path
+        above = _seen(tree, path)
         while above not in wishes:
             above = above[:-1]
-        for kind, new in rewritten(form, known.angles):
+        for kind, new in rewritten(form, known.nested):
             whole = replace(at(tree, above), path[len(above) :], new)
             values = shaped(asked, evaluate(whole, names(asked, letters(whole)), asked.algebra, asked.memo))
             if _meets(np.asarray(values, dtype=float), np.asarray(wishes[above], dtype=float)):
