@@ -46,6 +46,10 @@ READ = [
     ("r·cos(φ0)", "r*cos(phi0)"),
     ("I = +Mr*arcsin(lam)", "M_r*asin(lam)"),
     ("2*x0dd - -3", "2*x0dd - -3"),
+    ("2 x r x (l + 1)", "2*r*(l + 1)"),
+    (r"{{\sin }^2}\varphi + {\cos}^2\varphi", "sin(phi)**2 + cos(phi)**2"),
+    (r"\mathrm{cos}\frac{\mathrm{\pi \varphi }}{2}", "cos(pi*phi/2)"),
+    ("acosd(lam)", "acos(lam)*180/pi"),
 ]
 
 REFUSED = [
@@ -66,7 +70,7 @@ REFUSED = [
     "where the divisor ends"),
     (r"\cos\varphi l_2", "does l belong"), (r"\sin\varphi/2", "does /2 belong"),
     (r"\sin\varphi\frac{1}{2}", "belong to the argument"), (r"\int F dx", r"'\\\\int' is not read"),
-    (r"\varphi'", "primes are not read"), (r"\sin", "no argument"),
+    (r"\varphi'", "a prime makes another letter"), (r"\sin", "no argument"),
     (r"\frac{1}", "the formula ends"),
     (r"\frac{1}{2", "missing"), ("\\", "not read"), ("{" * 2000, "nested more"), ("\\frac" * 1000, "nested more"),
     ("2^{" * 400, "nested more"), ("x_{" * 500, "closing brace"), ("\\mathrm{" * 50, "missing"),
@@ -107,6 +111,18 @@ def test_authors_letters_hide_ours_and_print_as_written():
     assert to_python(formula.tree) == "R*sin(phi)"
     formula = read(r"R_{1}\sin\varphi", KNOWN, {"R_1": "r1 + r2"})
     assert write(formula) == r"R_{1} \sin \varphi"
+
+
+def test_a_rate_of_an_authors_angle_is_that_of_the_coordinate():
+    formula = read(r"r\frac{d\theta}{dt} + \frac{d^2\theta}{dt^2}", KNOWN, {r"\theta": "phi"})
+    assert {k: to_python(v) for k, v in formula.letters.items()} == {
+        "theta": "phi", "dtheta_dt": "phid", "d2theta_dt2": "phidd",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("text", [r"\frac{P'}{\ell}", "P'/ℓ"])
+def test_a_prime_and_a_script_letter_are_letters(text):
+    assert to_python(read(text, KNOWN, {"P'": "F", "ℓ": "l1"}).tree) == "Pprime/ell"
 
 
 def test_letter_pairs():

@@ -31,6 +31,26 @@ SLIPS = [
 ]  # fmt: skip
 
 
+# what is printed, of what quantity, what was meant; two slips each
+TWICE = [
+    ("r*sin(phi*(pi/180))/cos(beta)", "slider_crank.dx_dphi", "r*sin(phi + beta)/cos(beta)"),
+    ("l*cos(beta)/(r*cos(phi*(pi/180)))", "slider_crank.dbeta_dphi", "r*cos(phi)/(l*cos(beta))"),
+    ("p0*A*(H/(H - 2*rho0 + 2*rho0))", "guide.spring_force", "p0*A*(H/(H - 2*rho0 + 2*rho))**n"),
+    ("p0*A*(H*(H - 2*rho0 + 2*rho))", "guide.spring_force", "p0*A*(H/(H - 2*rho0 + 2*rho))**n"),
+    ("1 - V1/V1", "otto.efficiency", "1 - (V2/V1)**(gamma - 1)"),
+    (
+        "T1*(V1/V1)**(gamma - 1) + Q_23*T1/(p1*V1)",
+        "otto.T3",
+        "T1*(V1/V2)**(gamma - 1) + Q_23*T1/(p1*V1)*(gamma - 1)",
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "against", "right"), TWICE, ids=[s[1] + " " + s[0][:20] for s in TWICE])
+def test_two_slips_are_repaired(text, against, right):
+    assert check_formula(text, against)["correction"] == right
+
+
 @pytest.mark.parametrize(("text", "against", "letters", "right"), SLIPS, ids=[s[1] + " " + s[0][:20] for s in SLIPS])
 def test_it_is_repaired(text, against, letters, right):
     row = check_formula(text, against, letters=letters)

@@ -104,7 +104,7 @@ def _with_left(theory: Theory, quantity: str, left: str, formula: Formula) -> tu
     if not left:
         return theory, quantity
     try:
-        tree = read_expression(left, [*formula.letters, *known(theory)], theory.tape)[0]
+        tree = read_expression(left, [*formula.letters, *known(theory), *CONSTANTS], theory.tape)[0]
     except BadInput:
         if _name_alone(left):
             return theory, quantity

@@ -30,6 +30,12 @@ _SEVERAL = ("atan2", "min", "max", "hypot")
 _FUNCTIONS |= {n: n for n in _SEVERAL} | {"sen": "sin"}
 _FRACTIONS = {"\\frac", "\\dfrac", "\\tfrac"}
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
+# {\sin}^2 and {\sin^2}, \mathrm around signs: braces of editors, which say nothing
+_BRACED = (
+    (re.compile(r"\{\s*(\\(?:arc)?(?:sin|cos|tan|cot))\s*\}"), r"\1 "),
+    (re.compile(r"\{\s*(\\(?:arc)?(?:sin|cos|tan|cot))\s*(\^\s*(?:\{[^{}]*\}|\w))\s*\}"), r"\1\2 "),
+    (re.compile(r"\\(?:mathrm|mathit|mathbf|mathsf)\s*\{([^{}]*\\[^{}]*)\}"), r"{\1}"),
+)
 _TIMES, _OVER = {"*", "\\cdot", "\\times", ".", "\\ast", "\\bullet", "·"}, {"/", "\\div", ":"}
 _SUMS = ("+", "-", "\\pm", "\\mp")
 _STOP = {")", "]", "}", "\\}", "|", "\\over", "", ",", *_SUMS}
@@ -38,7 +44,9 @@ _SPELLED = (*sorted({*_FUNCTIONS, "asin", "acos", "atan", "sqrt"}, key=len, reve
 
 def read_latex(text: str, whole: bool = False) -> tuple[Node, dict[str, str]]:
     """Read LaTeX without an equals sign: the tree, and plain names to the LaTeX that was written for them."""
-    text = text.replace("²", "^{2}").replace("³", "^{3}")
+    text = text.replace("²", "^{2}").replace("³", "^{3}").replace("ℓ", r"\ell ")
+    for pattern, instead in _BRACED:
+        text = pattern.sub(instead, text)
     silent = _SILENT if r"\begin" in text else {*_SILENT, "&"}
     cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent], whole=whole)
     tree = _sum(cursor)

@@ -10,7 +10,7 @@ from mechsym.errors import BadInput
 _GREEK = {
     "alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "vartheta", "kappa", "lambda",
     "mu", "nu", "xi", "pi", "rho", "varrho", "sigma", "tau", "phi", "varphi", "chi", "psi", "omega", "Delta", "Sigma",
-    "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
+    "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda", "ell",
 }  # fmt: skip
 _DECORATED = {"\\vec": "", "\\boldsymbol": "", "\\bar": "bar", "\\overline": "bar", "\\hat": "hat", "\\tilde": "tilde"}
 _PAIRS = {")": "(r + l)", "}": "{r + l}", "]": "\\sqrt[3]{r}"}
@@ -73,8 +73,6 @@ def letter(cursor: Cursor, bare: bool) -> Node:
     if not decorated:
         subscript += _star(cursor, bare)
         subscript += _primes(cursor)
-        if cursor.peek() == "'":
-            raise BadInput(f"LaTeX: primes are not read {place(cursor)}; write \\frac{{dx}}{{d\\varphi}} for x'")
     plain_name = plain(base, subscript + primes, dots) + mark
     tokens = cursor.tokens[start : cursor.position]
     pairs = zip(tokens, [*tokens[1:], ""], strict=True)
@@ -95,7 +93,7 @@ def _star(cursor: Cursor, bare: bool) -> str:
 def _primes(cursor: Cursor) -> str:
     # x', and x^{\prime\prime}
     marks = ""
-    while cursor.whole and cursor.peek() == "'":
+    while cursor.peek() == "'":
         cursor.take()
         marks += "prime"
     while cursor.whole and cursor.peek() == "^" and "\\prime" in (cursor.peek(1), cursor.peek(2)):

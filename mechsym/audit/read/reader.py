@@ -133,10 +133,24 @@ def read(
     if len(said.right) > 1:
         raise BadInput("more than one equals sign; check one equality at a time, as 'name = expression'")
     body = said.right[0]
+    own |= _rates(read_expression(body, (), AnyLetter())[0], own, known)
     tree, spelled = read_expression(body, [*own, *(k for k in known if k not in own)], more)
     hidden = [k for k, meant in own.items() if k in known and not (isinstance(meant, ast.Name) and meant.id == k)]
     note = joined(said.note, *(f"{k} means {to_python(own[k])} here, not the theory's {k}" for k in hidden))
     return Formula(tree=tree, letters=own, latex=is_latex(body), spelled=spelled, note=note)
+
+
+def _rates(tree: Node, own: Mapping[str, Node], known: Container[str]) -> dict[str, Node]:
+    r"""What \frac{d\theta}{dt} and \frac{d^2\theta}{dt^2} mean where theta is a coordinate, or a letter for one."""
+    rates: dict[str, Node] = {}
+    for written in trees.letters(tree):
+        match = re.fullmatch(r"d(\w+)_dt|d2(\w+)_dt2", written)
+        if match and written not in own and written not in known:
+            letter = match[1] or match[2]
+            meant = own.get(letter, trees.name(letter))
+            rate = f"{meant.id}{'d' if match[1] else 'dd'}" if isinstance(meant, ast.Name) else ""
+            rates |= {written: trees.name(rate)} if rate in known else {}
+    return rates
 
 
 _KEPT = 16
@@ -159,7 +173,10 @@ def read_expression(text: str, known: Iterable[str], more: Container[str] = ()) 
     for written in trees.letters(tree):
         letter = resolve(written, known)
         if letter is None and written not in more:
-            there = f"; letters are {', '.join(known)}; name others with --letters 'R=r1+r2'"
+            way = "name others with --letters 'R=r1+r2'"
+            if written.endswith("prime"):
+                way = f"a prime makes another letter: {way}, or write \\frac{{dx}}{{d\\varphi}} for a derivative"
+            there = f"; letters are {', '.join(known)}; {way}"
             raise UnknownLetter(f"unknown letter {written[:40]!r}", there)
         meant[written] = letter or written
     tree = trees.substitute(tree, lambda n: trees.name(meant[n.id]) if isinstance(n, ast.Name) else None)
@@ -199,7 +216,7 @@ def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
         # \\text{stroke length} is one letter, and so is E^*
         if re.fullmatch(r"[^\W\d_]+(?: +[^\W\d_]+)+", written):
             tree: Node = trees.name(written.replace(" ", ""))
-        elif is_latex(written) or written.endswith("^*"):
+        elif is_latex(written) or written.endswith(("^*", "'")):
             tree = read_latex(written)[0]
         else:
             tree = _read_python(written)
@@ -211,12 +228,17 @@ def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
     return meanings
 
 
+_PRIME, _QUOTED = re.compile(r"(?<=\w)'"), re.compile(r"(?<![\w'])'")
+_CROSS = re.compile(r"(?<=[\w)])\s+x\s+(?=[\w(])")  # 2 x a: in Python that is nothing else
+
+
 def _read_python(text: str) -> Node:
     source = from_greek(bracketed(unprogrammed(text))).replace("^", "**")
+    source = source if _QUOTED.search(source) else _PRIME.sub("prime", source)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SyntaxWarning)  # of 2if: what is no formula is refused below
-            tree = ast.parse(source.strip(), mode="eval").body
+            tree = ast.parse(_CROSS.sub("*", source).strip(), mode="eval").body
     except (SyntaxError, ValueError) as error:
         reason = getattr(error, "msg", None) or "not an expression"
         message = f"the formula {text.strip()[:60]!r} cannot be read: {reason}{_near(source.strip(), error)}"

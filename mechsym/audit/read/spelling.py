@@ -11,7 +11,7 @@ _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "epsilon", "ζ": "zeta", "η": "eta", "θ": "theta",
     "κ": "kappa", "λ": "lam", "μ": "mu", "ν": "nu", "ξ": "xi", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau",
     "φ": "phi", "ϕ": "phi", "χ": "chi", "ψ": "psi", "ω": "omega", "Δ": "Delta", "Σ": "Sigma", "Φ": "Phi",
-    "Ψ": "Psi", "Ω": "Omega", "Γ": "Gamma", "Θ": "Theta", "Λ": "Lambda", "²": "**2", "³": "**3", "·": "*",
+    "Ψ": "Psi", "Ω": "Omega", "Γ": "Gamma", "Θ": "Theta", "Λ": "Lambda", "ℓ": "ell", "²": "**2", "³": "**3", "·": "*",
     "×": "*", "−": "-", "√": "sqrt", "⁰": "**0", "¹": "**1", **{c: f"**{n}" for n, c in enumerate("⁴⁵⁶⁷⁸⁹", 4)},
     **{c: f"_{n}" for n, c in enumerate("₀₁₂₃₄₅₆₇₈₉")},
 }  # fmt: skip
@@ -21,6 +21,7 @@ _LATEX = {
         n: rf"\{n}" for n in (
             "alpha", "beta", "gamma", "delta", "zeta", "eta", "theta", "kappa", "mu", "nu", "xi", "pi", "rho", "sigma",
             "tau", "chi", "psi", "omega", "Delta", "Sigma", "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
+            "ell",
         )
     },
 }  # fmt: skip

@@ -290,6 +290,9 @@ MEANINGS: dict[str, tuple[int, Callable[..., Node]]] = {
     "sind": (1, lambda a: call("sin", _radians(a))),
     "cosd": (1, lambda a: call("cos", _radians(a))),
     "tand": (1, lambda a: call("tan", _radians(a))),
+    "asind": (1, lambda a: _degrees(call("asin", a))),
+    "acosd": (1, lambda a: _degrees(call("acos", a))),
+    "atand": (1, lambda a: _degrees(call("atan", a))),
 }
 
 

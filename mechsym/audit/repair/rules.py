@@ -77,12 +77,9 @@ def symbols(tree: Node) -> Counter[str]:
 def description(tree: Node, edit: Edit) -> float:
     """Length of the description of a slip: its kind, and the symbols that it lost or that it brought [bits]."""
     new, old = symbols(edit.new), symbols(at(tree, edit.path))
-    if edit.kind == "degrees":  # whose kind tells the numbers
-        new, old = ({k: n for k, n in d.items() if k not in ("pi", "180")} for d in (new, old))
-    brought, lost = (
-        Counter(dict.fromkeys(d, 1)) if edit.about else d
-        for d in (Counter(new) - Counter(old), Counter(old) - Counter(new))
-    )
+    brought, lost = (Counter(dict.fromkeys(d, 1)) if edit.about else d for d in (new - old, old - new))
+    if edit.kind == "degrees":  # a kind that tells its numbers
+        brought, lost = (Counter({k: n for k, n in d.items() if k not in ("pi", "180")}) for d in (brought, lost))
     return BITS[edit.kind] + max(_told(brought), _told(lost))
 
 

@@ -367,7 +367,8 @@ def _seconds(known: _Known, first: Edit, tree: Node) -> Iterator[Edit]:
 
 def _standing(known: _Known, tree: Node, wishes: Wishes) -> Iterator[Edit]:
     """Edits of parts that the first edit has left as they were, wherever they stand now."""
-    usable, paths = [], []
+    usable: list[int] = []
+    paths: list[Path] = []
     for path, node in walk(tree):
         found = known.edits_of.get(id(node), ()) if path in wishes else ()
         usable += found
