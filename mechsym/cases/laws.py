@@ -17,7 +17,6 @@ import itertools
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -41,6 +40,7 @@ _STEEL = 7850.0  # its density [kg/m^3]
 _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _RPM = 30 / math.pi  # rpm of one rad/s
 _DIGITS = 1e-3  # within which two numbers have the same digits, of the larger
+_WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
 _CARRIES = 10.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
 _LEADS = math.pi / 4  # how far pistons of one chamber lead and lag at the most [rad]
 _LATE = 0.9  # of a run, from when on a drive has no time to show what it does
@@ -275,7 +275,7 @@ def _length(link: Json, letters: Mapping[str, float]) -> float:
     points = [_point(pair, letters) for pair in link["points"]]
     if len(points) == 1:
         return 2 * math.dist(points[0], _point(link["centre"], letters))
-    return max(math.dist(p, q) for p, q in combinations(points, 2))
+    return max(math.dist(p, q) for p, q in itertools.combinations(points, 2))
 
 
 def _masses(
@@ -349,17 +349,17 @@ def _of(
 ) -> Iterator[Doubt]:
     name, (longest, moving) = link["name"], all_
     points = [_point(pair, letters) for pair in link["points"]]
-    length, mass = _length(link, letters), _number(link["mass"], letters)
-    inertia = _number(link["inertia"], letters)
+    length = _length(link, letters)
+    mass, inertia = (_number(link[name], letters) for name in ("mass", "inertia"))
     if length <= 0:
         return
     if len(points) == 1:  # its size is that of its centre's distance: a disc beside its axis is wider, a bob thinner
         if mass > 0 and inertia:
             about = f"inertia of {name} / (mass * (twice its centre from its joint)^2)"
             yield from proportion("link_needle", about, inertia / (mass * length**2))
-            wide = inertia / (mass * max(longest, length) ** 2)
+            about, wide = f"inertia of {name} / (mass * (longest link)^2)", inertia / (mass * longest**2)
             if link["turns"] not in rotors and wide > 1:  # a wheel as wide as the machine, and no flywheel
-                yield from proportion("link_inertia", f"inertia of {name} / (mass * (longest link)^2)", wide, _CARRIES)
+                yield from proportion("link_inertia", about, wide, _WHEEL)
         return
     share = inertia / (moving * length**2) if moving > 0 and not mass else 0.0
     if link["turns"] in rotors and 0 < share < 1:  # a crank that is given by its inertia alone, and no heavy flywheel

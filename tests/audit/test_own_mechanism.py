@@ -7,7 +7,7 @@ import pytest
 from mechsym.audit.hosts.formula import check_file, check_formula
 from mechsym.audit.hosts.program import check_code
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.repair import search
+from mechsym.audit.repair import pairs
 from mechsym.errors import BadInput
 
 SLIDER = """from mechsym.derive import Mechanism
@@ -76,7 +76,7 @@ def test_angles_of_links_and_names_that_nothing_is_put_out_of(folder):
 @pytest.mark.slow
 def test_the_search_for_two_slips_ends_and_says_so(folder, monkeypatch):
     formula = "r*cos(phi) + l*sin(phi)**2 - 2*r/l + phi*r"
-    monkeypatch.setattr(search, "MAX_WORK", 0)
+    monkeypatch.setattr(pairs, "MAX_WORK", 0)
     row = check_formula(formula, "./slider.py:x")
     assert row["verdict"] == "wrong" and re.search(r"only the first 0 of \d+ were tried", row["note"])
 
