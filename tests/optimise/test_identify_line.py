@@ -8,6 +8,7 @@ import math
 from types import SimpleNamespace
 
 import casadi as ca
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -15,8 +16,9 @@ from scipy.stats import t as student
 
 from mechsym import budget
 from mechsym.errors import BadInput
+from mechsym.optimise import shown
 from mechsym.optimise.fit import TracedMotion, grid, legendre
-from mechsym.optimise.identify import Estimate, _alike, doubts, durbin_watson, identify, white_noise
+from mechsym.optimise.identify import Estimate, _alike, _behind, doubts, durbin_watson, identify, white_noise
 from mechsym.optimise.trace import Trace
 
 W, Z = 1.3, (0.7, -0.4)
@@ -231,6 +233,19 @@ def test_ends_of_a_bent_interval_are_those_of_the_straight_one():
         assert end**3 == pytest.approx(best[0] + sign * wide, abs=0.025 * wide)
 
 
+def test_a_start_walks_off_by_two_standard_errors(monkeypatch):
+    steps = []
+    monkeypatch.setattr("mechsym.optimise.identify.pulled", lambda task, here, number, step: steps.append(step))
+    slopes = SHAPES[:, :3]
+    best = SimpleNamespace(slopes=slopes, rest=np.zeros(T.size), left=T.size * 1e-4)  # a variance of 1e-4
+    assert list(_behind(SimpleNamespace(spent=False), best, 2)) == []
+    error = 1e-2 * math.sqrt(np.linalg.inv(slopes.T @ slopes)[2, 2])
+    assert steps == pytest.approx([2 * error, -2 * error])
+    best = SimpleNamespace(slopes=slopes, rest=np.zeros(T.size), left=T.size * 1e4)
+    assert list(_behind(SimpleNamespace(spent=False), best, 2)) == []
+    assert steps[2:] == [0.25, -0.25]  # and never by more than a quarter of a radian
+
+
 def test_a_fit_is_forecast_by_the_numbers_of_its_linear_system(monkeypatch):
     # a column for each of two parameters, for angle and speed at the start, and for what is measured
     asked = []
@@ -256,3 +271,41 @@ def test_fits_are_one_where_they_start_at_one_angle_or_have_the_same_parameters(
 
     assert (count(0.3 + 2 * math.pi, 2.0), count(0.4, 2.0), count(1.3, 1.001)) == (1, 1, 1)
     assert (count(1.3, 2.0), count(0.3 + math.pi, 1.1)) == (2, 2)
+
+
+def drawn(result, monkeypatch, tmp_path):
+    figures = []
+    monkeypatch.setattr(shown, "write_picture", lambda path, figure: figures.append(figure) or path)
+    assert shown.trace_picture(tmp_path / "trace.svg", result) == tmp_path / "trace.svg"
+    plt.close(figures[0])
+    return figures[0].axes
+
+
+def points(axis):
+    return {line.get_label(): line.get_xydata() for line in axis.lines}
+
+
+def test_speeds_are_drawn_in_the_unit_of_their_axis(found, monkeypatch, tmp_path):
+    left, right = drawn(found, monkeypatch, tmp_path)
+    assert (left.get_ylabel(), right.get_ylabel()) == ("speed [rpm]", "measured less fitted [rpm]")
+    rpm, lines = 30 / np.pi, points(left)
+    assert lines["measured"] == pytest.approx(np.column_stack([T, found.measured["phid"] * rpm]))
+    assert lines["fitted"] == pytest.approx(np.column_stack([T, found.fitted["phid"] * rpm]))
+    (rest,) = points(right).values()
+    assert rest == pytest.approx(np.column_stack([T, (found.measured["phid"] - found.fitted["phid"]) * rpm]))
+    assert {axis.get_xlabel() for axis in (left, right)} == {"time [s]"}
+
+
+def test_several_speeds_are_told_apart(found, monkeypatch, tmp_path):
+    speeds, model = ({"phid": v["phid"], "psid": 2 * v["phid"]} for v in (found.measured, found.fitted))
+    left, right = drawn(dataclasses.replace(found, measured=speeds, fitted=model), monkeypatch, tmp_path)
+    assert list(points(left)) == ["phi measured", "phi fitted", "psi measured", "psi fitted"]
+    assert list(points(right)) == ["phi", "psi"]
+    assert len({line.get_color() for line in right.lines}) == 2
+
+
+def test_rounding_is_no_picture(found, monkeypatch, tmp_path):
+    left, right = drawn(dataclasses.replace(found, noise=1e-14), monkeypatch, tmp_path)
+    assert not right.lines
+    assert [text.get_text() for text in right.texts] == ["0 to round-off"]
+    assert right.get_xlim() == left.get_xlim()

@@ -1,6 +1,7 @@
 """Traces of a wrong unit, of another machine or too long are refused before the fit, those that are right are taken."""
 
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from hand import write_trace
 from mechsym import budget
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
+from mechsym.optimise import preview
 
 SLIPS = [
     ({"time": 1000}, "ms under"),
@@ -86,3 +88,51 @@ def test_the_energy_of_a_run_down_is_not_asked_of_friction_that_is_looked_for(tm
     still = ["--set", "drive.torque=0", "--set", "drive.time=0", "--set", "m0=0.001"]
     answer = CliRunner().invoke(mechsym, [*words, *still, "--json"])
     assert answer.exception is None or not isinstance(answer.exception, BadInput), answer.exception
+
+
+def ratio_of(kinetic, power, monkeypatch, lossy=False):
+    """Of a machine of a given kinetic energy and power at even times from 0 to 2 s."""
+    t = np.linspace(0.0, 2.0, len(power))
+    monkeypatch.setattr(preview, "followed", lambda *_: None)
+    model = SimpleNamespace(
+        known=lambda _: None, energy=lambda *_: (np.array([kinetic]), np.array([power])), start=np.zeros(1), lossy=lossy
+    )
+    return preview._ratio(model, SimpleNamespace(t=t), 0.0)
+
+
+def test_energy_is_held_against_the_work_of_what_is_known(monkeypatch):
+    t = np.linspace(0.0, 2.0, 400)
+    late = np.clip(40 * (t - 1), 0, 10)  # 10 J gained, none of it within the ends that are averaged
+    hump = np.where((t > 0.5) & (t < 1.5), 5.0, 0.0)  # 5 J of work
+    assert ratio_of(late, hump, monkeypatch) == pytest.approx(2.0, rel=5e-3)
+    assert ratio_of(10 - late, -hump, monkeypatch) == pytest.approx(2.0, rel=5e-3)
+    assert ratio_of(late, -hump, monkeypatch) == pytest.approx(-2.0, rel=5e-3)
+    assert ratio_of(late, 100 * hump, monkeypatch) == pytest.approx(0.02, rel=5e-3)
+
+
+def test_what_tells_of_no_force_is_not_judged(monkeypatch):
+    t = np.linspace(0.0, 2.0, 400)
+    steady, swings = np.full_like(t, 10.0), 10 + 0.4 * np.sin(np.pi * t / 2)
+    assert ratio_of(steady, np.zeros_like(t), monkeypatch) == 1.0
+    assert ratio_of(swings, np.full_like(t, 1.0), monkeypatch) == 1.0  # 2 J of the 3 that would tell
+    assert ratio_of(swings, np.full_like(t, np.nan), monkeypatch) == 1.0
+    assert ratio_of(np.where(t > 1, np.inf, 1.0), np.ones_like(t), monkeypatch) == 1.0
+
+
+def test_friction_that_is_looked_for_may_take_and_never_gives(monkeypatch):
+    t = np.linspace(0.0, 2.0, 400)
+    late, hump = np.clip(40 * (t - 1), 0, 10), np.where((t > 0.5) & (t < 1.5), 1.0, 0.0)
+    assert ratio_of(10 - late, hump, monkeypatch, lossy=True) == 1.0
+    assert ratio_of(late, hump, monkeypatch, lossy=True) == pytest.approx(10.0, rel=5e-3)
+    assert ratio_of(late, 2 * hump, monkeypatch, lossy=True) == 1.0  # within six times
+    assert ratio_of(late, 0 * hump, monkeypatch, lossy=True) == pytest.approx(10 / 0.3)
+
+
+def test_of_several_poses_one_that_agrees_is_enough(monkeypatch):
+    ratios = iter([-1.0, 20.0, 1.5])
+    monkeypatch.setattr(preview, "_ratio", lambda *_: next(ratios))
+    model = SimpleNamespace(velocities=("phid",), turning=(True,), low=np.zeros(1))
+    trace = SimpleNamespace(t=np.linspace(0, 1, 100), speeds={"phid": None}, file="t.csv")
+    preview.require_plausible(model, trace, [0.0, 1.0, 2.0], 0.01)
+    with pytest.raises(BadInput, match=r"a sample every .* turns or swings once in 0.00628"):
+        preview.require_plausible(model, trace, [0.0], 5e-4)
