@@ -20,6 +20,6 @@ def turned(case):
 
 def numbers(case):
     """What `mechsym forces` tells of it."""
-    from mechsym.jobs.forces import told
+    from mechsym.jobs.forces import reported
 
-    return tell(told(case, turned(case).forces))
+    return tell(reported(case, turned(case).forces))

@@ -123,8 +123,8 @@ def _answer(asked: Asked, said: Statement, claim: str, one: bool) -> Row:
     if not claim:
         return row
     holds, why = _kept(claim, question, verdict)
-    told = f"the claim {claim!r} {'is kept' if holds else 'is broken'}: {why}"
-    return row | {"claimed": claim, "claim_kept": holds, "note": joined(row["note"], told)}
+    words = f"the claim {claim!r} {'is kept' if holds else 'is broken'}: {why}"
+    return row | {"claimed": claim, "claim_kept": holds, "note": joined(row["note"], words)}
 
 
 def _kept(claim: str, question: Question, decision: Decision) -> tuple[bool, str]:

@@ -93,7 +93,7 @@ def _show_torque(case: Case, file: str | None, noise: str | None, out: Path | No
     result = indicated(case, file, parse(noise, "N*m", "--noise"))
     files = [
         write_quantities(out / "pressure.csv", result.pressure, result.pressure.units),
-        pressure_picture(out / "pressure.svg", result.found, result.period),
+        pressure_picture(out / "pressure.svg", result.indicated, result.period),
     ] if out else []  # fmt: skip
     emit(result, lambda: _torque(result), files=files)
 

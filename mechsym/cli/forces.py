@@ -42,7 +42,7 @@ def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, o
     """
     from mechsym.cases.outcomes import of_forces
     from mechsym.jobs.forces import forces as run
-    from mechsym.jobs.forces import told, write
+    from mechsym.jobs.forces import reported, write
     from mechsym.jobs.gas import measured
     from mechsym.page import ranked
     from mechsym.torsion import twist
@@ -55,7 +55,7 @@ def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, o
         return _motion(case, out)
     case = case if diagram is None else measured(case, diagram)
     result = run(case, comparison)
-    numbers = told(case, result, parse_speeds(law, "--law") if law else None)
+    numbers = reported(case, result, parse_speeds(law, "--law") if law else None)
     report = tell(numbers)
     doubts = of_forces(case, result) + (twist.doubts(numbers.vibration) if numbers.vibration else ())
     report["doubts"] = doubts

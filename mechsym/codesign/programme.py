@@ -217,8 +217,8 @@ def _motions(
 
 
 def _result(task: CoDesignTask, ready: ReadyProgramme, solved: Solved, wall: float) -> CoDesign:
-    found = solved.values
-    coefficients, p0, values, flywheel, ripples = (np.array(v.full()) for v in ready.read(found["x"]))
+    best = solved.values
+    coefficients, p0, values, flywheel, ripples = (np.array(v.full()) for v in ready.read(best["x"]))
     tracks = []
     for s in range(task.springs):
         # IPOPT relaxes bounds by 1e-8
@@ -237,10 +237,10 @@ def _result(task: CoDesignTask, ready: ReadyProgramme, solved: Solved, wall: flo
         tracks=tuple(tracks),
         ripple=ripples.reshape(len(task.points), -1).max(axis=1),
         # what is no solution has no prices, and of no flywheel nothing can be saved
-        active=_active(task, np.array(found["lam_p"]).ravel(), inertia) if priced else (),
+        active=_active(task, np.array(best["lam_p"]).ravel(), inertia) if priced else (),
         iterations=solved.iterations,
         wall=wall,
-        solution={key: np.array(found[from_]).ravel() for key, from_ in
+        solution={key: np.array(best[from_]).ravel() for key, from_ in
                   (("x0", "x"), ("lam_x0", "lam_x"), ("lam_g0", "lam_g"))},
     )  # fmt: skip
 

@@ -125,7 +125,7 @@ def _flat(figures: Json, size: int) -> Columns:
 def _speeds(figures: Json) -> "Figure":
     from mechsym.style import BLUE, RED, axis_unit, legend, panels
 
-    made, axes = panels(9, 3.2, 1, 2, "Torque and power over the speed")
+    figure, axes = panels(9, 3.2, 1, 2, "Torque and power over the speed")
     omega = np.asarray(figures["speed_rpm"]) * np.pi / 30
     rubs = np.any(figures.get("friction_mep_kpa", 0.0))
     curves = (("torque", "brake_torque", "torque_avg", 1.0, "N*m"), ("power", "brake_power_kw", "power_kw", 1e3, "W"))
@@ -136,7 +136,7 @@ def _speeds(figures: Json) -> "Figure":
             axis.plot(omega * across, times * factor * np.asarray(figures[key]), look, color=color, label=label)
         axis.set(xlabel=f"speed [{rpm}]", ylabel=f"{name} [{unit}]")
         legend(axis)
-    return made
+    return figure
 
 
 @shows(EngineComparison)

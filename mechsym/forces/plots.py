@@ -345,8 +345,8 @@ def pressure_picture(path: Path, indicated: IndicatedPressure, period: Radian) -
     """Absolute pressure over a period with its 95 % interval; gaps at the dead centres stay empty."""
     figure, axes = panels(8, 4, 1, 1, "Pressure that the torque tells, and its 95 % interval")
     axis = axes[0]
-    p, half = (np.where(indicated.told, v, np.nan) for v in (indicated.p, NORMAL_95 * indicated.error))
-    (factor, unit), angle = axis_unit("Pa", indicated.p[indicated.told]), over_angle(axis, period)
+    p, half = (np.where(indicated.clear, v, np.nan) for v in (indicated.p, NORMAL_95 * indicated.error))
+    (factor, unit), angle = axis_unit("Pa", indicated.p[indicated.clear]), over_angle(axis, period)
     phi = indicated.phi * angle
     axis.fill_between(phi, (p - half) * factor, (p + half) * factor, color=BLUE, alpha=0.25, linewidth=0, label="95 %")
     axis.plot(phi, p * factor, color=BLUE, label="pressure")

@@ -199,12 +199,12 @@ class IndicatedPressure:
     """Absolute pressure in the cylinder where the torque tells it."""
 
     phi: np.ndarray  #: shape (n,): Crank angles [rad]
-    p: np.ndarray  #: shape (n,): Absolute pressure; finite and without meaning where not told [Pa]
+    p: np.ndarray  #: shape (n,): Absolute pressure; finite and without meaning where not `clear` [Pa]
     error: np.ndarray  #: shape (n,): Its standard deviation [Pa]
-    told: np.ndarray  #: shape (n,): Whether the torque tells the pressure there [-]
+    clear: np.ndarray  #: shape (n,): Whether the torque tells the pressure there [-]
     gas: np.ndarray  #: shape (n,): Torque of the gas [N*m]
     lever: np.ndarray  #: shape (n,): Torque by pressure h [N*m/Pa]
-    limit: float  #: Widest half of a 95 % interval that counts as told [Pa]
+    limit: float  #: Widest half of a 95 % interval that counts as clear [Pa]
 
 
 def shaft_lines(
@@ -272,7 +272,7 @@ def pressure_from_torque(
             f"below {np.abs(gas).max() / NORMAL_95:.4g} N*m it tells a pressure: average more cycles"
         )
     p = p_back + gas / safe
-    return IndicatedPressure(phi=measured.phi, p=p, error=error, told=clear, gas=gas, lever=lever, limit=limit)
+    return IndicatedPressure(phi=measured.phi, p=p, error=error, clear=clear, gas=gas, lever=lever, limit=limit)
 
 
 def work(measured: CrankTorque, pressure: IndicatedPressure, period: Radian) -> tuple[Joule, Joule]:
@@ -311,5 +311,5 @@ def scatter(torque: NewtonMetre[Array]) -> NewtonMetre:
 
 def gaps(pressure: IndicatedPressure) -> list[tuple[Radian, Radian]]:
     """Angles where nothing is told [rad]. Returns gaps: first and last row without a pressure, one pair a gap."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[True], pressure.told, [True]]).astype(int)))
+    edges = np.flatnonzero(np.diff(np.concatenate([[True], pressure.clear, [True]]).astype(int)))
     return [(float(pressure.phi[a]), float(pressure.phi[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True)]

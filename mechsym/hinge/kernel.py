@@ -157,28 +157,28 @@ def _parts(
     stage, lane = ca.SX.sym("stage", 3), ca.vertcat(*p)
     rows = [(key, limit, getattr(letters["limits"], key, None))
             for key, limit, _ in asked(limits, CENTRE, ROOM) if limit.holds(spring, c)]  # fmt: skip
-    found = ca.vertcat(*_over_the_turn(stage, spring, law, at_start, c, letters, rows))
-    peaks = ca.SX.sym("peaks", found.numel())
+    turn = ca.vertcat(*_over_the_turn(stage, spring, law, at_start, c, letters, rows))
+    peaks = ca.SX.sym("peaks", turn.numel())
     margins = _of_limits(c, spring, at_start - of.low, at_start - of.high, peaks, letters, rows)
     names = tuple(name for name in margins if name != "cut")
     values, chosen = ca.vertcat(*margins.values()), ca.vertcat(*free)
 
     def slopes() -> tuple[Compiled, Compiled]:
         by = [ca.jacobian(values, chosen), ca.jacobian(values, peaks)]
-        made = compiled_all({
-            "slopes": ca.Function("design_slopes", [stage, lane], [ca.jacobian(found, chosen)]),
+        compiled = compiled_all({
+            "slopes": ca.Function("design_slopes", [stage, lane], [ca.jacobian(turn, chosen)]),
             "ends": ca.Function("design_margin_slopes", [lane, peaks], by),
         })  # fmt: skip
-        return made["slopes"], made["ends"]
+        return compiled["slopes"], compiled["ends"]
 
     functions = (
-        ca.Function("design_values", [stage, lane], [found], ["stage", "lane"], ["shares"]),
+        ca.Function("design_values", [stage, lane], [turn], ["stage", "lane"], ["shares"]),
         ca.Function("design_margins", [lane, peaks], [values], ["lane", "peaks"], ["margins"]),
     )
     return _KernelParts(
         angles=phi * ratio,
         stages=stages,
-        march=_march(stage, lane, found, stages),
+        march=_march(stage, lane, turn, stages),
         values=compiled(functions[0]),
         finish=compiled(functions[1]),
         functions=functions,

@@ -79,12 +79,12 @@ def forces(case: Case, comparison: bool = False) -> Forces:
         law = given.get("friction_pressure")
     if isinstance(law, MechanismFriction):
         law = None  # the friction of the whole engine is the sum of its joints
-    found = result.forces(one, friction, rings, given.get("shaking"), given.get("shaft"), law)
+    loads = result.forces(one, friction, rings, given.get("shaking"), given.get("shaft"), law)
     if not comparison:
-        return found
+        return loads
     with of(case):
         rows = compare(one, friction, rings, given.get("comparison", ComparisonSettings()))
-    return dataclasses.replace(found, comparison=rows)
+    return dataclasses.replace(loads, comparison=rows)
 
 
 def motion(case: Case) -> driven.DrivenForces:
@@ -97,9 +97,9 @@ def motion(case: Case) -> driven.DrivenForces:
         raise BadInput(f"{case.file}: {error}") from None
 
 
-def told(case: Case, found: Forces, law: Sequence[RadPerSecond] | None = None) -> ForceReport:
+def reported(case: Case, loads: Forces, law: Sequence[RadPerSecond] | None = None) -> ForceReport:
     """The forces of a case in numbers. law: speeds over which the friction is fitted as a law of the cycle."""
-    numbers, shaking = summary(found, case.name, case.source), vibration(case, found.turn)
+    numbers, shaking = summary(loads, case.name, case.source), vibration(case, loads.turn)
     more = [*listing(case.mechanism).get("redundant", ()), *(() if shaking is None else twist.words(shaking))]
     if more:
         numbers = dataclasses.replace(numbers, facts=[*numbers.facts, *more])
@@ -111,10 +111,10 @@ def told(case: Case, found: Forces, law: Sequence[RadPerSecond] | None = None) -
     return ForceReport(numbers=numbers, vibration=shaking, friction_law=fitted)
 
 
-def write(case: Case, found: Forces, numbers: Json, folder: Path, findings: Sequence[Finding] = ()) -> list[Path]:
+def write(case: Case, loads: Forces, numbers: Json, folder: Path, findings: Sequence[Finding] = ()) -> list[Path]:
     """Write page, tables, summary and pictures into a folder. findings: what has to be known first."""
     about = case.about or listing(case.mechanism)["about"] or case.name
-    return shown.write(found, numbers, folder, about, findings)
+    return shown.write(loads, numbers, folder, about, findings)
 
 
 def write_motion(found: driven.DrivenForces, numbers: Json, folder: Path) -> list[Path]:

@@ -39,12 +39,12 @@ class TorquePressure:
 
     case: str = part()
     measured: CrankTorque
-    found: IndicatedPressure
+    indicated: IndicatedPressure
 
     @property
     def period(self) -> float:
         """One turn or two, as far as the angles go [rad]."""
-        return 4 * math.pi if np.ptp(self.found.phi) > 2 * math.pi + _SAME else 2 * math.pi
+        return 4 * math.pi if np.ptp(self.indicated.phi) > 2 * math.pi + _SAME else 2 * math.pi
 
     @computed("rpm")
     def speed_rpm(self) -> float:
@@ -56,48 +56,48 @@ class TorquePressure:
     @computed("-")
     def samples(self) -> int:
         """Angles of the file."""
-        return len(self.found.phi)
+        return len(self.indicated.phi)
 
     @computed("-")
     def told(self) -> int:
         """Angles at which the torque tells the pressure."""
-        return int(self.found.told.sum())
+        return int(self.indicated.clear.sum())
 
     @computed("J")
     def work_j(self) -> float:
         """Work of the gas over the period."""
-        return physics.work(self.measured, self.found, self.period)[0]
+        return physics.work(self.measured, self.indicated, self.period)[0]
 
     @computed("J")
     def work_interval_j(self) -> list[float]:
         """It holds the work 19 times in 20."""
-        error = physics.work(self.measured, self.found, self.period)[1]
+        error = physics.work(self.measured, self.indicated, self.period)[1]
         return [self.work_j - NORMAL_95 * error, self.work_j + NORMAL_95 * error]
 
     @computed("deg")
     def gaps_deg(self) -> list[list[float]]:
         """Where nothing is told, as the piston hardly moves."""
-        return [[math.degrees(a), math.degrees(b)] for a, b in physics.gaps(self.found)]
+        return [[math.degrees(a), math.degrees(b)] for a, b in physics.gaps(self.indicated)]
 
     @computed()
     def pressure(self) -> Columns:
         """Pressure over the angle with the ends of its 95 % interval, where it is told."""
-        at = self.found.told
-        p, half = self.found.p[at], NORMAL_95 * self.found.error[at]
-        curves = {"phi_deg": np.degrees(self.found.phi[at]), "p_pa": p, "p_low_pa": p - half, "p_high_pa": p + half}
+        at = self.indicated.clear
+        p, half = self.indicated.p[at], NORMAL_95 * self.indicated.error[at]
+        curves = {"phi_deg": np.degrees(self.indicated.phi[at]), "p_pa": p, "p_low_pa": p - half, "p_high_pa": p + half}
         return Columns(curves, {"phi_deg": "deg", **dict.fromkeys(("p_pa", "p_low_pa", "p_high_pa"), "Pa")})
 
     @computed()
     def doubts(self) -> list[Doubt]:
         """What of the torque is possible and not usual."""
-        measured, pressure = self.measured, self.found
+        measured, pressure = self.measured, self.indicated
         doubts, seen = [], physics.scatter(measured.torque)
         allowed = 2 * measured.noise + _SMOOTH * float(np.abs(pressure.gas).max())
         if seen > allowed:
             why = "rows scatter more than --noise says; the intervals are too narrow"
             usual = f"at most {allowed:.4g}"
             doubts.append(Doubt(code="torque_noise", quantity="noise [N*m]", value=seen, usual=usual, why=why))
-        highest = (pressure.p + NORMAL_95 * pressure.error)[pressure.told]
+        highest = (pressure.p + NORMAL_95 * pressure.error)[pressure.clear]
         if np.mean(highest < 0) > 0.05:
             why = (
                 "no gas pulls: look at the sign and zero of the torque, the angle, friction, and whether inertia is "
@@ -136,7 +136,7 @@ def indicated(case: Case, file: str, noise: NewtonMetre) -> TorquePressure:
         pressure = physics.pressure_from_torque(measured, idle, lever, acting.p_back)
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
-    return TorquePressure(case=case.name, measured=measured, found=pressure)
+    return TorquePressure(case=case.name, measured=measured, indicated=pressure)
 
 
 def common_gas(case: Case) -> CommonGas:

@@ -66,8 +66,8 @@ def machine(case: Case, diagram: str | None = None, inertia: Inertia = 0.0) -> M
     case = at_recorded_speed(case)
     mechanism = turning(case, inertia)
     driven = "drive" in case.sections or "cycle" not in case.sections
-    found = _with_besides(turned_by(case, mechanism), acting_constants(case, mechanism), driven)
-    return replace(found, load=load(case))
+    acting = _with_besides(turned_by(case, mechanism), acting_constants(case, mechanism), driven)
+    return replace(acting, load=load(case))
 
 
 def turned_by(case: Case, mechanism: Mechanism) -> Machine:

@@ -75,11 +75,11 @@ def closed(mechanism: Mechanism, role: ClosingRole, rule: ClosingRule) -> Mechan
     known = {**mechanism.parameters, **kinematics(**{n: letters[n] for n in kinematics.name_in()}), **letters, **forces}
     free, shares = ([amount(getattr(g, what), known) for g in role.guides] for what in ("free", "share"))
     force = _open_force(rule, free, shares)
-    found = {g.name: at + share * force for g, at, share in zip(role.guides, free, shares, strict=True)}
-    found[role.name] = force
+    pushes = {g.name: at + share * force for g, at, share in zip(role.guides, free, shares, strict=True)}
+    pushes[role.name] = force
     for name, text in role.gives.items():
-        found[name] = amount(text, known | found)
-    everything = forces | found
+        pushes[name] = amount(text, known | pushes)
+    everything = forces | pushes
     function = ca.Function(
         "reactions", list(letters.values()), list(everything.values()), list(letters), list(everything)
     )

@@ -25,7 +25,7 @@ from mechsym.hinge.result import complete, ripple_text
 from mechsym.hinge.shown import scenes
 from mechsym.hinge.summary import HingeNumbers
 from mechsym.jobs.cycle import cycle
-from mechsym.jobs.forces import forces, told
+from mechsym.jobs.forces import forces, reported
 from mechsym.jobs.gas import gas, source
 from mechsym.jobs.hinge import hinge
 from mechsym.jobs.measured import MeasuredCycle, MeasuredDiagram, RecordAmongOthers, measured_combustion
@@ -47,7 +47,7 @@ _GIVES = "The engine gives"  # with which a sentence on the power at the shaft b
 
 def force_part(title: str, case: Case, result: Forces, doubts: tuple[Doubt, ...]) -> ReportPart:
     """The part of a force analysis."""
-    numbers = told(case, result)
+    numbers = reported(case, result)
     doubts += twist.doubts(numbers.vibration) if numbers.vibration else ()
     reasons = tuple(result.unbalanced)
     return ReportPart(
@@ -210,7 +210,7 @@ def _hinge(case: Case) -> ReportPart:
         for t in design.trials
     ]
     saved = quantity_text(numbers.flywheel_inertia_saved, "kg*m^2", 4)
-    decide, told = [], f"The {design.answer}."
+    decide, answer = [], f"The {design.answer}."
     if verdict.feasible and not design.target.met:
         decide.append(f"{design.target.words} ('mechsym codesign --losses inside' designs with them)")
     if not verdict.feasible:
@@ -226,7 +226,7 @@ def _hinge(case: Case) -> ReportPart:
     return ReportPart(
         name="hinge", title=PARTS["hinge"].title, view=design.view, state=DONE if verdict.feasible else INFEASIBLE,
         reason="" if verdict.feasible else verdict.reason,
-        verdict=f"{told} An ideal hinge saves a flywheel of {saved}." if verdict.feasible else told,
+        verdict=f"{answer} An ideal hinge saves a flywheel of {saved}." if verdict.feasible else answer,
         grids=(grid("Limits of the guide", rows, ["check", "value and limit", "kept", "margin"]),
                grid("Runs in time", runs, ["run", "ripple", "end"])),
         limits=tuple(limits), decide=tuple(decide), numbers=tell(numbers), doubts=of_gas(case, design.machine.gas),

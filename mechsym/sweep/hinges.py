@@ -118,12 +118,12 @@ def _verdicts(balance: "Balance", designs: "Sequence[GuideDesign]") -> list[Outc
     from mechsym.hinge.side_by_side import verdicts
 
     try:
-        found = verdicts(balance, designs)
+        checks = verdicts(balance, designs)
     except ARITHMETIC:
-        found = [None] * len(designs)
+        checks = [None] * len(designs)
     return [
         guarded(lambda d: judge(cut(balance, d.spring, d.choices), d.rollers, d.limits), d) if one is None else one
-        for one, d in zip(found, designs, strict=True)
+        for one, d in zip(checks, designs, strict=True)
     ]
 
 

@@ -33,9 +33,9 @@ def test_the_torque_of_a_pressure_tells_that_pressure(tmp_path, name):
     one = turn(case)
     truth = one.gas.pressure.absolute(one.phi)
     told = indicated(case, written(tmp_path / "m.csv", one, one.torque), 0.0)
-    measured, found = told.measured, told.found
-    assert np.abs(found.p - truth)[found.told].max() < 1e-9 * truth.max()
-    assert 1 <= (~found.told).sum() <= 4  # the dead centres alone
+    measured, found = told.measured, told.indicated
+    assert np.abs(found.p - truth)[found.clear].max() < 1e-9 * truth.max()
+    assert 1 <= (~found.clear).sum() <= 4  # the dead centres alone
     done, error = work(measured, found, one.period)
     assert error == 0 and done == pytest.approx(one.gas_power.mean() * one.period / one.omega, rel=1e-12)
     assert told.doubts == []
@@ -44,9 +44,9 @@ def test_the_torque_of_a_pressure_tells_that_pressure(tmp_path, name):
 def test_a_torque_without_inertia_is_that_of_the_gas(tmp_path):
     case = cases.load("nunes-slider-crank")
     one = turn(case)
-    found = indicated(case, written(tmp_path / "m.csv", one, one.gas_power / one.omega, "torque"), 0.0).found
+    found = indicated(case, written(tmp_path / "m.csv", one, one.gas_power / one.omega, "torque"), 0.0).indicated
     truth = one.gas.pressure.absolute(one.phi)
-    assert np.abs(found.p - truth)[found.told].max() < 1e-9 * truth.max()
+    assert np.abs(found.p - truth)[found.clear].max() < 1e-9 * truth.max()
 
 
 def test_inertia_left_in_a_torque_without_it_is_noticed(tmp_path):
@@ -78,7 +78,7 @@ def test_intervals_hold_the_truth_19_times_in_20(marine, noise):
     rng, held, works = np.random.default_rng(3), [], []
     for _ in range(200):
         measured, found = told_of(marine, one.torque + rng.normal(0, noise, one.phi.size), noise)
-        held.append((np.abs(found.p - truth) < NORMAL_95 * found.error)[found.told].mean())
+        held.append((np.abs(found.p - truth) < NORMAL_95 * found.error)[found.clear].mean())
         value, error = work(measured, found, one.period)
         works.append(abs(value - done) < NORMAL_95 * error)
     assert np.mean(held) == pytest.approx(0.95, abs=0.003)  # of 280 000 values
@@ -90,11 +90,11 @@ def test_gaps_grow_with_the_noise_and_lie_at_the_dead_centres(marine):
     widths = []
     for noise in (0.0, 5e3, 20e3, 80e3):
         _, found = told_of(marine, one.torque, noise)
-        assert np.abs(lever[~found.told]).max() < np.abs(lever[found.told]).min()
-        assert NORMAL_95 * found.error[found.told].max() < found.limit
+        assert np.abs(lever[~found.clear]).max() < np.abs(lever[found.clear]).min()
+        assert NORMAL_95 * found.error[found.clear].max() < found.limit
         found_gaps = gaps(found)
         assert found_gaps[0][0] == 0 and any(a <= math.pi <= b for a, b in found_gaps)
-        widths.append((~found.told).sum())
+        widths.append((~found.clear).sum())
     assert widths == sorted(set(widths))
 
 

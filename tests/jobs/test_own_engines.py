@@ -217,10 +217,10 @@ def test_the_torque_on_the_crank_tells_the_pressure(folder, kind):
     rows = "\n".join(f"{a:.17g},{-m:.17g},{one.omega:.17g}"
                      for a, m in zip(np.degrees(one.phi), one.columns["driving_torque"], strict=True))  # fmt: skip
     (folder / "torque.csv").write_text(f"phi [deg],torque_with_inertia [N*m],speed [rad/s]\n{rows}\n")
-    found = indicated(case, str(folder / "torque.csv"), 0.0).found
+    found = indicated(case, str(folder / "torque.csv"), 0.0).indicated
     truth = first.gas.pressure.absolute(one.phi - first.start)
-    assert found.told.mean() > 0.9
-    assert np.abs(found.p - truth)[found.told].max() < 1e-9 * truth.max()
+    assert found.clear.mean() > 0.9
+    assert np.abs(found.p - truth)[found.clear].max() < 1e-9 * truth.max()
 
 
 @pytest.mark.slow

@@ -81,12 +81,12 @@ ALL = """
 import json, sys
 from pathlib import Path
 from mechsym import cases, mechanisms
-from mechsym.jobs.forces import forces, told as told_of, write
+from mechsym.jobs.forces import forces, reported, write
 from mechsym.quantities.results import tell
 assert Path(mechanisms.__file__).is_relative_to(Path.cwd()), mechanisms.__file__
 case = cases.load("yoke", {f"friction.{k}": v for k, v in json.loads(sys.argv[1]).items()})
 found = forces(case)
-told = tell(told_of(case, found))
+told = tell(reported(case, found))
 told["drawn"] = sorted(p.name for p in write(case, found, told, Path("out")))
 told["known"] = mechanisms.names()
 print(json.dumps(told))

@@ -152,9 +152,9 @@ def _standing(known: _Known, tree: Node, wishes: Wishes) -> Iterator[Edit]:
     usable: list[int] = []
     paths: list[Path] = []
     for path, node in walk(tree):
-        found = known.edits_of.get(id(node), ()) if path in wishes else ()
-        usable += found
-        paths += [path] * len(found)
+        edits = known.edits_of.get(id(node), ()) if path in wishes else ()
+        usable += edits
+        paths += [path] * len(edits)
     if not usable:
         return
     wanted = np.array([wishes[path] for path in paths], dtype=float)

@@ -203,24 +203,24 @@ def design_function(engine: ClosedEngine, names: Sequence[str], steps: int = STE
     """
     design = ca.MX.sym("design", len(names))
     closed = closed_function(partial(closed_period, engine), names, steps)
-    found = dict(zip(closed.name_out(), closed.call([design]), strict=True))
-    points = found["phi"].numel()
+    outcome = dict(zip(closed.name_out(), closed.call([design]), strict=True))
+    points = outcome["phi"].numel()
     along = force_function(engine, tuple(names)).map(points)
-    values = along.call([ca.repmat(design, 1, points), found["phi"], found["p"]])
+    values = along.call([ca.repmat(design, 1, points), outcome["phi"], outcome["p"]])
     forces = {name: value.T for name, value in zip(along.name_out(), values, strict=True)}
     peaks = {
-        "p_max": found["p"].T,
-        "t_max": found["t"].T,
+        "p_max": outcome["p"].T,
+        "t_max": outcome["t"].T,
         "force_max": forces.pop("force"),
         "torque_max": forces.pop("torque"),
         **forces,
     }
     if engine.blowdown is not None:
         exchange = open_function(partial(closed_period, engine), names)
-        found["exchange_work"] = exchange(design, found["t"][-1])[2]
+        outcome["exchange_work"] = exchange(design, outcome["t"][-1])[2]
     here = at_design(engine, {name: design[k] for k, name in enumerate(names)})
-    knock = knock_integral(found, steps, here.gas, here.cycle.octane)
-    outputs = _scalars(found, here.friction_pressure) | {"knock": knock} | peaks
+    knock = knock_integral(outcome, steps, here.gas, here.cycle.octane)
+    outputs = _scalars(outcome, here.friction_pressure) | {"knock": knock} | peaks
     return ca.Function("engine", [design], list(outputs.values()), ["design"], list(outputs))
 
 

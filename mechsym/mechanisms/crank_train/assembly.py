@@ -132,9 +132,9 @@ def _mechanism(
         return join(p, s, _rows(p, s, all_parts, ca.horzcat(*(table("dynamics") for _, _, table in tables))))
 
     def energy() -> Outputs:
-        found, strain = throws("energy"), ca.sum1(ca.vertcat(*each(p, "k")) * _sections(s.q) ** 2 / 2)
+        energy, strain = throws("energy"), ca.sum1(ca.vertcat(*each(p, "k")) * _sections(s.q) ** 2 / 2)
         of_shaft = {"kinetic_energy": p.I_f * s.u[-1] ** 2 / 2, "potential_energy": strain}
-        return {name: sum((outputs[name] for _, outputs in found), start) for name, start in of_shaft.items()}
+        return {name: sum((outputs[name] for _, outputs in energy), start) for name, start in of_shaft.items()}
 
     def reactions() -> Outputs:
         sections = {f"shaft_torque_{k}": torque for k, torque in enumerate(ca.vertsplit(joined()[1]), 1)}
