@@ -21,9 +21,9 @@ INTRODUCTION = (
     "The public bench: formulas as programs, pages and notes print them, wrong ones and right ones as they came, each",
     "labelled by two truths that share no code with the auditor. Some sources have no address (`unnamed`) and cannot",
     "be looked up again. The open half was looked at while the auditor was improved; of the closed half these counts",
-    "and some refusals were seen, and one hand wrote both down: it is not blind. The 12 formulas of it that could not",
-    "be read (of 107; 5 of 7 errors were found then) were looked at once and their spellings are read now: of what is",
-    "read the closed half tells nothing any more. A source belongs to a half by the hash of its name.",
+    "and some refusals were seen, and one hand wrote both down: it is not blind. What of it could not be",
+    "read was looked at once, and its spellings are read now: of reading the closed half tells nothing any more. A",
+    "source belongs to a half by the hash of its name.",
 )
 _ANSWER = {
     **dict.fromkeys(("exact", "truncation", "convention"), "passed"),

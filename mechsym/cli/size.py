@@ -41,7 +41,7 @@ def size(case: Case, as_printed: bool, step: Path | None, out: Path | None) -> N
 
         files.append(write(step, bodies(sizes)))
     files += _write(out, sizes) if out else []
-    emit(sizes.each, lambda: _text(sizes), files=files, findings=sizes.view.findings())
+    emit(sizes.checked, lambda: _text(sizes), files=files, findings=sizes.view.findings())
     if sizes.failing or not sizes.converged:
         raise click.exceptions.Exit(1)
 

@@ -78,7 +78,7 @@ def _joints(case: Case) -> Sizing:
              "reaction over one cycle", source="equations of motion", note=about[name])
         for name in about if name in loads for what, size_of in _SIZES.items()
     ]  # fmt: skip
-    return Sizing(each=rows, failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
+    return Sizing(checked=rows, failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
 
 
 def check_printed(case: Case) -> Sizing:
@@ -99,7 +99,7 @@ def check_printed(case: Case) -> Sizing:
     rows = rules.part_rows(reference.parts, "as printed") + check_rows(checks)
     power = _power(one, forces.omega.max())
     rows += rules.engine_rows(reference.parts, forces, moving, mass, power, one.wants, one.stock, drive.moving)
-    return Sizing(each=rows + _crossing_rows(one), failing=unsafe(checks), converged=True, rounds=1,
+    return Sizing(checked=rows + _crossing_rows(one), failing=unsafe(checks), converged=True, rounds=1,
                   parts=reference.parts, forces=forces, stock=one.stock)  # fmt: skip
 
 
@@ -116,7 +116,7 @@ def _hypocycloid(one: Task) -> Sizing:
     failing = unsafe(sizes.checks)
     if failing:
         rows += rules.nearest_rows(sizes.parts, sizes.forces, wants, stock, lambda omega: _power(one, omega))
-    return Sizing(each=rows, failing=failing, converged=sizes.converged, rounds=sizes.rounds, parts=sizes.parts,
+    return Sizing(checked=rows, failing=failing, converged=sizes.converged, rounds=sizes.rounds, parts=sizes.parts,
                   forces=sizes.forces, stock=stock)  # fmt: skip
 
 
@@ -131,7 +131,7 @@ def _slider_crank(one: Task) -> Sizing:
     rows += check_rows(sizes.checks)
     rows.append(fact("engine", "moving mass of one piston", sizes.reciprocating, "kg", "mass model",
                      note=f"the case has {start:.3f} kg"))  # fmt: skip
-    return Sizing(each=rows + _crossing_rows(one), failing=unsafe(sizes.checks), converged=sizes.converged,
+    return Sizing(checked=rows + _crossing_rows(one), failing=unsafe(sizes.checks), converged=sizes.converged,
                   rounds=sizes.rounds, parts=sizes.parts, forces=sizes.forces, stock=one.stock)  # fmt: skip
 
 
@@ -205,7 +205,7 @@ def _crosshead(case: Case) -> Sizing:
         fact(name, "pressure times sliding speed", value, "Pa*m/s", "Archard", note="mean over a turn")
         for name, value in wear(part, loads).items()
     ]
-    return Sizing(each=rows, failing=unsafe(checks), converged=True, rounds=1, parts=part, forces=loads, stock=None)
+    return Sizing(checked=rows, failing=unsafe(checks), converged=True, rounds=1, parts=part, forces=loads, stock=None)
 
 
 def crosshead_loads(case: Case) -> CrossheadLoads:

@@ -63,7 +63,7 @@ def check_rows(checks: list[Check]) -> list[SizeRow]:
 class Sizing(Shown):
     """What sizing an engine gave."""
 
-    each: list[SizeRow]
+    checked: list[SizeRow]
     failing: list[Check]
     converged: bool
     rounds: int
@@ -74,7 +74,7 @@ class Sizing(Shown):
     @functools.cached_property
     def rows(self) -> list[Json]:
         """The rows as JSON shows them."""
-        return [tell(row) for row in self.each]
+        return [tell(row) for row in self.checked]
 
 
 @shows(Sizing)

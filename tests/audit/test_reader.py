@@ -125,6 +125,11 @@ def test_a_prime_and_a_script_letter_are_letters(text):
     assert to_python(read(text, KNOWN, {"P'": "F", "ℓ": "l1"}).tree) == "Pprime/ell"
 
 
+def test_a_cross_beside_a_letter_x_is_said():
+    assert "times sign" in read("2 x r", KNOWN).note
+    assert not read("2 x r", ["r"]).note and not read("2*x*r", KNOWN).note
+
+
 def test_letter_pairs():
     assert letter_pairs("R=r1+r2, L = l1+l2;") == {"R": "r1+r2", "L": "l1+l2"}
     for text in ("R", "R=", "=r1"):

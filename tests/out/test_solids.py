@@ -57,7 +57,7 @@ def test_sized_parts_stand_where_the_engine_has_them(name):
 
 
 def test_what_has_no_sized_parts_is_refused():
-    loads = Sizing(each=[], failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
+    loads = Sizing(checked=[], failing=[], converged=True, rounds=0, parts=None, forces=None, stock=None)
     with pytest.raises(BadInput, match="only engines that are sized have parts"):
         bodies(loads)
 

@@ -31,9 +31,10 @@ _FUNCTIONS |= {n: n for n in _SEVERAL} | {"sen": "sin"}
 _FRACTIONS = {"\\frac", "\\dfrac", "\\tfrac"}
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
 # {\sin}^2 and {\sin^2}, \mathrm around signs: braces of editors, which say nothing
+_ONE = rf"\\(?:{'|'.join(sorted({*_FUNCTIONS} - {*_SEVERAL}, key=len, reverse=True))})"
 _BRACED = (
-    (re.compile(r"\{\s*(\\(?:arc)?(?:sin|cos|tan|cot))\s*\}"), r"\1 "),
-    (re.compile(r"\{\s*(\\(?:arc)?(?:sin|cos|tan|cot))\s*(\^\s*(?:\{[^{}]*\}|\w))\s*\}"), r"\1\2 "),
+    (re.compile(rf"\{{\s*({_ONE})\s*\}}"), r"\1 "),
+    (re.compile(rf"\{{\s*({_ONE})\s*(\^\s*(?:\{{[^{{}}]*\}}|\w))\s*\}}"), r"\1\2 "),
     (re.compile(r"\\(?:mathrm|mathit|mathbf|mathsf)\s*\{([^{}]*\\[^{}]*)\}"), r"{\1}"),
 )
 _TIMES, _OVER = {"*", "\\cdot", "\\times", ".", "\\ast", "\\bullet", "·"}, {"/", "\\div", ":"}

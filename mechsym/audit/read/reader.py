@@ -136,7 +136,13 @@ def read(
     own |= _rates(read_expression(body, (), AnyLetter())[0], own, known)
     tree, spelled = read_expression(body, [*own, *(k for k in known if k not in own)], more)
     hidden = [k for k, meant in own.items() if k in known and not (isinstance(meant, ast.Name) and meant.id == k)]
-    note = joined(said.note, *(f"{k} means {to_python(own[k])} here, not the theory's {k}" for k in hidden))
+    crossed = "x between spaces is a times sign here; write * for a product with the letter x"
+    ambiguous = "x" in (*known, *own) and not is_latex(body) and _CROSS.search(body)
+    note = joined(
+        said.note,
+        *[crossed] * bool(ambiguous),
+        *(f"{k} means {to_python(own[k])} here, not the theory's {k}" for k in hidden),
+    )
     return Formula(tree=tree, letters=own, latex=is_latex(body), spelled=spelled, note=note)
 
 
@@ -229,7 +235,7 @@ def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
 
 
 _PRIME, _QUOTED = re.compile(r"(?<=\w)'"), re.compile(r"(?<![\w'])'")
-_CROSS = re.compile(r"(?<=[\w)])\s+x\s+(?=[\w(])")  # 2 x a: in Python that is nothing else
+_CROSS = re.compile(r"(?<=[\w)])\s+x\s+(?=[\w(])")  # 2 x a, which no formula of letters and signs is
 
 
 def _read_python(text: str) -> Node:

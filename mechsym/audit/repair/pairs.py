@@ -27,7 +27,7 @@ from mechsym.quantities import record
 MAX_PARTS = 90
 LONGEST = 0.85  # share of a formula's own description that two edits may take: more make anything of anything
 MAX_FIRST = 700
-MAX_PAIRS = 3000
+MAX_PAIRS = 3000  # that are asked whether they are exact, those with the shortest description first
 MAX_WORK = 30_000  # first slips times parts of the formula: beyond, some seconds, no further first slip is tried
 _MET = 1e-7
 Wishes = Mapping[Path, Values]  # what each part would have to be

@@ -1,4 +1,4 @@
-"""Single-cylinder four-stroke with a balance shaft that turns against the crank at its speed.
+"""Single-cylinder compressor with a balance shaft that turns against the crank at its speed.
 
 [piston]   x travel from the head, O main bearing, A crank pin, B piston pin; the crank carries a balance mass
    | B     opposite to its pin, the shaft W beside it carries the other half.
@@ -10,7 +10,7 @@ from mechsym.derive import Mechanism
 
 
 def thumper():
-    m = Mechanism("thumper", about="Single-cylinder engine with balance shaft.")
+    m = Mechanism("thumper", about="Single-cylinder compressor with balance shaft.")
     phi = m.coordinates("phi")
     r, l, w, s = m.parameters("r l w s", "m", above=0)
     m_p, m_rod, m_c, m_s = m.parameters("m_p m_rod m_c m_s", "kg", above=0)
