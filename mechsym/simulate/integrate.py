@@ -1,6 +1,6 @@
 """A whole run by its equations: in compiled C with jumps, kinks and stops inside, or phase by phase in Python."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +11,7 @@ from mechsym.native.compiler import NoCompiler, find
 from mechsym.native.runs import STATUS, Breaks, Level, Outcome, Runs, Table
 from mechsym.quantities.units import Array, Second
 from mechsym.simulate.equations import System, fitted, held, start_of
-from mechsym.simulate.phase import Phase, Raw, ends_watched, watch
+from mechsym.simulate.phase import Leg, Phase, Raw, ends_watched, watch
 from mechsym.simulate.problem import Along, FormulaForce, Periodic, Problem, Steps
 from mechsym.simulate.settings import FALLBACK, NATIVE, Settings, backend
 
@@ -121,6 +121,41 @@ def raw(
     end = names[int(outcome.met[index])] if status == _MET else "t_end"
     steps, last = int(outcome.steps[index]), outcome.last[index] if outcome.last else None
     return Raw(t=t, y=y, steps=steps, end="failure" if failure else end, failure=failure, last=last)
+
+
+def phase_integrator(name: str) -> Callable[[Phase], Leg]:
+    """What integrates a phase: C where there is a compiler, else a backend of Python.
+
+    Raises BadInput: C is asked for by name, and there is no compiler.
+    """
+    if name not in NATIVE:
+        return backend(name)
+    try:
+        find()
+    except NoCompiler as error:
+        if name == "native":
+            raise BadInput(f"backend 'native' cannot take this run: {error}; or use backend auto") from None
+        return backend(FALLBACK)
+    return _advance
+
+
+def _advance(phase: Phase) -> Leg:
+    run = Runs(
+        rhs=phase.system.function, start=phase.y, t=phase.t_start, until=np.array([phase.t_end]), held=phase.w[None],
+        times=phase.times, surfaces=phase.surfaces, rtol=phase.tolerance, atol=phase.tolerance,
+        first_step=phase.first_step or 0.0, max_steps=phase.max_steps,
+    )  # fmt: skip
+    try:
+        outcome = native.integrate(run)
+    except NoCompiler:
+        return backend(FALLBACK)(phase)
+    status, met = int(outcome.status[0]), int(outcome.met[0])
+    failure = "" if status in (_DONE, _MET) else f"stopped at t = {outcome.t[0]:.6g} s: {STATUS[status]}"
+    reached = phase.times <= outcome.t[0]
+    return Leg(
+        t=float(outcome.t[0]), y=outcome.y[0], samples=outcome.samples[0, : reached.sum()], failure=failure,
+        steps=int(outcome.steps[0]), met=met if status == _MET else None, step=float(outcome.last_step[0]) or None,
+    )  # fmt: skip
 
 
 def _phase_by_phase(

@@ -7,28 +7,28 @@ it; `summary` and `series` are what the command line tells of a loop that runs b
 import time
 from collections.abc import Callable
 from dataclasses import field, replace
-from typing import Any
 
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import velocities
+from mechsym.native.runs import Level
 from mechsym.page import Shown
 from mechsym.quantities import RPM, record, results
 from mechsym.quantities.results import Columns, part, quantity
 from mechsym.quantities.units import Pure, Radian, RadPerSecond, Second
 from mechsym.simulate.audit import energies, energy_audit
-from mechsym.simulate.equations import through_buffer
-from mechsym.simulate.loop.events import CYCLE, CylinderCycle, EndGas, first_state, gap, ledger, pass_event
-from mechsym.simulate.loop.system import WORKS, Loop, right_side
+from mechsym.simulate.integrate import phase_integrator
+from mechsym.simulate.loop.events import CYCLE, CylinderCycle, ahead, first_state, ledger, pass_event
+from mechsym.simulate.loop.system import WORKS, Loop, equations
+from mechsym.simulate.phase import Leg, Phase
 from mechsym.simulate.result import Event, Result
 from mechsym.simulate.run import checked, tighter
-from mechsym.simulate.settings import FALLBACK, Settings
+from mechsym.simulate.settings import DEFAULT, FALLBACK, NATIVE, Settings
 from mechsym.simulate.speed import last_period, speeds
 
 _ROLES = {"gas": "drive", "load": "load"}
-_LOOPS = ("auto", FALLBACK)  # the names under which this integrator goes
+_LOOPS = (*NATIVE, FALLBACK)  # what knows events
 _LOOKS = 2881  # at two turns: every quarter of a degree
 _PASSED = 1e-9  # events closer than this are one [rad]
 _STALL = 0.05  # of the first speed: a shaft as slow as that has stopped
@@ -56,6 +56,13 @@ class LoopResult(Shown):
     dense: Callable[[np.ndarray], np.ndarray] = field(repr=False, compare=False)
 
 
+@record
+class _Ended:
+    status: str
+    reason: str
+    end: str
+
+
 def run_loop(
     loop: Loop,
     omega: RadPerSecond,
@@ -64,79 +71,77 @@ def run_loop(
     tolerance: Pure = 1e-9,
     angle: Radian = 0.0,
     t_end: Second = np.inf,
+    backend: str = DEFAULT,
 ) -> LoopResult:
     """Run a loop over a number of engine cycles.
 
-    omega: speed of every coordinate at the start; cycles: engine cycles of two turns to run; tolerance: relative
-    tolerance of the integration; angle: value of every coordinate at the start; t_end: time at which the run ends if
+    omega: speed of every coordinate at the start; cycles: engine cycles of two turns to run; tolerance: relative and
+    absolute tolerance of a step; angle: value of every coordinate at the start; t_end: time at which the run ends if
     that comes first. Returns result: motion, pressures, cycle by cycle work, audits.
     """
-    function, books, n = right_side(loop), ledger(loop), len(loop.mechanism.coordinates)
+    of, books, advance = equations(loop), ledger(loop), phase_integrator(backend)
     gases, y = first_state(loop, omega, angle)
-    t, grid, steps, last = 0.0, 2 * np.pi / omega / points, 0, angle + cycles * CYCLE
-    size = np.array([*[1.0] * n, *[omega] * n, *[300.0, 100.0, 100.0] * len(gases), *[100.0] * len(WORKS)])
-    samples: list[tuple[float, np.ndarray, np.ndarray]] = []
-    pieces: list[Any] = []
+    start, n, grid, last = y, of.system.size, 2 * np.pi / omega / points, angle + cycles * CYCLE
+    levels = (Level(state=0, level=last, direction=1), Level(state=n, level=_STALL * omega, direction=-1))
+    phases: list[Phase] = []
+    samples: list[np.ndarray] = []
     done: list[CylinderCycle] = []
-    end_gas = EndGas(loop)
-    status, reason, end = "done", f"{cycles:g} cycles", "turns"
-    y_now, held = y.copy(), np.zeros(4 * len(gases))
-    rates = through_buffer(function, y_now, held)
-
-    def f(s: float, z: np.ndarray) -> np.ndarray:
-        y_now[:] = z
-        return rates()
-
+    t, step, steps, ended = 0.0, None, 0, _Ended(status="done", reason=f"{cycles:g} cycles", end="turns")
     while y[0] < last - _PASSED:
-        held[:] = [v for g in gases for v in (g.phase, g.start, g.duration, g.dead_centre)]
-        events: list[Any] = [lambda s, z, k=k, g=g: gap(loop, g, k, z) for k, g in enumerate(gases)]
-        events += [lambda s, z: z[0] - last, lambda s, z: _STALL * omega - z[n]]
-        for event in events:
-            event.terminal, event.direction = True, 1.0
+        held, until = np.array([v for gas in gases for v in gas.held]), min(t + 3 * CYCLE / omega, t_end)
+        events = [ahead(loop, gas, k) for k, gas in enumerate(gases)]
+        times = np.arange(np.floor(t / grid) + 1, np.ceil(until / grid)) * grid
+        phase = Phase(
+            system=of.system, t_start=t, t_end=until, y=y, w=held, surfaces=(*events, *levels), times=times,
+            tolerance=tolerance, first_step=step,
+        )  # fmt: skip
         with np.errstate(invalid="ignore", over="ignore"):  # a try may reach where no gas is; the step is shortened
-            piece = scipy.integrate.solve_ivp(
-                f, (t, min(t + 3 * CYCLE / omega, t_end)), y, method="DOP853", events=events, rtol=tolerance,
-                atol=1e-3 * tolerance * size, dense_output=True,
-            )  # fmt: skip
-        if not piece.success or piece.t[-1] < t_end and not any(times.size for times in piece.t_events):
-            status, reason, end = "failed", piece.message, "failure"
+            leg = advance(phase)
+        steps += leg.steps
+        if leg.failure or leg.met is None and leg.t < t_end:
+            ended = _Ended(status="failed", reason=leg.failure or f"no event up to t = {leg.t:.4g} s", end="failure")
             break
-        pieces.append(piece)
-        for s in np.arange(np.ceil(t / grid), np.ceil(piece.t[-1] / grid)) * grid:
-            z = piece.sol(s)
-            samples.append((s, z, np.asarray(function(z, held)[1]).ravel()))
-        end_gas.follow(piece, function, held, gases)
-        t, y, steps = float(piece.t[-1]), piece.y[:, -1].copy(), steps + piece.t.size - 1
-        if piece.t_events[-1].size:
+        phases.append(phase)
+        samples.append(leg.samples)
+        t, y, step = leg.t, leg.y, leg.step
+        if leg.met == len(events) + 1:
             why = f"the shaft fell to {_STALL:g} of its first speed at t = {t:.4g} s"
-            status, reason, end = "stalled", why, "stall"
+            ended = _Ended(status="stalled", reason=why, end="stall")
             break
         if t >= t_end:
-            status, reason, end = "done", f"{t_end:g} s", "t_end"
+            ended = _Ended(status="done", reason=f"{t_end:g} s", end="t_end")
             break
-        for k, gas in enumerate(gases):
-            if gap(loop, gas, k, y) > -_PASSED:
-                gases[k], after, cycle = pass_event(loop, books, gas, k, (t, y))
-                end_gas.event(k, gas, gases[k], y, float(function(y, held)[1][k]))
-                y, done = after, done + ([replace(cycle, knock=end_gas.share[k])] if cycle else [])
-    samples.append((t, y, np.asarray(function(y, held)[1]).ravel()))
-    times, states, p = (np.array(column) for column in zip(*samples, strict=True))
+        p = np.asarray(of.pressures(y, held)).ravel()
+        for k, (gas, event) in enumerate(zip(gases, events, strict=True)):
+            if y[event.state] - event.level > -_PASSED:
+                gases[k], y, cycle = pass_event(loop, of, books, gas, k, (t, y, float(p[k])))
+                done += [cycle] if cycle else []
+    grids = [np.zeros(1), *(p.times[: len(rows)] for p, rows in zip(phases, samples, strict=True)), np.array([t])]
+    states = np.vstack([start, *samples, y])
+    w = np.repeat([p.w for p in (phases[:1] or [phase]) + phases + [phase]], list(map(len, grids)), axis=0)
+    p = np.asarray(of.pressures.map(len(states))(states.T, w.T)).T
     q, u, works = states[:, :n], states[:, n : 2 * n], states[:, -len(WORKS) :]
     energy = np.array(energies(loop.mechanism, q.T, u.T))
     gas_work, load_work, loss = works[-1]
     change = float(np.diff(energy.sum(axis=0)[[0, -1]])[0])
     return LoopResult(
-        status=status, reason=reason, end=end, t=times, q=q, u=u, p=p, cycles=tuple(done), works=works, energy=energy,
+        status=ended.status, reason=ended.reason, end=ended.end, t=np.concatenate(grids), q=q, u=u, p=p,
+        cycles=tuple(done), works=works, energy=energy,
         energy_residual=float((gas_work + load_work - loss - change) / abs(gas_work)), steps=steps,
-        dense=lambda wanted: _dense(pieces, wanted),
+        dense=lambda wanted: _dense(phases, advance, wanted),
     )  # fmt: skip
 
 
-def _dense(pieces: list[Any], t: np.ndarray) -> np.ndarray:
-    """States at times by the solution of each piece; where two meet, by the later."""
-    starts = np.array([piece.t[0] for piece in pieces])
-    of = np.maximum(np.searchsorted(starts, t, side="right") - 1, 0)
-    return np.hstack([pieces[k].sol(t[of == k]) for k in np.unique(of)])
+def _dense(phases: list[Phase], advance: Callable[[Phase], Leg], t: np.ndarray) -> np.ndarray:
+    """States at times, each phase run again; where two meet, by the later."""
+    starts = np.array([phase.t_start for phase in phases])
+    of, states = np.maximum(np.searchsorted(starts, t, side="right") - 1, 0), []
+    for k in np.unique(of):
+        wanted = t[of == k]
+        after = wanted[wanted > phases[k].t_start]
+        leg = advance(replace(phases[k], times=after))
+        states += [*[phases[k].y] * (len(wanted) - len(after)), *leg.samples]
+    return np.array(states).T
 
 
 def simulate_loop(
@@ -154,7 +159,9 @@ def simulate_loop(
 
     def once(asked: Settings) -> Result:
         begin = time.perf_counter()
-        run = run_loop(loop, omega, turns / 2, tolerance=asked.tolerance, angle=angle, t_end=t_end)
+        run = run_loop(
+            loop, omega, turns / 2, tolerance=asked.tolerance, angle=angle, t_end=t_end, backend=asked.backend
+        )
         return _as_any_run(loop, run, time.perf_counter() - begin)
 
     result = once(settings)
