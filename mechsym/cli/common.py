@@ -192,16 +192,9 @@ def emit(
     has to be known first, of a command that has any; `headline` in JSON.
     """
     context = click.get_current_context()
-    data = value if isinstance(value, Mapping) else tell(value)
-    data = {**data, **beside} if beside else data
-    first = () if findings is None else load("mechsym.page.finding:ranked")(findings)
-    if findings is not None and isinstance(data, Mapping):  # of a list of rows the text tells it
-        data = {**data, "headline": [asdict(one) for one in first]}
-    doubts, accepted = _doubts(data)
+    data, doubts, accepted, first = answered(value, beside, findings)
     lines = [f"doubt: {_told(d)}" for d in doubts] + [f"accepted: {_told(d)}" for d in accepted]
-    carries = isinstance(data, Mapping) and not isinstance(data.get("doubts"), Mapping)  # as a printed case does
-    if carries:
-        data = {**data, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
+    carries = _carries(data)
     if run := context.meta.get(_RUN):
         folder, read = run
         of_all = data if carries else {"rows": data, "doubts": doubts, "accepted": accepted}
@@ -226,6 +219,25 @@ def emit(
     said = "\n".join([*others, said] if len(others) == len(first) else [head, *others, rest])
     named = (f"written: {file}" for file in files)
     click.echo("\n".join([*filter(None, [said]), *named, *lines]))
+
+
+def answered(
+    value: object, beside: Mapping[str, object] | None = None, findings: Iterable["Finding"] | None = None
+) -> tuple[Any, tuple[Doubt, ...], tuple[Doubt, ...], "Sequence[Finding]"]:
+    """A result as programs get it, its doubts, those that are accepted, and what has to be known first."""
+    data = value if isinstance(value, Mapping) else tell(value)
+    data = {**data, **beside} if beside else data
+    first = () if findings is None else load("mechsym.page.finding:ranked")(findings)
+    if findings is not None and isinstance(data, Mapping):  # of a list of rows the text tells it
+        data = {**data, "headline": [asdict(one) for one in first]}
+    doubts, accepted = _doubts(data)
+    if _carries(data):
+        data = {**data, "doubts": [asdict(d) for d in doubts], "accepted": [asdict(d) for d in accepted]}
+    return data, doubts, accepted, first
+
+
+def _carries(data: object) -> bool:
+    return isinstance(data, Mapping) and not isinstance(data.get("doubts"), Mapping)  # as a printed case does
 
 
 def _doubts(value: object) -> tuple[tuple[Doubt, ...], tuple[Doubt, ...]]:

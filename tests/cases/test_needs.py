@@ -17,15 +17,6 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms import lists, own
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "mechanisms").glob("*.toml"))
-ENGINES = {
-    "inline": ["--bore", "86 mm", "--stroke", "86 mm", "--cylinders", "4"],
-    "v": ["--bore", "90 mm", "--stroke", "80 mm", "--cylinders", "6"],
-    "opposed": ["--bore", "80 mm", "--stroke", "80 mm", "--cylinders", "3"],
-    "hypocycloid": ["--bore", "50 mm", "--stroke", "50 mm"],
-    "two-stroke-crosshead": ["--bore", "0.5 m", "--stroke", "2 m"],
-}
-#: Sections that a command reads where an option asks for it
-BY_OPTION = {"combustion", "measured", "comparison", "gas_limits"}
 #: What takes a case under another name, or takes none to run on
 OTHERS = {"audit", "check"}
 
@@ -116,45 +107,15 @@ def test_a_case_without_a_section_is_refused_by_those_who_lack_it(case, section,
         assert (ran(command, file)[0] == 2) == bool(commands[command]), (command, commands[command])
 
 
-def agree(ran, case, left_out=()):
-    """Refused are those commands that lack something, and what they record as read is what is said to be read."""
+@pytest.mark.slow
+@pytest.mark.parametrize("case", [*cases.names(), *EXAMPLES], ids=lambda case: Path(case).stem)
+def test_prove_takes_what_check_says(case, ran):
+    """Of the other commands tests/matrix says it."""
     found, loaded = check_file(str(case), trust=True), cases.load(str(case))
-    said = read_by(facts_of(loaded.mechanism, loaded.sections))
-    every, known = set(), set()
-    for command in COMMANDS.keys() - {"app", *left_out}:
-        missing = found.commands[command]
-        status, message, read = ran(command, case)
-        if command == "identify" and not missing:
-            assert "no-such.csv" in message or "[" in message  # a trace is no part of the case
-            continue
-        assert (status == 2) == bool(missing), (command, status, missing, message)
-        if not missing and command != "sweep":  # whose points are cases of their own
-            assert read - {"report"} <= said[command], (command, read - said[command])
-            every, known = every | read, known | said[command]
-    assert known - BY_OPTION <= every, known - every
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", cases.names())
-def test_check_and_commands_agree(name, ran):
-    assert "unused" not in {doubt.code for doubt in check_file(name).doubts}
-    agree(ran, name)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("case", EXAMPLES, ids=lambda path: path.stem)
-def test_check_and_commands_agree_on_own_mechanisms(case, ran):
-    agree(ran, case, ("page", "fmu", "report", "optimise", "sweep"))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", ENGINES)
-def test_check_and_commands_agree_on_new_engines(kind, ran, tmp_path):
-    done = CliRunner().invoke(
-        cli.mechsym, ["new", "engine", "mine", "--kind", kind, *ENGINES[kind], "--out", str(tmp_path)]
-    )
-    assert done.exit_code == 0, done.output
-    agree(ran, tmp_path / "mine.toml", ("page", "fmu", "report", "optimise"))
+    assert "unused" not in {doubt.code for doubt in found.doubts} or case in EXAMPLES
+    status, message, read = ran("prove", case)
+    assert (status == 2) == bool(found.commands["prove"]), message
+    assert status == 2 or read - {"report"} <= read_by(facts_of(loaded.mechanism, loaded.sections))["prove"]
 
 
 #: A section that no built-in case has, or that says more than it needs to in its own

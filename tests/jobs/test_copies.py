@@ -129,10 +129,16 @@ I0 = 2200
     return f"{head}[parameters]\n{letters}\n[operation]{tail.partition('[operation]')[2].partition('[part_')[0]}"
 
 
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    """What is derived and compiled, once for all copies of a declaration."""
+    return tmp_path_factory.mktemp("cache")
+
+
 @pytest.fixture
-def both(tmp_path, monkeypatch):
+def both(tmp_path, monkeypatch, cache):
     """Folders with a case of the built-in mechanism, and of a copy of its declaration."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
 
     def written(name, mechanism, more):
         text = text_of(name) + more

@@ -10,11 +10,15 @@ import re
 import shutil
 import sys
 import traceback
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from matrix.entries import ROOT, Entry, words
+
+from mechsym import cases
+from mechsym.files import to_json
 
 DIGITS = 9  # of a number that is kept
 LONG = 12  # numbers of a list that are kept one by one; of a longer one count, ends and extremes
@@ -31,24 +35,70 @@ MASKED_TEXT = (
 COUNTED = (".c", ".h", ".mo", ".jl", ".m", ".py", ".md", ".toml", ".csv", ".txt", ".v")  # files that are lines of text
 
 
-def record(entry: Entry, folder: Path) -> dict[str, Any]:
-    """What a command gives in a folder that is prepared: as text with its files, and as JSON."""
+def record(entry: Entry, folder: Path, twice: bool = False) -> dict[str, Any]:
+    """What a command gives in a folder that is prepared: as text with its files, and as JSON.
+
+    twice: run it once more with --json, instead of taking what the run with text would have said.
+    """
     typed = words(entry, folder)
     with contextlib.chdir(folder):
         shutil.rmtree("run", ignore_errors=True)
         Path("run").mkdir()
-        code, out, err = answer(typed)
+        with data_heard() as heard, sections_read(typed) as read:
+            code, out, err = answer(typed)
         said = {"typed": " ".join(["mechsym", *typed]), "exit": code, "text": _lines(out, folder)}
+        said |= {"reads": sorted(read())} if entry.case else {}
         said |= {"error": _lines(err, folder)} if err else {}
         files = {path.relative_to("run").as_posix(): path for path in sorted(Path("run").rglob("*")) if path.is_file()}
         said |= {"files": {name: _of_file(path) for name, path in files.items()}} if files else {}
         if code == 2 and not out:  # refused: JSON says nothing else
             return said
+        if heard and not twice:
+            return said | {"json": _json(heard[-1], folder)}
         shutil.rmtree("run")
         Path("run").mkdir()
-        code, out, err = answer([*_without_folder(typed), "--json"])
-    value = json.loads(out.replace(f"{folder}/", "")) if out else None
-    return said | {"json": rounded(value)} | ({"json_exit": code} if code != said["exit"] else {})
+        code, out, err = answer([*typed, "--json"])
+    return said | {"json": _json(out, folder)} | ({"json_exit": code} if code != said["exit"] else {})
+
+
+@contextlib.contextmanager
+def data_heard() -> Iterator[list[str]]:
+    """What a command that prints text would have said as JSON."""
+    from mechsym.cli import common
+
+    heard, before = [], common.answered
+
+    def answered(*what: Any) -> Any:
+        result = before(*what)
+        heard.append(to_json(result[0]))
+        return result
+
+    common.answered = answered
+    try:
+        yield heard
+    finally:
+        common.answered = before
+
+
+@contextlib.contextmanager
+def sections_read(typed: list[str]) -> Iterator[Callable[[], set[str]]]:
+    """The sections that a command has read of the case that it names."""
+    loaded: list[Any] = []
+    load = cases.load
+
+    def kept(*what: Any) -> Any:
+        loaded.append(load(*what))
+        return loaded[-1]
+
+    cases.load = kept
+    try:
+        yield lambda: {section for one in loaded if one.path in typed for section in one.read & one.sections.keys()}
+    finally:
+        cases.load = load
+
+
+def _json(text: str, folder: Path) -> Any:
+    return rounded(json.loads(text.replace(f"{folder}/", ""))) if text else None
 
 
 def answer(typed: list[str]) -> tuple[int | str | None, str, str]:
@@ -110,14 +160,6 @@ def _lines(text: str, folder: Path) -> list[str]:
     if text.count("\n") > MOST_LINES:
         return [f"{len(text.splitlines())} lines", hashlib.sha256(text.encode()).hexdigest()]
     return [_masked(line.rstrip()) for line in text.replace(f"{folder}/", "").replace(f"{ROOT}/", "").splitlines()]
-
-
-def _without_folder(typed: list[str]) -> list[str]:
-    """The same without --out for a folder, which JSON does not ask for; what writes beside it keeps it."""
-    if typed[0] in ("new", "export") or "--out" not in typed or typed[typed.index("--out") + 1] != "run":
-        return typed
-    at = typed.index("--out")
-    return typed[:at] + typed[at + 2 :]
 
 
 def _of_file(path: Path) -> Any:

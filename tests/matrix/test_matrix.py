@@ -6,14 +6,18 @@ looks like then stands in its difference.
 
 import contextlib
 import json
+from pathlib import Path
 
 import pytest
 from matrix import unitless
 from matrix.compare import Scales, differences
 from matrix.entries import CASES, ROOT, entries, words
 from matrix.files import kept, read
-from matrix.record import answer, record
+from matrix.record import answer, record, sections_read
 
+from mechsym import cases
+from mechsym.cases.facts import facts_of
+from mechsym.cases.needs import read_by
 from mechsym.cli import results
 
 RECORDED = ROOT / "tests/recorded"
@@ -35,7 +39,7 @@ def marks(name):
 
 @pytest.mark.parametrize("entry", [pytest.param(e, id=e.name, marks=marks(e.name)) for e in ENTRIES])
 def test_a_command_gives_what_is_on_record(entry, prepared):
-    now = json.loads(json.dumps(record(entry, prepared)))
+    now = json.loads(json.dumps(record(entry, prepared, twice=entry.name in QUICK)))
     assert [*differences(RECORDS[entry.name], now, scales=Scales(now, entry.line.split()[0]))] == [], (
         "if this is wanted: make records"
     )
@@ -63,12 +67,37 @@ def test_check_says_what_is_refused(case):
 def test_check_says_it_of_heavy_commands(entry, prepared):
     """Their refusals are looked at by the slow suite, their runs by the heavy one."""
     missing = RECORDS[f"{entry.case}/check"]["json"]["commands"][entry.line.split()[0]]
-    with contextlib.chdir(prepared):
-        code, out, err = answer(words(entry, prepared))
+    typed = words(entry, prepared)
+    with contextlib.chdir(prepared), sections_read(typed) as read:
+        code, out, err = answer(typed)
+        assert missing or read() - {"report"} <= _said(entry.case, prepared)[entry.line.split()[0]]
     if entry.command == "identify" and code == 2 and not missing:
         assert "friction.viscous" in err or "trace" in err  # of another machine than the case's
         return
     assert (code == 2) == bool(missing), (code, out, err)
+
+
+def _said(case, folder):
+    """Sections that each command is said to read of a case."""
+    file = f"{case}.toml"
+    with contextlib.chdir(folder):
+        loaded = cases.load(file if Path(file).exists() else case)
+    return read_by(facts_of(loaded.mechanism, loaded.sections))
+
+
+#: Sections that a command reads where an option asks for it
+BY_OPTION = {"combustion", "measured", "comparison", "gas_limits"}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_commands_read_what_check_says(case, prepared):
+    missing, said, every, known = RECORDS[f"{case}/check"]["json"]["commands"], _said(case, prepared), set(), set()
+    for command in missing.keys() - {"sweep", "identify"}:  # whose points are cases of their own; whose trace fails
+        if not missing[command] and f"{case}/{command}" in RECORDS:
+            read = {*RECORDS[f"{case}/{command}"]["reads"]}
+            assert read - {"report"} <= said[command], (command, read - said[command])
+            every, known = every | read, known | said[command]
+    assert known - BY_OPTION <= every, known - every
 
 
 @pytest.mark.parametrize("case", CASES)
