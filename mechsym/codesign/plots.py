@@ -1,9 +1,8 @@
 """Pictures of a co-design."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from mechsym.codesign.loss import KINDS
 from mechsym.codesign.rank import Count
@@ -28,10 +27,14 @@ from mechsym.style import (
     unit_words,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
 _PEERS = {"plain flywheel": RED, "cam with coil springs": ORANGE, "noncircular gears": VIOLET, "two springs": GREEN}
 
 
-def works(result: CoDesignResult) -> Figure:
+def works(result: CoDesignResult) -> "Figure":
     """The works that the points want, by their own pressures: nearly one curve; what one shape leaves."""
     several = len(result.design.task.points) > 1
     what = ", and what one shape leaves of them" if several else ""
@@ -56,7 +59,7 @@ def works(result: CoDesignResult) -> Figure:
 _WIDE = 100.0  # a flywheel above it is compared with others by decades [kg*m^2]
 
 
-def front(result: CoDesignResult) -> Figure:
+def front(result: CoDesignResult) -> "Figure":
     """Flywheel over ripple: bare, guide cut for one speed, co-designed, with losses, estimate, what a misfire asks."""
     figure, (axis,) = _panels(1, "Flywheel over the ripple")
     factor, unit = axis_unit("kg*m^2", result.bare)
@@ -95,8 +98,11 @@ def front(result: CoDesignResult) -> Figure:
     return figure
 
 
-def guides(result: CoDesignResult) -> Figure:
+def guides(result: CoDesignResult) -> "Figure":
     """Paths of the roller centres to scale, and contact force and closing around the turn at the hardest point."""
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
+
     figure = Figure(figsize=(9, 3.6), layout="constrained")
     figure.set_label("Paths of the roller centres, and the closing of the springs over a turn")
     longest, widest = (max(getattr(c, key) for c in result.verified.contacts) for key in ("rho_max", "z_max"))
@@ -122,7 +128,7 @@ def guides(result: CoDesignResult) -> Figure:
     return figure
 
 
-def points(result: CoDesignResult) -> Figure:
+def points(result: CoDesignResult) -> "Figure":
     """Ripple by three ways, and the schedule of pressures, over the speed."""
     figure, (left, right) = _panels(2, "Ripple by three ways, and the pressures to set")
     design, verified = result.design, result.verified
@@ -146,7 +152,7 @@ def points(result: CoDesignResult) -> Figure:
     return figure
 
 
-def losses(result: CoDesignResult) -> Figure:
+def losses(result: CoDesignResult) -> "Figure":
     """What friction and heat take at each point, as shares of the load's torque."""
     figure, (axis,) = _panels(1, "What friction and heat take at each point")
     task = result.design.task
@@ -167,7 +173,7 @@ def losses(result: CoDesignResult) -> Figure:
     return figure
 
 
-def scenarios(result: CoDesignResult) -> Figure:
+def scenarios(result: CoDesignResult) -> "Figure":
     """Speed over the turns of every scenario that was run, a panel each."""
     rows = [s for s in result.scenarios if s.run is not None]
     names = list(dict.fromkeys(s.name for s in rows))
@@ -191,7 +197,7 @@ def scenarios(result: CoDesignResult) -> Figure:
 _MARK = "#fefefe"  # over a range of colours, the same on dark paper
 
 
-def ripple_map(result: CoDesignResult) -> Figure:
+def ripple_map(result: CoDesignResult) -> "Figure":
     """Ripple and best pressure over speed and load."""
     assert result.map is not None
     figure, (left, right) = _panels(2, "Ripple and best pressure over speed and load")
@@ -211,7 +217,7 @@ def ripple_map(result: CoDesignResult) -> Figure:
     return figure
 
 
-def spread(result: CoDesignResult) -> Figure:
+def spread(result: CoDesignResult) -> "Figure":
     """Ripple under small errors: histogram and tornado."""
     assert result.spread is not None
     figure, (left, right) = _panels(2, "Ripple under small errors")
@@ -232,7 +238,7 @@ def spread(result: CoDesignResult) -> Figure:
     return figure
 
 
-def cylinders(rows: list[Count]) -> Figure:
+def cylinders(rows: list[Count]) -> "Figure":
     """Flywheel over the number of cylinders, without a hinge and with one."""
     figure, (axis,) = _panels(1, "Flywheel over the number of cylinders")
     factor, unit = axis_unit("kg*m^2", max(r.flywheel_inertia_bare for r in rows))
@@ -248,7 +254,7 @@ def cylinders(rows: list[Count]) -> Figure:
     return figure
 
 
-def _panels(count: int, title: str) -> tuple[Figure, list[Axes]]:
+def _panels(count: int, title: str) -> "tuple[Figure, list[Axes]]":
     figure, axes = panels(9 if count == 2 else 6, 3.9, 1, count, title)
     return figure, list(axes)
 

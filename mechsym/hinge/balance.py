@@ -36,6 +36,7 @@ from mechsym.quantities.units import Array, Inertia, Joule, NewtonMetre, Pure, R
 from mechsym.simulate.speed import Speed
 
 _TURN = 2 * math.pi
+_FADES = 600.0  # exponents up to which no power overflows [-]
 
 
 @record
@@ -144,13 +145,15 @@ def propeller_load_speed(
         return constant_load_speed(missing, inertia, omega)
     rate = 2 * load_torque / (inertia * omega**2)
     step = period / missing.size * (rate + np.roll(rate, -1)) / 2
-    decay = np.exp(-step)
     # over one step g relaxes towards the mean of w; -expm1 keeps the digits of short steps
     gain = -np.expm1(-step) * (missing + np.roll(missing, -1)) / 2
-    steps = zip(decay.tolist(), gain.tolist(), strict=True)
-    *forced, end = accumulate(steps, lambda g, s: s[0] * g + s[1], initial=0.0)
-    faded = np.exp(-np.cumsum(step) + step)
-    g = np.array(forced) + faded * end / -np.expm1(-step.sum())
+    whole = np.concatenate([[0.0], np.cumsum(step)])
+    if whole[-1] < _FADES:
+        forced = np.exp(-whole) * np.concatenate([[0.0], np.cumsum(np.exp(whole[1:]) * gain)])
+    else:
+        steps = zip(np.exp(-step).tolist(), gain.tolist(), strict=True)
+        forced = np.array([*accumulate(steps, lambda g, s: s[0] * g + s[1], initial=0.0)])
+    g = forced[:-1] + np.exp(-whole[:-1]) * forced[-1] / -np.expm1(-whole[-1])
     squares = omega**2 + 2 * (g - missing) / inertia
     return None if squares.min() <= 0 else np.sqrt(squares)
 
