@@ -118,5 +118,5 @@ def test_files_that_move_into_place_do_so_to_the_end(tmp_path, monkeypatch):
 def test_a_command_ends_soon_and_keeps_what_is_finished(tmp_path, monkeypatch, name):
     monkeypatch.setattr(times, "LATEST", 3.0)  # other tests keep the machine busy; `make interrupts` asks for one
     times.prepare(tmp_path)
-    _, ends, wrong = times.times(name, tmp_path, 4)
+    _, ends, wrong = times.times(name, tmp_path, 2)
     assert wrong == [] and ends

@@ -71,12 +71,20 @@ def gas_on(case: Case, number: int = 0) -> Gas:
 @functools.lru_cache(maxsize=8)
 def _at(cycle: object, parts: EngineParts, omega: float) -> Gas:
     """Sweeps over springs and loads ask for one gas again and again."""
-    return source_of(cycle, parts).at(omega)
+    return _source(cycle, parts).at(omega)
 
 
 def source(case: Case, friction: Friction = _FREE, number: int = 0) -> GasSource:
     """What answers for the gas of a case, on a piston by its place in the declaration."""
-    return source_of(case.need("cycle"), parts_of(case, friction, number))
+    cycle = case.need("cycle")
+    known = source_of if kind_of(cycle).measured else _source
+    return known(cycle, parts_of(case, friction, number))
+
+
+@functools.lru_cache(maxsize=8)
+def _source(cycle: object, parts: EngineParts) -> GasSource:
+    """Figures of a gas and the forces of its pistons ask for one engine at one speed."""
+    return source_of(cycle, parts)
 
 
 def parts_of(case: Case, friction: Friction = _FREE, number: int = 0) -> EngineParts:

@@ -45,14 +45,14 @@ class GasState:
     dead_centre: float
     speed: float  #: Of its crank when the inlet closed [rad/s]
     whole: bool  #: Whether the run has seen the inlet close
-    #: When combustion started, absolute [Pa], [K], and gas constant by heat capacity of the unburnt gas [-]
+    #: When combustion started, absolute [Pa], [K]
     p_0: Pascal = 1.0
     T_0: Kelvin = 1.0
-    kappa: Pure = 0.0
+    kappa: Pure = 0.0  #: Gas constant by heat capacity of the unburnt gas then [-]
 
     @property
     def held(self) -> list[float]:
-        """In the order of `HELD`."""
+        """In the order and the mixed units of `HELD` [-]."""
         return [self.phase, self.start, self.duration, self.dead_centre, self.p_0, self.T_0, self.kappa]
 
 
