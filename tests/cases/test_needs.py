@@ -108,7 +108,12 @@ def test_a_case_without_a_section_is_refused_by_those_who_lack_it(case, section,
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", [*cases.names(), *EXAMPLES], ids=lambda case: Path(case).stem)
+@pytest.mark.parametrize(
+    "case",
+    [pytest.param(case, marks=[pytest.mark.heavy] * (Path(case).stem == "walking-leg"))
+     for case in (*cases.names(), *EXAMPLES)],
+    ids=lambda case: Path(case).stem,
+)  # fmt: skip
 def test_prove_takes_what_check_says(case, ran):
     """Of the other commands tests/matrix says it."""
     found, loaded = check_file(str(case), trust=True), cases.load(str(case))
