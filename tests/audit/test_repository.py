@@ -7,7 +7,8 @@ import pytest
 from click.testing import CliRunner
 
 from mechsym.audit.hosts import findings as told
-from mechsym.audit.hosts.repository import audited, counts, findings, programs
+from mechsym.audit.hosts.findings import counts, findings
+from mechsym.audit.hosts.repository import audited, programs
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.read.programs.claims import read_program
 from mechsym.audit.read.spelling import to_python
@@ -213,3 +214,53 @@ def test_a_log_says_what_sarif_asks_for(tmp_path):
         r["id"] for r in run["tool"]["driver"]["rules"]
     }
     assert run["results"][0]["message"]["text"] and run["results"][0]["partialFingerprints"]
+
+
+MOTION = """
+import numpy as np
+crank_radius = 0.05
+rod_length = 0.18
+omega = 100.0
+def slider_position(theta):
+    beta = np.arcsin(crank_radius*np.sin(theta)/rod_length)
+    return crank_radius*np.cos(theta) + rod_length*np.cos(beta)
+def slider_velocity(theta):
+    root = np.sqrt(rod_length**2 - (crank_radius*np.sin(theta))**2)
+    return -crank_radius*omega*np.sin(theta) - crank_radius**2*omega*np.sin(theta)*np.cos(theta)/root
+def slider_acceleration(theta):
+    root = np.sqrt(rod_length**2 - (crank_radius*np.sin(theta))**2)
+    return (-crank_radius*omega**2*np.cos(theta) - (crank_radius*omega)**2*np.cos(2*theta)/root
+            - (crank_radius**2*omega*np.sin(theta)*np.cos(theta))**2/root**3)
+"""
+#: Two slips in one formula, and more
+WRONG = MOTION.replace("np.cos(2*theta)/root", "np.cos(theta)**2/root").replace("**2/root**3", "/root**2")
+
+
+def test_without_an_offset_and_at_constant_speed_a_slider_is_a_slider(tmp_path):
+    (tmp_path / "a.py").write_text(MOTION)
+    (file,) = audited(tmp_path, NONE, programs(tmp_path))
+    # place, velocity, acceleration and the angle of the rod; what stands on the way is none of them
+    assert not file.rows and file.judged >= 4
+
+
+def test_more_than_a_slip_is_told_where_its_neighbours_agree(tmp_path):
+    (row,) = rows_of(tmp_path / "a", {"a.py": WRONG})
+    assert (row["verdict"], row["claim"]) == ("wrong", "offset_slider_crank.acceleration")
+    assert "s and velocity" in row["note"] and row["correction"] is None
+    alone = WRONG[: WRONG.index("def slider_position")] + WRONG[WRONG.index("def slider_acceleration") :]
+    assert rows_of(tmp_path / "b", {"b.py": alone}) == []
+    other = WRONG.replace("def slider_acceleration", "def its_own_measure")
+    assert rows_of(tmp_path / "c", {"c.py": other}) == []
+
+
+def test_a_notebook_is_its_code(tmp_path):
+    cells = [
+        {"cell_type": "markdown", "source": ["# A slider"]},
+        {"cell_type": "code", "source": ["%matplotlib inline\n"]},
+    ]
+    cells += [{"cell_type": "code", "source": WRONG.splitlines(keepends=True), "outputs": [{"png": "A" * 2_000_000}]}]
+    (row,) = rows_of(tmp_path / "a", {"a.ipynb": json.dumps({"cells": cells, "nbformat": 4})})
+    assert row["verdict"] == "wrong"
+    (tmp_path / "b.ipynb").write_text("{}")
+    (file,) = audited(tmp_path / "b.ipynb", NONE, [tmp_path / "b.ipynb"])
+    assert "no notebook" in file.why

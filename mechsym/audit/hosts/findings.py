@@ -4,7 +4,7 @@ import json
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 
-from mechsym.audit.hosts.repository import File, counts
+from mechsym.audit.hosts.repository import File
 from mechsym.audit.row import Row
 from mechsym.errors import BadInput
 from mechsym.files import Json
@@ -15,6 +15,7 @@ from mechsym.quantities.display import ratio_text
 _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _RULES = {
     "misprint": "A formula is one slip away from the quantity that its name and letters say",
+    "wrong": "A formula is not the quantity that its name says, while others beside it in the same letters are",
     "derivative": "A formula or function that is called a derivative is not the derivative of what it names",
 }
 _KEY = "mechsym/v1"
@@ -45,6 +46,26 @@ def message(row: Row) -> str:
     size = f", off by {ratio_text(error, 2)}" if error is not None and error < 1e6 else ""
     should = f"; {row['correction']} agrees" if row["correction"] else ""
     return f"{row['printed']} is not {row['claim']}{size}{should}"
+
+
+def findings(files: Sequence[File]) -> list[Row]:
+    """All findings, by file and line."""
+    return [row for one in files for row in sorted(one.rows, key=lambda r: r["line"])]
+
+
+def counts(files: Sequence[File]) -> Mapping[str, int]:
+    """How much was read, matched and judged."""
+    read = [f for f in files if not f.why]
+    return {
+        "files": len(files),
+        "read": len(read),
+        "scopes": sum(f.scopes for f in read),
+        "assignments": sum(f.assigned for f in read),
+        "formulas": sum(f.formulas for f in read),
+        "matched": sum(f.matched for f in read),
+        "judged": sum(f.judged for f in read),
+        "findings": sum(len(f.rows) for f in read),
+    }
 
 
 def accepted(baseline: Path | None) -> set[str]:

@@ -18,6 +18,7 @@ from mechsym.audit.judge.lexicon import (
     Fitted,
     Lexicon,
     Probes,
+    at_rest,
     compared,
     fit,
     formula,
@@ -27,7 +28,16 @@ from mechsym.audit.judge.lexicon import (
     safe,
 )
 from mechsym.audit.read import tree as trees
-from mechsym.audit.read.programs.claims import ENDS, LONGEST_FILE, Claim, Reading, base, inlined, read_program
+from mechsym.audit.read.programs.claims import (
+    ENDS,
+    LONGEST_FILE,
+    LONGEST_NOTEBOOK,
+    Claim,
+    Reading,
+    base,
+    inlined,
+    read_program,
+)
 from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import Formula, statement
 from mechsym.audit.read.spelling import to_python
@@ -45,6 +55,7 @@ from mechsym.quantities import record
 _LEFT_OUT = {*"node_modules venv __pycache__ build dist third_party site-packages".split()}  # and what a dot begins
 _NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
 _EXACT = 1e-9  # relative error of a correction that explains a formula: a limit of long rods does not [-]
+_WITNESSES, _LETTERS = 2, 3  # quantities that agree, in as many letters, show that a file's letters are understood
 _MOST_FILES = 20_000
 _LARGEST = 120  # parts of a formula for which a slip is searched: the search is the one thing here that takes long
 
@@ -86,11 +97,12 @@ def audited(place: Path, asked: Asked, chosen: Sequence[Path]) -> Iterator[File]
     for path in chosen:
         shown = path.relative_to(root).as_posix()
         try:
-            reading = read_program(read_any_text(path, LONGEST_FILE), path.suffix.lower())
+            most = LONGEST_NOTEBOOK if path.suffix.lower() == ".ipynb" else LONGEST_FILE
+            reading = read_program(read_any_text(path, most), path.suffix.lower())
         except BadInput as error:
             yield File(path=shown, why=str(error))
-            continue
-        yield _judged(shown, reading, asked)
+        else:
+            yield _judged(shown, reading, asked)
 
 
 @cache
@@ -106,12 +118,12 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
     words = {base(k) for c in reading.claims for k in (*letters(c.tree), c.name)}
     vocabularies = [v for v in _vocabularies(asked.theory, asked.case) if v.touches(words)]
     for claim in claims:
-        outcome = _outcome(claim, vocabularies)
+        outcome = _outcome(claim, vocabularies, claims)
         own = _pair(claim, claims)
         matched += outcome is not None or own is not None
         judged += bool(outcome and outcome["verdict"] != "") or bool(own)
         for row in (outcome, own):
-            if row is not None and row["verdict"] in ("misprint", "derivative"):
+            if row is not None and row["verdict"] in ("misprint", "derivative", "wrong"):
                 rows.append(_placed(row, claim, shown))
     for claim, row in _slopes(reading):
         matched, judged = matched + 1, judged + 1
@@ -145,8 +157,11 @@ def _shown(tree: Node) -> str:
     return re.sub(r"__[vw]\d+", "", to_python(tree)).replace(OF, ".")
 
 
-def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
-    """The best of what theories say of a claim: it agrees with one, or it is a slip away from just one."""
+def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> Row | None:
+    """The best of what theories say of a claim: it agrees with one, is a slip away from just one, or differs from it.
+
+    claims: those of its file; what is more than a slip away is told where others show that the letters are understood.
+    """
     doubts: list[tuple[float, Fitted, Formula, str, Probes]] = []
     matched = False
     for vocabulary in vocabularies:
@@ -158,19 +173,45 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon]) -> Row | None:
         except BadInput:
             continue
         matched = True
-        for away, quantity in _met(fitted, form, vocabulary.states):
+        states = vocabulary.states(form)
+        for away, quantity in _met(fitted, form, states):
             if away == 0.0:
                 return {"verdict": "agrees", "claim": f"{fitted.theory.name}.{quantity}"}
-            doubts.append((away, fitted, form, quantity, vocabulary.states))
+            doubts.append((away, fitted, form, quantity, states))
     if not matched:
         return None
     doubts = [d for d in doubts if _told_enough(d[0], d[1], d[3])]
-    doubts.sort(key=lambda d: (not d[1].quantities, d[0]))
-    for _, fitted, form, quantity, states in doubts[:2]:
+    doubts.sort(key=lambda d: (not d[1].quantities, len(at_rest(d[1].theory, d[2])), d[0]))
+    for away, fitted, form, quantity, states in doubts[:2]:
         row = _slip(fitted, form, quantity, states)
+        if row is not None and row["verdict"] == "wrong":
+            nearer = any(other <= away and q != quantity for other, q in nearest(fitted, form, states))
+            beside = _agreeing(fitted, vocabularies, claims) - {quantity}
+            if nearer or quantity not in fitted.quantities or len(beside) < _WITNESSES:
+                continue
+            row |= {"note": f"in the same letters {' and '.join(sorted(beside))} of this file agree"}
         if row is not None:
             return row
     return {"verdict": "", "claim": ""}
+
+
+def _agreeing(fitted: Fitted, vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> set[str]:
+    """Quantities that other formulas of a file are by name and number, in letters of the same meanings."""
+    (vocabulary,) = (v for v in vocabularies if v.theory is fitted.theory)
+    meant, agreeing = {base(k): v for k, v in fitted.meanings.items()}, set()
+    for claim in claims:
+        other = fit(claim, vocabulary) if claim is not fitted.claim else None
+        if other is None or len(other.meanings) < _LETTERS:
+            continue
+        if any(meant.get(base(k), v) != v for k, v in other.meanings.items()):
+            continue
+        try:
+            form = formula(other)
+        except BadInput:
+            continue
+        met = _met(other, form, vocabulary.states(form))
+        agreeing |= {quantity for away, quantity in met if away == 0.0 and quantity in other.quantities}
+    return agreeing
 
 
 def _met(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
@@ -196,12 +237,13 @@ def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
 
 
 def _asked_once(
-    text: str, theory: Theory, quantity: str, own: Mapping[str, str], twice: bool = False
+    text: str, theory: Theory, quantity: str, own: Mapping[str, str], rest: Sequence[str], twice: bool = False
 ) -> tuple[Row, Repair | None]:
     # the row of a formula, of one slip at most, with its repair; twice: the same one may stand in both of its halves
     against = f"{theory.name}.{quantity}"
     try:
-        asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory)
+        assume = [f"{k} = 0" for k in rest if k in theory.letters]
+        asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory, assume=assume)
         question = question_of(asked, statement(text))
         verdict = decide(question, one=not twice)
         if twice and verdict.repairs and len({edit.kind for edit in verdict.repairs[0].edits}) > 1:
@@ -256,18 +298,18 @@ def _renamed_to(node: Node, names: Mapping[str, str]) -> Node | None:
 
 
 def _slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row | None:
-    # a formula that one slip takes away from a quantity
+    # a formula that one slip takes away from a quantity, or more than one
     theory = fitted.theory
     if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
         return None
     own = {safe(k): v for k, v in fitted.meanings.items()}
     twice = _is_of_two_alike(fitted, form, states)
-    row, repair = _asked_once(to_python(form.tree), theory, quantity, own, twice)
+    row, repair = _asked_once(to_python(form.tree), theory, quantity, own, at_rest(theory, form), twice)
     if row["verdict"] in PASSED:
         return row | {"verdict": "agrees"}
     if row["verdict"] == "misprint" and repair is not None and _explains(repair, form.tree, own):
         return _renamed(row, fitted) | {"letters": {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}}
-    return None
+    return row | {"verdict": "wrong"} if row["verdict"] in ("wrong", "nearer") else None
 
 
 def _renamed(row: Row, fitted: Fitted) -> Row:
@@ -348,7 +390,7 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
         return None
     if met is None or of_units(met.ratio):
         return None if met is None else {"verdict": "agrees", "claim": f"derivative of {of}"}
-    row, _ = _asked_once(to_python(slope), theory, "slope", {})
+    row, _ = _asked_once(to_python(slope), theory, "slope", {}, ())
     if row["verdict"] in (*PASSED, "untestable"):
         return row | {"verdict": "agrees"}
     why = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"
@@ -356,24 +398,4 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
         "verdict": "derivative",
         "claim": f"the derivative of {of} by {base(by)}",
         "note": f"{why}; {row['note']}",
-    }
-
-
-def findings(files: Sequence[File]) -> list[Row]:
-    """All findings, by file and line."""
-    return [row for one in files for row in sorted(one.rows, key=lambda r: r["line"])]
-
-
-def counts(files: Sequence[File]) -> Mapping[str, int]:
-    """How much was read, matched and judged."""
-    read = [f for f in files if not f.why]
-    return {
-        "files": len(files),
-        "read": len(read),
-        "scopes": sum(f.scopes for f in read),
-        "assignments": sum(f.assigned for f in read),
-        "formulas": sum(f.formulas for f in read),
-        "matched": sum(f.matched for f in read),
-        "judged": sum(f.judged for f in read),
-        "findings": sum(len(f.rows) for f in read),
     }

@@ -81,13 +81,14 @@ class Lexicon:
         self.heads = {_joined(phrase) for phrase, _ in self.phrases}
         self.parts = {word for phrase, _ in self.phrases for word in phrase if len(word) > 2}
         self.known: dict[tuple[str, str], list[tuple[int, str]]] = {}
-        self._states: Probes | None = None
+        self._states: dict[tuple[str, ...], Probes] = {}
 
-    @property
-    def states(self) -> "Probes":
-        """Where its numbers are compared."""
-        self._states = self._states or Probes(self.theory)
-        return self._states
+    def states(self, form: Formula) -> "Probes":
+        """Where the numbers of a formula are compared: what it does not have, and may be none, is none."""
+        rest = at_rest(self.theory, form)
+        if rest not in self._states:
+            self._states[rest] = Probes(self.theory, rest)
+        return self._states[rest]
 
     def touches(self, names: Iterable[str]) -> bool:
         """Whether two names at least may mean something here."""
@@ -230,6 +231,14 @@ def safe(letter: str) -> str:
     return f"{plain}_own" if plain in RESERVED or plain in ("lambda", "in", "is", "if", "as", "or") else plain
 
 
+def at_rest(theory: Theory, form: Formula) -> tuple[str, ...]:
+    """Letters that a formula does not have and that are 0 in many machines: an offset, the angular acceleration."""
+    used = {m for tree in form.letters.values() for m in letters(tree)}
+    offsets = [k for k, about in theory.letters.items() if about.unit == "m" and about.sign == "any"]
+    rates = [f"{theory.angle}dd"] if theory.angle and f"{theory.angle}d" in used else []
+    return tuple(k for k in (*offsets, *rates) if k not in used)
+
+
 @record
 class Nearness:
     """Numbers of a formula beside those of a quantity, at random states."""
@@ -242,7 +251,7 @@ class Nearness:
 class Probes:
     """Random states of a theory, and turns of its angle from four of them, with the values of its names as needed."""
 
-    def __init__(self, theory: Theory) -> None:
+    def __init__(self, theory: Theory, rest: Sequence[str] = ()) -> None:
         self.theory = theory
         question = Question(formula=Formula(tree=trees.number(1)), theory=theory, quantity=theory.results[-1])
         draws = float_values(drawn(question, _POINTS, seed=5))
@@ -251,6 +260,8 @@ class Probes:
         turned = {k: np.repeat(v, _STEPS) for k, v in few.items()}
         if theory.angle:
             turned[theory.angle] = np.tile(np.linspace(0.3, 5.9, _STEPS), _TURNS)
+        for letter in rest:
+            self.random[letter], turned[letter] = np.zeros(_POINTS), np.zeros(_TURNS * _STEPS)
         self.turned: dict[str, Values] = {"pi": np.pi, **turned}
 
     def values(self, at: dict[str, Values], form: Formula, quantity: str) -> tuple[np.ndarray, np.ndarray]:

@@ -8,14 +8,15 @@ from dataclasses import field, replace
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.grammars import GRAMMARS, read_grammar
 from mechsym.audit.read.programs.modelica import read_modelica
-from mechsym.audit.read.programs.python import read_python
+from mechsym.audit.read.programs.python import code_of_notebook, read_python
 from mechsym.audit.read.programs.statements import Let, Opaque, ProgramText, Repeated, Scope, Spelled, Statement
 from mechsym.audit.read.tree import Node
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
-ENDS = (".py", ".mo", *GRAMMARS)  #: Of the names of files that are read
+ENDS = (".py", ".ipynb", ".mo", *GRAMMARS)  #: Of the names of files that are read
 LONGEST_FILE = 1_000_000  #: Characters
+LONGEST_NOTEBOOK = 50_000_000  #: Characters, pictures among them
 # before the number of a name's later values: changed with regard to the one before, or given in branches alone
 _AGAIN, _ANEW = "__v", "__w"
 
@@ -60,6 +61,8 @@ def read_program(text: str, suffix: str) -> Reading:
     try:
         if suffix == ".py":
             program = read_python(text)
+        elif suffix == ".ipynb":
+            program = read_python(code_of_notebook(text))
         elif suffix == ".mo":
             program = read_modelica(text)
         else:

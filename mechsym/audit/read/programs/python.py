@@ -2,6 +2,7 @@
 
 import ast
 import io
+import json
 import tokenize
 import warnings
 from collections.abc import Iterator, Sequence
@@ -36,6 +37,17 @@ def read_python(text: str) -> ProgramText:
                 comments.setdefault(node.lineno + i, line.strip())
                 alone.add(node.lineno + i)
     return ProgramText(scopes=scopes, comments=comments, alone=frozenset(alone))
+
+
+def code_of_notebook(text: str) -> str:
+    """The code cells of a Jupyter notebook, one below another; lines for the shell and the notebook are comments."""
+    try:
+        cells = json.loads(text)["cells"]
+        code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
+    except (ValueError, KeyError, TypeError, RecursionError):
+        raise BadInput("no notebook: JSON with cells is expected (format 4 of Jupyter)") from None
+    lines = [line for cell in code if not cell.startswith("%%") for line in cell.splitlines()]
+    return "\n".join(f"# {line}" if line.lstrip()[:1] in ("%", "!", "?") else line for line in lines)
 
 
 def _comments(text: str) -> tuple[dict[int, str], set[int]]:
