@@ -7,12 +7,11 @@ from pathlib import Path
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import (
     ENDS,
-    LONGEST_FILE,
-    LONGEST_NOTEBOOK,
     Claim,
     base,
     inlined,
     is_changed,
+    longest,
     read_program,
 )
 from mechsym.audit.read.programs.statements import OF
@@ -45,7 +44,7 @@ def read_code(place: str, own: Collection[str] = ()) -> list[Assigned]:
     suffix = Path(file).suffix.lower()
     if suffix not in ENDS:
         raise BadInput(f"--code {file}: files that are read end in {', '.join(ENDS)}")
-    text = read_any_text(file, LONGEST_NOTEBOOK if suffix == ".ipynb" else LONGEST_FILE, "--code")
+    text = read_any_text(file, longest(suffix), "--code")
     try:
         reading = read_program(text, suffix)
     except BadInput as error:

@@ -4,15 +4,14 @@ import ast
 import hashlib
 import os
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import field
 from functools import cache
+from itertools import islice
 from pathlib import Path
 
-import numpy as np
-
-from mechsym.audit.judge.asked import Asked, question_of
-from mechsym.audit.judge.conventions import also_exact
+from mechsym.audit.hosts.slips import asked_once, renamed_to, slip
+from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.lexicon import (
     ANGLES,
     Fitted,
@@ -28,36 +27,27 @@ from mechsym.audit.judge.lexicon import (
     safe,
 )
 from mechsym.audit.read import tree as trees
-from mechsym.audit.read.programs.claims import (
-    ENDS,
-    LONGEST_FILE,
-    LONGEST_NOTEBOOK,
-    Claim,
-    Reading,
-    base,
-    inlined,
-    read_program,
-)
+from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, inlined, longest, read_program
 from mechsym.audit.read.programs.statements import OF
-from mechsym.audit.read.reader import Formula, statement
+from mechsym.audit.read.reader import Formula
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, letters
-from mechsym.audit.repair.examination import Repair
-from mechsym.audit.row import Row, formula_row, unread_row
+from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Letter, Theory
 from mechsym.audit.theory.tape import TheoryTape, derivative
-from mechsym.audit.verdict import PASSED, decide
+from mechsym.audit.verdict import PASSED
 from mechsym.errors import BadInput
 from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record
 
 _LEFT_OUT = {*"node_modules venv __pycache__ build dist third_party site-packages".split()}  # and what a dot begins
 _NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
-_EXACT = 1e-9  # relative error of a correction that explains a formula: a limit of long rods does not [-]
 _WITNESSES, _LETTERS = 2, 3  # quantities that agree, in as many letters, show that a file's letters are understood
 _MOST_FILES = 20_000
-_LARGEST = 120  # parts of a formula for which a slip is searched: the search is the one thing here that takes long
+
+
+Doubt = tuple[float, Fitted, Formula, str, Probes]  # how far off, and of which quantity
 
 
 @record
@@ -97,8 +87,8 @@ def audited(place: Path, asked: Asked, chosen: Sequence[Path]) -> Iterator[File]
     for path in chosen:
         shown = path.relative_to(root).as_posix()
         try:
-            most = LONGEST_NOTEBOOK if path.suffix.lower() == ".ipynb" else LONGEST_FILE
-            reading = read_program(read_any_text(path, most), path.suffix.lower())
+            suffix = path.suffix.lower()
+            reading = read_program(read_any_text(path, longest(suffix)), suffix)
         except BadInput as error:
             yield File(path=shown, why=str(error))
         else:
@@ -162,7 +152,7 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Cla
 
     claims: those of its file; what is more than a slip away is told where others show that the letters are understood.
     """
-    doubts: list[tuple[float, Fitted, Formula, str, Probes]] = []
+    doubts: list[Doubt] = []
     matched = False
     for vocabulary in vocabularies:
         fitted = fit(claim, vocabulary)
@@ -180,14 +170,13 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Cla
             doubts.append((away, fitted, form, quantity, states))
     if not matched:
         return None
-    doubts = [d for d in doubts if _told_enough(d[0], d[1], d[3])]
     doubts.sort(key=lambda d: (not d[1].quantities, len(at_rest(d[1].theory, d[2])), d[0]))
-    for away, fitted, form, quantity, states in doubts[:2]:
-        row = _slip(fitted, form, quantity, states)
+    for away, fitted, form, quantity, states in _told_best(doubts, vocabularies, claims):
+        beside = _agreeing(fitted, quantity, vocabularies, claims)
+        row = slip(fitted, form, quantity, states)
         if row is not None and row["verdict"] == "wrong":
             nearer = any(other <= away and q != quantity for other, q in nearest(fitted, form, states))
-            beside = _agreeing(fitted, vocabularies, claims) - {quantity}
-            if nearer or quantity not in fitted.quantities or len(beside) < _WITNESSES:
+            if nearer or len(beside) < _WITNESSES:
                 continue
             row |= {"note": f"in the same letters {' and '.join(sorted(beside))} of this file agree"}
         if row is not None:
@@ -195,8 +184,19 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Cla
     return {"verdict": "", "claim": ""}
 
 
-def _agreeing(fitted: Fitted, vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> set[str]:
-    """Quantities that other formulas of a file are by name and number, in letters of the same meanings."""
+def _told_best(doubts: Sequence[Doubt], vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> Iterator[Doubt]:
+    """Of a formula's doubts the first two that its letters, or its neighbours, tell well enough."""
+    told = (d for d in doubts if _told_enough(d[0], d[1], d[3]) or len(_agreeing(d[1], d[3], vocabularies, claims)) > 1)
+    yield from islice(told, 2)
+
+
+def _agreeing(fitted: Fitted, quantity: str, vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> set[str]:
+    """Quantities that other formulas of a file are by name and number, in letters of the same meanings.
+
+    None where the formula has not the name of the quantity that it comes near to.
+    """
+    if quantity not in fitted.quantities:
+        return set()
     (vocabulary,) = (v for v in vocabularies if v.theory is fitted.theory)
     meant, agreeing = {base(k): v for k, v in fitted.meanings.items()}, set()
     for claim in claims:
@@ -210,8 +210,8 @@ def _agreeing(fitted: Fitted, vocabularies: Sequence[Lexicon], claims: Sequence[
         except BadInput:
             continue
         met = _met(other, form, vocabulary.states(form))
-        agreeing |= {quantity for away, quantity in met if away == 0.0 and quantity in other.quantities}
-    return agreeing
+        agreeing |= {its for away, its in met if away == 0.0 and its in other.quantities}
+    return agreeing - {quantity}
 
 
 def _met(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
@@ -234,92 +234,6 @@ def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
     if quantity in fitted.quantities:
         return many == strong or many > 4 and strong > 1 or away <= _NEAR and many > 2 and strong > 0
     return away <= _NEAR and many > 2 and strong > 1
-
-
-def _asked_once(
-    text: str, theory: Theory, quantity: str, own: Mapping[str, str], rest: Sequence[str], twice: bool = False
-) -> tuple[Row, Repair | None]:
-    # the row of a formula, of one slip at most, with its repair; twice: the same one may stand in both of its halves
-    against = f"{theory.name}.{quantity}"
-    try:
-        assume = [f"{k} = 0" for k in rest if k in theory.letters]
-        asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory, assume=assume)
-        question = question_of(asked, statement(text))
-        verdict = decide(question, one=not twice)
-        if twice and verdict.repairs and len({edit.kind for edit in verdict.repairs[0].edits}) > 1:
-            verdict = decide(question, one=True)
-        right = also_exact(question) if verdict.verdict not in PASSED else ""
-    except BadInput as error:
-        return unread_row("", against, text, str(error)), None
-    row = {"claim": against} | formula_row(question, verdict, text, "", "")
-    if right:
-        row |= {"verdict": "convention", "note": f"exact with {right}"}
-    return row, verdict.repairs[0] if verdict.repairs else None
-
-
-# edits that take away no slip: what is on the way to a quantity lacks a term or a factor, and programs mix units
-_NO_SLIP = {"left out", "put back", "degrees", "unit"}
-
-
-def _explains(repair: Repair, tree: Node, own: Mapping[str, str]) -> bool:
-    # nobody mistakes a variable for one that the program has not; a limit of long rods is a step, too
-    if repair.max_rel_error >= _EXACT or not set(letters(repair.tree)) <= {*own, "pi"}:
-        return False
-    return not any(edit.kind in _NO_SLIP or _counts_otherwise(edit.new, tree) for edit in repair.edits)
-
-
-def _counts_otherwise(new: Node, tree: Node) -> bool:
-    # m becomes m + 1: an exponent, or a number of teeth, that its author counts in another way
-    if not trees.is_operation(new, ast.Add, ast.Sub) or not isinstance(new.left, ast.Name):
-        return False
-    times = sum(isinstance(n, ast.Name) and n.id == new.left.id for _, n in trees.walk(tree))
-    return trees.value_of(new.right) == 1 and times == 1
-
-
-_OTHER_OF_TWO = str.maketrans("12", "21")
-
-
-def _is_of_two_alike(fitted: Fitted, form: Formula, states: Probes) -> bool:
-    # 1 and 2 may change places in it, as the bodies of a contact do
-    letter_of = {meaning: safe(letter) for letter, meaning in fitted.meanings.items()}
-    other = {letter: letter_of.get(meaning.translate(_OTHER_OF_TWO), "") for meaning, letter in letter_of.items()}
-    if not all(other.values()) or all(one == another for one, another in other.items()):
-        return False
-    turned = replace(form, tree=trees.substitute(form.tree, lambda n: _renamed_to(n, other)))
-    try:
-        one, another = (states.values(states.random, each, fitted.theory.results[0])[0] for each in (form, turned))
-    except (BadInput, ArithmeticError, ValueError, KeyError):
-        return False
-    return bool(np.allclose(one, another, rtol=1e-9, atol=0.0))
-
-
-def _renamed_to(node: Node, names: Mapping[str, str]) -> Node | None:
-    return trees.name(names[node.id]) if isinstance(node, ast.Name) and node.id in names else None
-
-
-def _slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row | None:
-    # a formula that one slip takes away from a quantity, or more than one
-    theory = fitted.theory
-    if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
-        return None
-    own = {safe(k): v for k, v in fitted.meanings.items()}
-    twice = _is_of_two_alike(fitted, form, states)
-    row, repair = _asked_once(to_python(form.tree), theory, quantity, own, at_rest(theory, form), twice)
-    if row["verdict"] in PASSED:
-        return row | {"verdict": "agrees"}
-    if row["verdict"] == "misprint" and repair is not None and _explains(repair, form.tree, own):
-        return _renamed(row, fitted) | {"letters": {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}}
-    return row | {"verdict": "wrong"} if row["verdict"] in ("wrong", "nearer") else None
-
-
-def _renamed(row: Row, fitted: Fitted) -> Row:
-    # the program's own names again
-    names = {safe(k): base(k).replace(OF, ".") for k in fitted.meanings if safe(k) != k}
-    if not names:
-        return row
-    pattern = re.compile(rf"\b(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})\b")
-    texts = {k: pattern.sub(lambda m: names[m[0]], row[k]) for k in ("correction", "note") if row[k]}
-    return row | texts
 
 
 _SLOPE = re.compile(
@@ -363,7 +277,7 @@ def _slopes(reading: Reading) -> Iterator[tuple[Claim, Row]]:
 
 
 def _with_name(tree: Node, old: str, new: str) -> Node:
-    return trees.substitute(tree, lambda n: _renamed_to(n, {old: new}))
+    return trees.substitute(tree, lambda n: renamed_to(n, {old: new}))
 
 
 def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | None:
@@ -390,7 +304,7 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
         return None
     if met is None or of_units(met.ratio):
         return None if met is None else {"verdict": "agrees", "claim": f"derivative of {of}"}
-    row, _ = _asked_once(to_python(slope), theory, "slope", {}, ())
+    row, _ = asked_once(to_python(slope), theory, "slope", {}, ())
     if row["verdict"] in (*PASSED, "untestable"):
         return row | {"verdict": "agrees"}
     why = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"

@@ -106,7 +106,7 @@ class Lexicon:
         return self.known[name, about]
 
     def _meanings(self, name: str, about: str) -> list[tuple[int, str]]:
-        own, said = _word_list(name), _word_list(about)
+        own, said = _word_list(name), _word_list(_UNIT.sub(" ", about))
         tail = _word_list(name.rpartition(OF)[2])
         counts: dict[str, int] = {}
         for phrase, meaning in self.phrases:
@@ -129,6 +129,7 @@ class Lexicon:
         return ranked[0] if ranked and not several else (0, "")
 
 
+_UNIT = re.compile(r"[\[(][^\])A-Za-z]*(?:[A-Za-z]{1,4}[^\])A-Za-z]*)*[\])]")  # (rad/sec) says nothing of a crank rad
 # a sign spelled out is no word
 _GREEK = set("alpha beta gamma delta theta phi varphi psi omega lambda lam rho mu nu sigma tau epsilon eta".split())
 # what stands beside a name without changing what it is

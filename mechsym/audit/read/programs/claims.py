@@ -15,8 +15,7 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 ENDS = (".py", ".ipynb", ".mo", *GRAMMARS)  #: Of the names of files that are read
-LONGEST_FILE = 1_000_000  #: Characters
-LONGEST_NOTEBOOK = 50_000_000  #: Characters, pictures among them
+_LONGEST, _LONGEST_NOTEBOOK = 1_000_000, 50_000_000  # characters; a notebook's pictures among them
 # before the number of a name's later values: changed with regard to the one before, or given in branches alone
 _AGAIN, _ANEW = "__v", "__w"
 
@@ -54,6 +53,11 @@ def base(letter: str) -> str:
 def is_changed(letter: str) -> bool:
     """Whether a letter is what a loop or a branch made of an earlier value."""
     return _AGAIN in letter
+
+
+def longest(suffix: str) -> int:
+    """Characters of a file that are read at most."""
+    return _LONGEST_NOTEBOOK if suffix == ".ipynb" else _LONGEST
 
 
 def read_program(text: str, suffix: str) -> Reading:
