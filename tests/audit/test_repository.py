@@ -258,9 +258,57 @@ def test_a_notebook_is_its_code(tmp_path):
         {"cell_type": "markdown", "source": ["# A slider"]},
         {"cell_type": "code", "source": ["%matplotlib inline\n"]},
     ]
+    cells += [{"cell_type": "code", "source": "this is = no Python\n"}]
     cells += [{"cell_type": "code", "source": WRONG.splitlines(keepends=True), "outputs": [{"png": "A" * 2_000_000}]}]
     (row,) = rows_of(tmp_path / "a", {"a.ipynb": json.dumps({"cells": cells, "nbformat": 4})})
+    assert row["verdict"] == "wrong"
+    cells[-1] |= {"input": cells[-1].pop("source")}  # as the third format has it
+    (row,) = rows_of(tmp_path / "c", {"c.ipynb": json.dumps({"worksheets": [{"cells": cells}], "nbformat": 3})})
     assert row["verdict"] == "wrong"
     (tmp_path / "b.ipynb").write_text("{}")
     (file,) = audited(tmp_path / "b.ipynb", NONE, [tmp_path / "b.ipynb"])
     assert "no notebook" in file.why
+
+
+def test_letters_of_one_sign_are_told_by_neighbours_that_agree(tmp_path):
+    """Ways and speeds are counted in either direction; a slip is told in the direction of its author."""
+    place = "def piston_position(theta, r, L):\n    return r*cos(theta) + sqrt(L*L - r*r*sin(theta)*sin(theta))\n"
+    angle = "def rod_angle(theta, r, L):\n    return asin(r*sin(theta)/L)\n"
+    speed = (
+        "def piston_velocity(theta, r, L, omega):\n"
+        "    return -r*omega*(sin(theta) + r*sin(2*theta)/{}sqrt(L*L - r*r*sin(theta)**2){})\n"
+    )
+    assert rows_of(tmp_path / "a", {"a.py": place + angle + speed.format("(2*", ")")}) == []
+    (row,) = rows_of(tmp_path / "b", {"b.py": place + angle + speed.format("", "")})
+    assert (row["verdict"], row["claim"]) == ("misprint", "offset_slider_crank.velocity")
+    assert row["correction"].startswith("-") and row["max_rel_error"] < 0.5
+    assert rows_of(tmp_path / "c", {"c.py": angle + speed.format("", "")}) == []
+
+
+def test_what_counts_from_another_place_and_is_cut_short_is_none_of_it(tmp_path):
+    """A truncated way from the dead centre that is called a position, beside a volume and an exact way."""
+    text = (
+        "def cylinder(crankRadius, connectingRodLength, theta, V_c, A_piston):\n"
+        "    x = crankRadius + connectingRodLength - crankRadius*cos(theta)"
+        " - sqrt(connectingRodLength**2 - (crankRadius*sin(theta))**2)\n"
+        "    V = V_c + A_piston*x\n"
+        "    return V\n"
+        "def pistonPosition(crankRadius, connectingRodLength, theta):\n"
+        "    return crankRadius*(1 - cos(theta)) + crankRadius**2*sin(theta)**2/(2*connectingRodLength)\n"
+    )
+    assert rows_of(tmp_path, {"a.py": text}) == []
+
+
+def test_units_in_brackets_are_no_words(tmp_path):
+    """An angular velocity in rad/s is no crank rad."""
+    text = (
+        "a = 0.04  % crank length (m)\nb = 0.12; % connecting rod length (m)\nc = 0.01; % vertical slider offset (m)\n"
+        "omega2 = 10; % angular velocity of crank (rad/sec)\nfor i = 1:9\n  theta2 = i/9;\n"
+        "  theta3 = asin((c - a*sin(theta2))/b);\n  d = a*cos(theta2) + b*cos(theta3);\n"
+        "  ddot = -a*omega2*sin(theta2) {} a*omega2*cos(theta2)*tan(theta3);\nend\n"
+    )
+    pytest.importorskip("tree_sitter")
+    place = tmp_path / "p.m"
+    place.write_text(text.format("+"))
+    (file,) = audited(place, NONE, [place])
+    assert not file.rows and file.judged == 3

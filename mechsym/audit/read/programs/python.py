@@ -3,6 +3,7 @@
 import ast
 import io
 import json
+import re
 import tokenize
 import warnings
 from collections.abc import Iterator, Sequence
@@ -40,14 +41,25 @@ def read_python(text: str) -> ProgramText:
 
 
 def code_of_notebook(text: str) -> str:
-    """The code cells of a Jupyter notebook, one below another; lines for the shell and the notebook are comments."""
+    """The code cells of a Jupyter notebook, one below another, without those that are no Python."""
     try:
-        cells = json.loads(text)["cells"]
-        code = ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
-    except (ValueError, KeyError, TypeError, RecursionError):
-        raise BadInput("no notebook: JSON with cells is expected (format 4 of Jupyter)") from None
-    lines = [line for cell in code if not cell.startswith("%%") for line in cell.splitlines()]
-    return "\n".join(f"# {line}" if line.lstrip()[:1] in ("%", "!", "?") else line for line in lines)
+        content = json.loads(text)
+        cells = content["cells"] if "cells" in content else [c for w in content["worksheets"] for c in w["cells"]]
+        code = ["".join(c.get("source", c.get("input", ""))) for c in cells if c["cell_type"] == "code"]
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        raise BadInput("no notebook: JSON with cells is expected, as Jupyter writes it") from None
+    plain = (re.sub(r"(?m)^(?=[ \t]*[%!?])", "# ", cell) for cell in code if not cell.startswith("%%"))
+    return "\n".join(cell for cell in plain if _is_python(cell))
+
+
+def _is_python(text: str) -> bool:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SyntaxWarning)
+            ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return False
+    return True
 
 
 def _comments(text: str) -> tuple[dict[int, str], set[int]]:
