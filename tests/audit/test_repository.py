@@ -312,3 +312,16 @@ def test_units_in_brackets_are_no_words(tmp_path):
     place.write_text(text.format("+"))
     (file,) = audited(place, NONE, [place])
     assert not file.rows and file.judged == 3
+
+
+def test_a_number_in_the_place_of_a_letter_is_no_error(tmp_path):
+    """A rod of one and a half strokes, beside formulas with the letter of the rod."""
+    text = (
+        "def place(bore, stroke, connecting_rod_length, theta):\n    crank_radius = stroke/2\n"
+        "    s = crank_radius*cos(theta) + sqrt(connecting_rod_length**2 - (crank_radius*sin(theta))**2)\n"
+        "    x = crank_radius + connecting_rod_length - s\n    return x\n"
+        "def volume(bore, stroke, clearance_volume, theta):\n"
+        "    return clearance_volume + pi*(bore/2)**2*(1.5*stroke + stroke/2 - (stroke/2*cos(theta)"
+        " + sqrt((1.5*stroke)**2 - (stroke/2*sin(theta))**2)))\n"
+    )
+    assert rows_of(tmp_path, {"a.py": text}) == []

@@ -23,6 +23,7 @@ from mechsym.audit.judge.lexicon import (
     formula,
     is_slip,
     nearest,
+    of_same_letters,
     of_units,
     safe,
 )
@@ -176,7 +177,7 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Cla
         row = slip(fitted, form, quantity, states)
         if row is not None and row["verdict"] == "wrong":
             nearer = any(other <= away and q != quantity for other, q in nearest(fitted, form, states))
-            if nearer or len(beside) < _WITNESSES:
+            if nearer or len(beside) < _WITNESSES or not of_same_letters(fitted.theory, form, quantity):
                 continue
             row |= {"note": f"in the same letters {' and '.join(sorted(beside))} of this file agree"}
         if row is not None:

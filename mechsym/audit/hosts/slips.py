@@ -91,7 +91,7 @@ def renamed_to(node: Node, names: Mapping[str, str]) -> Node | None:
 def slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row | None:
     """What is said of a formula: it agrees, one slip takes it away from a quantity, or it is wrong; None: not sure.
 
-    Programs count a way or a speed in either direction, so the formula is asked about with both signs.
+    Programs count a way or a speed in either direction: what goes against the quantity is asked about turned, too.
     """
     if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
         return None
@@ -100,7 +100,7 @@ def slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row | 
     printed, expected = states.values(states.random, form, quantity)
     good = np.isfinite(printed) & np.isfinite(expected)
     against = float(np.sum((printed * expected)[good])) < 0
-    for turned in (against, not against):
+    for turned in (False, True) if against else (False,):
         tree = _negative(form.tree) if turned else form.tree
         row, repair = asked_once(to_python(tree), fitted.theory, quantity, own, at_rest(fitted.theory, form), twice)
         if row["verdict"] in PASSED:
@@ -109,7 +109,9 @@ def slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row | 
             row |= {"correction": to_python(_negative(repair.tree))} if turned else {}
             meant = {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}
             return _renamed(row, fitted) | {"letters": meant}
-        wrong = wrong or (row | {"verdict": "wrong"} if row["verdict"] in ("wrong", "nearer") else None)
+        if row["verdict"] not in ("wrong", "nearer"):
+            return None
+        wrong = row | {"verdict": "wrong"}
     return wrong
 
 

@@ -15,6 +15,7 @@ from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import RESERVED, Formula, read_expression
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.theory.record import Theory, complete, dependencies, known
+from mechsym.audit.theory.tape import needed
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -238,6 +239,20 @@ def at_rest(theory: Theory, form: Formula) -> tuple[str, ...]:
     offsets = [k for k, about in theory.letters.items() if about.unit == "m" and about.sign == "any"]
     rates = [f"{theory.angle}dd"] if theory.angle and f"{theory.angle}d" in used else []
     return tuple(k for k in (*offsets, *rates) if k not in used)
+
+
+def of_same_letters(theory: Theory, form: Formula, quantity: str) -> bool:
+    """Whether a formula has the letters that a quantity is made of, or names made of them, and no other."""
+    used = {m for tree in form.letters.values() for m in letters(tree)} - {"pi"}
+    reached: set[str] = set()
+    waiting = [quantity]
+    while waiting:
+        wish = waiting.pop()
+        if wish not in reached and (wish not in used or wish == quantity):
+            reached.add(wish)
+            waiting += needed(theory.tape[wish]) if wish in theory.tape else []
+    lacking = reached & theory.letters.keys() - used - {*at_rest(theory, form)}
+    return not lacking and used <= dependencies(theory, [quantity])
 
 
 @record
