@@ -72,6 +72,20 @@ def cam_pressure_angle(base: float = 30.0, roller: float = 8.0, offset: float = 
     return float(np.degrees(angle(foot).max())), float(np.degrees(written.max()))
 
 
+def slider_acceleration(r: float = 0.05, rod: float = 0.15, omega: float = 100.0) -> tuple[float, float]:
+    """Largest error of the slider's acceleration as written by its largest size, and at which angle [deg]."""
+
+    def place(t: np.ndarray) -> np.ndarray:
+        return r * np.cos(omega * t) + np.sqrt(rod**2 - (r * np.sin(omega * t)) ** 2)
+
+    a, h = np.radians(np.arange(360.0)), 1e-6
+    right = (place(a / omega + h) - 2 * place(a / omega) + place(a / omega - h)) / h**2
+    sine, cosine, root = np.sin(a), np.cos(a), np.sqrt(rod**2 - (r * np.sin(a)) ** 2)
+    written = -r * omega**2 * cosine - (r * omega * cosine) ** 2 / root + r**3 * omega**2 * sine**2 * cosine / root**3
+    off = np.abs(written - right)
+    return float(off.max() / np.abs(right).max()), float(np.degrees(a[np.argmax(off)]))
+
+
 def main() -> None:
     """Print the numbers in the order of the page."""
     for target in (25, 35):
@@ -91,6 +105,11 @@ def main() -> None:
     print(f"Gear-Calculators: {modulus[0]:.0f} GPa as written, {modulus[1]:.0f} GPa; pressure {pressure:.0%} too high")
     print(f"ModelingProject3: 1e-3 m^3 and 10 have {9 / 1e-3:.0f} as written, {1e-3 / 9:.2e} m^3")
     print(f"gearCalculator: 24 teeth of pitch 10, outside 2.6 in: {2.6 * 10 + 2:.0f} teeth as written")
+    print(
+        "slider-crank-mech-edu: acceleration off by {:.0%} of its largest, at {:.0f} degrees".format(
+            *slider_acceleration()
+        )
+    )
     swept = np.pi * 0.04**2 * 0.02 / 2
     print(
         f"Projet-Bielle-DAM: at the dead centre {10 * swept / 2 + swept / 19:.2e} m^3 as written, {swept / 19:.2e} m^3"
