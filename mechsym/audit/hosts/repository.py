@@ -187,12 +187,17 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Cla
 
 def _told_best(doubts: Sequence[Doubt], vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> Iterator[Doubt]:
     """Of a formula's doubts the first two that its letters, or its neighbours, tell well enough."""
-    told = (d for d in doubts if _told_enough(d[0], d[1], d[3]) or len(_agreeing(d[1], d[3], vocabularies, claims)) > 1)
+    told = (
+        d for d in doubts if _told_enough(d[0], d[1], d[3])
+        or len(d[1].meanings) > 2 and _agreeing(d[1], d[3], vocabularies, claims, least=2)
+    )  # fmt: skip
     yield from islice(told, 2)
 
 
-def _agreeing(fitted: Fitted, quantity: str, vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> set[str]:
-    """Quantities that other formulas of a file are by name and number, in letters of the same meanings.
+def _agreeing(
+    fitted: Fitted, quantity: str, vocabularies: Sequence[Lexicon], claims: Sequence[Claim], least: int = _LETTERS
+) -> set[str]:
+    """Quantities that other formulas of a file are by name and number, in so many letters of the same meanings.
 
     None where the formula has not the name of the quantity that it comes near to.
     """
@@ -202,7 +207,7 @@ def _agreeing(fitted: Fitted, quantity: str, vocabularies: Sequence[Lexicon], cl
     meant, agreeing = {base(k): v for k, v in fitted.meanings.items()}, set()
     for claim in claims:
         other = fit(claim, vocabulary) if claim is not fitted.claim else None
-        if other is None or len(other.meanings) < _LETTERS:
+        if other is None or len(other.meanings) < least:
             continue
         if any(meant.get(base(k), v) != v for k, v in other.meanings.items()):
             continue

@@ -59,11 +59,18 @@ def _explains(repair: Repair, tree: Node, own: Mapping[str, str]) -> bool:
 
 
 def _counts_otherwise(new: Node, tree: Node) -> bool:
-    # m becomes m + 1: an exponent, or a number of teeth, that its author counts in another way
-    if not trees.is_operation(new, ast.Add, ast.Sub) or not isinstance(new.left, ast.Name):
+    # m becomes m + 1: an exponent, or a number of teeth, that its author counts in another way; not so m - 1 that does
+    letter = _beside_one(new)
+    if not letter or any(_beside_one(n) == letter for _, n in trees.walk(tree)):
         return False
-    times = sum(isinstance(n, ast.Name) and n.id == new.left.id for _, n in trees.walk(tree))
-    return trees.value_of(new.right) == 1 and times == 1
+    return sum(isinstance(n, ast.Name) and n.id == letter for _, n in trees.walk(tree)) == 1
+
+
+def _beside_one(tree: Node) -> str:
+    # the letter that 1 is added to, or taken from
+    if not trees.is_operation(tree, ast.Add, ast.Sub) or not isinstance(tree.left, ast.Name):
+        return ""
+    return tree.left.id if trees.value_of(tree.right) == 1 else ""
 
 
 _OTHER_OF_TWO = str.maketrans("12", "21")

@@ -17,6 +17,7 @@ from mechsym.audit.read.programs.statements import (
     Scope,
     Statement,
     letter_of,
+    parsed,
 )
 from mechsym.errors import BadInput
 
@@ -321,7 +322,7 @@ def _parsed(text: str) -> ast.expr | None:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SyntaxWarning)
-            return ast.parse(text.strip(), mode="eval").body
+            return parsed(text.strip())
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None
 

@@ -1,6 +1,5 @@
 """Modelica by a small grammar of its sections: declarations, and the equations and algorithms of a model."""
 
-import ast
 import re
 
 from mechsym.audit.read.programs.statements import (
@@ -12,6 +11,7 @@ from mechsym.audit.read.programs.statements import (
     Scope,
     Statement,
     letter_of,
+    parsed,
 )
 
 _TOKEN = re.compile(
@@ -133,11 +133,11 @@ def _let(piece: _Piece) -> Let | None:
     if target is None:
         return None
     try:
-        value = ast.parse(re.sub(r"\.?\^", "**", match["right"]), mode="eval").body
+        value = parsed(re.sub(r"\.?\^", "**", match["right"]))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         value = None
     try:
-        name = letter_of(ast.parse(target[0].strip(), mode="eval").body, frozenset("ijkn"))
+        name = letter_of(parsed(target[0].strip()), frozenset("ijkn"))
     except (Opaque, SyntaxError, ValueError, RecursionError, MemoryError):
         return None
     return Let(name=name, value=value, line=piece.line)

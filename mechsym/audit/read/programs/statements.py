@@ -1,6 +1,7 @@
 """What every language comes to: scopes of assignments, branches and loops, and the expressions in them as trees."""
 
 import ast
+import keyword
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import field
@@ -88,6 +89,20 @@ _SIGNS = {"add": ast.Add, "subtract": ast.Sub, "multiply": ast.Mult, "divide": a
 _PI = re.compile(r"(?:\w+\.)*(?:pi|PI|M_PI|CH_C_PI|CH_PI|Pi|pi__)", re.ASCII)
 _MODULES = {*MODULES, "casadi", "ca", "jnp", "cs", "scipy", "tf", "m", "umath"}
 _FLOATED = re.compile(r"(a?(?:sin|cos|tan)|atan2|sqrt|pow|exp|log|fabs|hypot|cbrt)[fl]$")
+
+
+_NO_NAMES = {"and", "or", "not", "in", "is", "if", "else", "for", "None", "True", "False"}
+_KEYWORDS = re.compile(rf"(?<![\w.])(?:{'|'.join(sorted({*keyword.kwlist} - _NO_NAMES))})(?!\w)")
+
+
+def parsed(text: str) -> ast.expr:
+    """An expression of another language in Python's spelling; words of Python are names in it, as lambda is a ratio.
+
+    Raises what `ast.parse` raises.
+    """
+    # a letter in bold is the letter to the parser, and makes no word of Python
+    plain = _KEYWORDS.sub(lambda m: chr(0x1D41A + ord(m[0][0]) - ord("a")) + m[0][1:], text)
+    return ast.parse(plain, mode="eval").body
 
 
 @record
