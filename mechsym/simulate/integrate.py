@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -136,10 +137,10 @@ def phase_integrator(name: str) -> Callable[[Phase], Leg]:
         if name == "native":
             raise BadInput(f"backend 'native' cannot take this run: {error}; or use backend auto") from None
         return backend(FALLBACK)
-    return _advance
+    return partial(_advance, required=name == "native")
 
 
-def _advance(phase: Phase) -> Leg:
+def _advance(phase: Phase, required: bool) -> Leg:
     run = Runs(
         rhs=phase.system.function, start=phase.y, t=phase.t_start, until=np.array([phase.t_end]), held=phase.w[None],
         times=phase.times, surfaces=phase.surfaces, rtol=phase.tolerance, atol=phase.tolerance,
@@ -147,7 +148,9 @@ def _advance(phase: Phase) -> Leg:
     )  # fmt: skip
     try:
         outcome = native.integrate(run)
-    except NoCompiler:
+    except NoCompiler as error:
+        if required:
+            raise BadInput(f"backend 'native' cannot take this run: {error}; or use backend auto") from None
         return backend(FALLBACK)(phase)
     status, met = int(outcome.status[0]), int(outcome.met[0])
     failure = "" if status in (_DONE, _MET) else f"stopped at t = {outcome.t[0]:.6g} s: {STATUS[status]}"

@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 from mechsym.audit.hosts import findings as told
 from mechsym.audit.hosts.findings import counts, findings
-from mechsym.audit.hosts.repository import audited, programs
+from mechsym.audit.hosts.repository import _vocabularies, audited, programs
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.read.programs.claims import read_program
 from mechsym.audit.read.spelling import to_python
@@ -353,3 +353,14 @@ def test_a_slip_is_told_beside_one_neighbour_that_agrees(tmp_path):
     (row,) = rows_of(tmp_path / "b", {"b.py": right.replace("(gamma - 1)", "(gamma + 1)")})
     assert (row["verdict"], row["claim"]) == ("misprint", "air_cycles.T_2")
     assert rows_of(tmp_path / "c", {"c.py": right.replace("(gamma - 1)", "(gamma + 1)").replace("p2 =", "q =")}) == []
+
+
+def test_a_comment_is_read_without_its_unit():
+    lexicon = next(v for v in _vocabularies("", "") if v.theory.name == "offset_slider_crank")
+    assert (
+        lexicon.meaning("w", "speed (rad/sec) of it")[1] == "phid" and lexicon.meaning("q", "crank (rad/sec)")[1] == ""
+    )
+    assert lexicon.meaning("q", "(crank radius)")[1] == "r"  # no unit
+    assert (
+        lexicon.meaning("q", "of the (connectingrodlengthofanenginethatisverylongandneverclosed" * 3)[1] == ""
+    )  # at once

@@ -38,6 +38,16 @@ def integrated(exponent, omega_0, turns):
     return np.sqrt(OMEGA**2 + 2 * run.y[0] / inertia(PHI))
 
 
+@pytest.mark.parametrize("share", [0.02, 0.1, 1.0])
+def test_a_propeller_load_is_followed_the_same_by_sums_and_step_by_step(monkeypatch, share):
+    """Up to the lightest shaft that sums can follow; of a lighter one powers overflow."""
+    work, light = share * missing(PHI), share * inertia(PHI)
+    quick = propeller_load_speed(work, light, OMEGA, LOAD, TURN)
+    assert quick is not None
+    monkeypatch.setattr("mechsym.hinge.balance._FADES", 0.0)
+    assert propeller_load_speed(work, light, OMEGA, LOAD, TURN) == pytest.approx(quick, rel=1e-12)
+
+
 def test_propeller_load_is_what_a_run_settles_to():
     expected = propeller_load_speed(missing(PHI), inertia(PHI), OMEGA, LOAD, TURN)
     assert expected == pytest.approx(integrated(2, 10.4, 12), rel=2e-6)

@@ -48,7 +48,7 @@ _WITNESSES, _LETTERS = 2, 3  # quantities that agree, in as many letters, show t
 _MOST_FILES = 20_000
 
 
-Doubt = tuple[float, Fitted, Formula, str, Probes]  # how far off, and of which quantity
+_Near = tuple[float, Fitted, Formula, str, Probes]  # how far off, and of which quantity
 
 
 @record
@@ -153,7 +153,7 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Cla
 
     claims: those of its file; what is more than a slip away is told where others show that the letters are understood.
     """
-    doubts: list[Doubt] = []
+    doubts: list[_Near] = []
     matched = False
     for vocabulary in vocabularies:
         fitted = fit(claim, vocabulary)
@@ -185,7 +185,7 @@ def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Cla
     return {"verdict": "", "claim": ""}
 
 
-def _told_best(doubts: Sequence[Doubt], vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> Iterator[Doubt]:
+def _told_best(doubts: Sequence[_Near], vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> Iterator[_Near]:
     """Of a formula's doubts the first two that its letters, or its neighbours, tell well enough."""
     told = (
         d for d in doubts if _told_enough(d[0], d[1], d[3])

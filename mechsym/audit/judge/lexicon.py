@@ -130,7 +130,8 @@ class Lexicon:
         return ranked[0] if ranked and not several else (0, "")
 
 
-_UNIT = re.compile(r"[\[(][^\])A-Za-z]*(?:[A-Za-z]{1,4}[^\])A-Za-z]*)*[\])]")  # (rad/sec) says nothing of a crank rad
+# (rad/sec) says nothing of a crank rad: what stands in brackets and has short words only
+_UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-z]))*[\])]")
 # a sign spelled out is no word
 _GREEK = set("alpha beta gamma delta theta phi varphi psi omega lambda lam rho mu nu sigma tau epsilon eta".split())
 # what stands beside a name without changing what it is

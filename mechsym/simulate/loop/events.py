@@ -106,7 +106,7 @@ def ledger(loop: Loop) -> list[ca.Function]:
 
 def pass_event(
     loop: Loop,
-    of: LoopEquations,
+    model: LoopEquations,
     books: list[ca.Function],
     gas: GasState,
     k: int,
@@ -118,7 +118,7 @@ def pass_event(
     inlet closes starts afresh, in its mixed units [-]. cycle: the closed period that has ended.
     """
     t, y, p = now
-    own = of.first_of(k)
+    own = model.first_of(k)
     if gas.phase == 0:
         T = float(y[own])
         slope = float(kappa(loop.engine.gas, T))
@@ -126,7 +126,7 @@ def pass_event(
     if gas.phase < OPEN - 1:
         return dataclasses.replace(gas, phase=gas.phase + 1), y, None
     if gas.phase == OPEN:
-        speed = float(y[_angle(loop, k) + of.system.size])
+        speed = float(y[_angle(loop, k) + model.system.size])
         start, duration = (float(a) for a in timing(loop.engine.cycle, speed))
         y = y.copy()
         y[own : own + len(PER_CYLINDER)] = loop.engine.cycle.intake_temperature, 0.0, 0.0, 0.0

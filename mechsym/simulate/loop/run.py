@@ -79,9 +79,9 @@ def run_loop(
     absolute tolerance of a step; angle: value of every coordinate at the start; t_end: time at which the run ends if
     that comes first. Returns result: motion, pressures, cycle by cycle work, audits.
     """
-    of, books, advance = equations(loop), ledger(loop), phase_integrator(backend)
+    model, books, advance = equations(loop), ledger(loop), phase_integrator(backend)
     gases, y = first_state(loop, omega, angle)
-    start, n, grid, last = y, of.system.size, 2 * np.pi / omega / points, angle + cycles * CYCLE
+    start, n, grid, last = y, model.system.size, 2 * np.pi / omega / points, angle + cycles * CYCLE
     levels = (Level(state=0, level=last, direction=1), Level(state=n, level=_STALL * omega, direction=-1))
     phases: list[Phase] = []
     samples: list[np.ndarray] = []
@@ -92,7 +92,7 @@ def run_loop(
         events = [ahead(loop, gas, k) for k, gas in enumerate(gases)]
         times = np.arange(np.floor(t / grid) + 1, np.ceil(until / grid)) * grid
         phase = Phase(
-            system=of.system, t_start=t, t_end=until, y=y, w=held, surfaces=(*events, *levels), times=times,
+            system=model.system, t_start=t, t_end=until, y=y, w=held, surfaces=(*events, *levels), times=times,
             tolerance=tolerance, first_step=step,
         )  # fmt: skip
         with np.errstate(invalid="ignore", over="ignore"):  # a try may reach where no gas is; the step is shortened
@@ -111,15 +111,15 @@ def run_loop(
         if t >= t_end:
             ended = _Ended(status="done", reason=f"{t_end:g} s", end="t_end")
             break
-        p = np.asarray(of.pressures(y, held)).ravel()
+        p = np.asarray(model.pressures(y, held)).ravel()
         for k, (gas, event) in enumerate(zip(gases, events, strict=True)):
             if y[event.state] - event.level > -_PASSED:
-                gases[k], y, cycle = pass_event(loop, of, books, gas, k, (t, y, float(p[k])))
+                gases[k], y, cycle = pass_event(loop, model, books, gas, k, (t, y, float(p[k])))
                 done += [cycle] if cycle else []
     grids = [np.zeros(1), *(p.times[: len(rows)] for p, rows in zip(phases, samples, strict=True)), np.array([t])]
     states = np.vstack([start, *samples, y])
     w = np.repeat([p.w for p in (phases[:1] or [phase]) + phases + [phase]], list(map(len, grids)), axis=0)
-    p = np.asarray(of.pressures.map(len(states))(states.T, w.T)).T
+    p = np.asarray(model.pressures.map(len(states))(states.T, w.T)).T
     q, u, works = states[:, :n], states[:, n : 2 * n], states[:, -len(WORKS) :]
     energy = np.array(energies(loop.mechanism, q.T, u.T))
     gas_work, load_work, loss = works[-1]
