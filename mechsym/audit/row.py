@@ -116,7 +116,7 @@ def _answer(asked: Asked, said: Statement, claim: str, one: bool) -> Row:
             note = joined(verdict.note, f"{verdict.verdict} with {conventions.told(chosen)}")
             verdict = replace(verdict, verdict="convention", note=note)
     if verdict.verdict not in PASSED and (also := conventions.also_exact(question)):
-        notes.append(f"also exact with {also}")
+        notes.append(f"also exact with {conventions.told(also)}")
     claimed = f"{question.theory.name}.{asked.quantity}"
     head = {"source": "own", "equation": asked.name or said.number or "-", "claim": claimed}
     row = head | formula_row(question, verdict, asked.text, joined(*notes), "")

@@ -7,26 +7,12 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import field
 from functools import cache
-from itertools import islice
 from pathlib import Path
 
-from mechsym.audit.hosts.slips import asked_once, renamed_to, slip
+from mechsym.audit.hosts.neighbours import Neighbours
+from mechsym.audit.hosts.slips import asked_once, renamed_to
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.judge.lexicon import (
-    ANGLES,
-    Fitted,
-    Lexicon,
-    Probes,
-    at_rest,
-    compared,
-    fit,
-    formula,
-    is_slip,
-    nearest,
-    of_same_letters,
-    of_units,
-    safe,
-)
+from mechsym.audit.judge.lexicon import ANGLES, Lexicon, Probes, compared, of_units, safe
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, inlined, longest, read_program
 from mechsym.audit.read.programs.statements import OF
@@ -43,12 +29,7 @@ from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record
 
 _LEFT_OUT = {*"node_modules venv __pycache__ build dist third_party site-packages".split()}  # and what a dot begins
-_NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
-_WITNESSES, _LETTERS = 2, 3  # quantities that agree, in as many letters, show that a file's letters are understood
 _MOST_FILES = 20_000
-
-
-_Near = tuple[float, Fitted, Formula, str, Probes]  # how far off, and of which quantity
 
 
 @record
@@ -108,8 +89,9 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
     claims = [c for c in reading.claims if len(letters(c.tree)) > 1]
     words = {base(k) for c in reading.claims for k in (*letters(c.tree), c.name)}
     vocabularies = [v for v in _vocabularies(asked.theory, asked.case) if v.touches(words)]
-    for claim in claims:
-        outcome = _outcome(claim, vocabularies, claims)
+    neighbours = Neighbours(reading.claims, vocabularies)
+    for claim in reading.claims:
+        outcome = neighbours.outcome(claim)
         own = _pair(claim, claims)
         matched += outcome is not None or own is not None
         judged += bool(outcome and outcome["verdict"] != "") or bool(own)
@@ -146,100 +128,6 @@ def _placed(row: Row, claim: Claim, shown: str) -> Row:
 
 def _shown(tree: Node) -> str:
     return re.sub(r"__[vw]\d+", "", to_python(tree)).replace(OF, ".")
-
-
-def _outcome(claim: Claim, vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> Row | None:
-    """The best of what theories say of a claim: it agrees with one, is a slip away from just one, or differs from it.
-
-    claims: those of its file; what is more than a slip away is told where others show that the letters are understood.
-    """
-    doubts: list[_Near] = []
-    matched = False
-    for vocabulary in vocabularies:
-        fitted = fit(claim, vocabulary)
-        if fitted is None:
-            continue
-        try:
-            form = formula(fitted)
-        except BadInput:
-            continue
-        matched = True
-        states = vocabulary.states(form)
-        for away, quantity in _met(fitted, form, states):
-            if away == 0.0:
-                return {"verdict": "agrees", "claim": f"{fitted.theory.name}.{quantity}"}
-            doubts.append((away, fitted, form, quantity, states))
-    if not matched:
-        return None
-    doubts.sort(key=lambda d: (not d[1].quantities, len(at_rest(d[1].theory, d[2])), d[0]))
-    for away, fitted, form, quantity, states in _told_best(doubts, vocabularies, claims):
-        beside = _agreeing(fitted, quantity, vocabularies, claims)
-        row = slip(fitted, form, quantity, states)
-        if row is not None and row["verdict"] == "wrong":
-            nearer = any(other <= away and q != quantity for other, q in nearest(fitted, form, states))
-            if nearer or len(beside) < _WITNESSES or not of_same_letters(fitted.theory, form, quantity):
-                continue
-            row |= {"note": f"in the same letters {' and '.join(sorted(beside))} of this file agree"}
-        if row is not None:
-            return row
-    return {"verdict": "", "claim": ""}
-
-
-def _told_best(doubts: Sequence[_Near], vocabularies: Sequence[Lexicon], claims: Sequence[Claim]) -> Iterator[_Near]:
-    """Of a formula's doubts the first two that its letters, or its neighbours, tell well enough."""
-    told = (
-        d for d in doubts if _told_enough(d[0], d[1], d[3])
-        or len(d[1].meanings) > 2 and _agreeing(d[1], d[3], vocabularies, claims, least=2)
-    )  # fmt: skip
-    yield from islice(told, 2)
-
-
-def _agreeing(
-    fitted: Fitted, quantity: str, vocabularies: Sequence[Lexicon], claims: Sequence[Claim], least: int = _LETTERS
-) -> set[str]:
-    """Quantities that other formulas of a file are by name and number, in so many letters of the same meanings.
-
-    None where the formula has not the name of the quantity that it comes near to.
-    """
-    if quantity not in fitted.quantities:
-        return set()
-    (vocabulary,) = (v for v in vocabularies if v.theory is fitted.theory)
-    meant, agreeing = {base(k): v for k, v in fitted.meanings.items()}, set()
-    for claim in claims:
-        other = fit(claim, vocabulary) if claim is not fitted.claim else None
-        if other is None or len(other.meanings) < least:
-            continue
-        if any(meant.get(base(k), v) != v for k, v in other.meanings.items()):
-            continue
-        try:
-            form = formula(other)
-        except BadInput:
-            continue
-        met = _met(other, form, vocabulary.states(form))
-        agreeing |= {its for away, its in met if away == 0.0 and its in other.quantities}
-    return agreeing - {quantity}
-
-
-def _met(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
-    seen = set()
-    for quantity in fitted.quantities:
-        met = compared(form, states, quantity)
-        if met is not None:
-            seen.add(quantity)
-            right = of_units(met.ratio) or met.shift
-            if right or is_slip(met.ratio):
-                yield (0.0 if right else max(met.away, 1e-9)), quantity
-    if fitted.strong and len(fitted.meanings) > 1 and (len(fitted.meanings) > 2 or seen):
-        for away, quantity in nearest(fitted, form, states):
-            if quantity not in seen and (away == 0.0 or not fitted.quantities):
-                yield away, quantity
-
-
-def _told_enough(away: float, fitted: Fitted, quantity: str) -> bool:
-    many, strong = len(fitted.meanings), fitted.strong
-    if quantity in fitted.quantities:
-        return many == strong or many > 4 and strong > 1 or away <= _NEAR and many > 2 and strong > 0
-    return away <= _NEAR and many > 2 and strong > 1
 
 
 _SLOPE = re.compile(

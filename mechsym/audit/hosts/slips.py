@@ -8,8 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.audit.judge.asked import Asked, question_of
-from mechsym.audit.judge.conventions import also_exact
-from mechsym.audit.judge.lexicon import Fitted, Probes, at_rest, safe
+from mechsym.audit.judge.conventions import also_exact, holds_with, told
+from mechsym.audit.judge.lexicon import Fitted, Near, Probes, at_rest, safe
+from mechsym.audit.judge.question import Question
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import base
 from mechsym.audit.read.programs.statements import OF
@@ -19,7 +20,7 @@ from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.repair.examination import Repair
 from mechsym.audit.row import Row, formula_row, unread_row
 from mechsym.audit.theory.record import Theory
-from mechsym.audit.verdict import PASSED, decide
+from mechsym.audit.verdict import PASSED, RIGHT_WITH, decide
 from mechsym.errors import BadInput
 
 _EXACT = 1e-9  # relative error of a correction that explains a formula: a limit of long rods does not [-]
@@ -27,35 +28,78 @@ _LARGEST = 120  # parts of a formula for which a slip is searched: the search is
 
 
 def asked_once(
-    text: str, theory: Theory, quantity: str, own: Mapping[str, str], rest: Sequence[str], twice: bool = False
+    text: str,
+    theory: Theory,
+    quantity: str,
+    own: Mapping[str, str],
+    rest: Sequence[str],
+    twice: bool = False,
+    beside: Sequence[Near] = (),
+    of_angle: Sequence[Near] = (),
 ) -> tuple[Row, Repair | None]:
-    """The row of a formula, of one slip at most, with its repair; twice: the same one may stand in both halves."""
+    """The row of a formula, of one slip at most, with its repair; twice: the same one may stand in both halves.
+
+    beside, of_angle: others of the same program that agree, which have the same letters and count the same angle.
+    """
     against = f"{theory.name}.{quantity}"
     try:
-        assume = [f"{k} = 0" for k in rest if k in theory.letters]
-        asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory, assume=assume)
-        question = question_of(asked, statement(text))
+        question = _question(text, theory, quantity, own, rest)
         verdict = decide(question, one=not twice)
         if twice and verdict.repairs and len({edit.kind for edit in verdict.repairs[0].edits}) > 1:
             verdict = decide(question, one=True)
-        right = also_exact(question) if verdict.verdict not in PASSED else ""
+        if verdict.verdict == "untestable" and _is_told_otherwise(verdict.note, own, beside):
+            verdict = decide(question, settled=True, one=True)
+        right = also_exact(question) if verdict.verdict not in PASSED else ()
+        if right and any(not _holds_beside(near, right, own) for near in of_angle):
+            right = ()
     except BadInput as error:
         return unread_row("", against, text, str(error)), None
     row = {"claim": against} | formula_row(question, verdict, text, "", "")
     if right:
-        row |= {"verdict": "convention", "note": f"exact with {right}"}
+        row |= {"verdict": "convention", "note": f"exact with {told(right)}"}
     return row, verdict.repairs[0] if verdict.repairs else None
+
+
+def _question(text: str, theory: Theory, quantity: str, own: Mapping[str, str], rest: Sequence[str]) -> Question:
+    assume = [f"{k} = 0" for k in rest if k in theory.letters]
+    against = f"{theory.name}.{quantity}"
+    asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory, assume=assume)
+    return question_of(asked, statement(text))
+
+
+def _is_told_otherwise(note: str, own: Mapping[str, str], beside: Sequence[Near]) -> bool:
+    # a radius for a diameter, say, of a letter that has its plain meaning in a formula that agrees
+    letter = re.match(rf"{RIGHT_WITH} (\w+) as ", note)
+    plain = {m for near in beside for m in near.fitted.meanings.values()}
+    return letter is not None and own.get(letter[1]) in plain
+
+
+def _holds_beside(near: Near, chosen: tuple[str, ...], own: Mapping[str, str]) -> bool:
+    # whether a formula that agrees would do so with a convention, too; of either sign where its value is not used
+    letters_of = {safe(k): v for k, v in near.fitted.meanings.items()}
+    theory, rest = near.fitted.theory, at_rest(near.fitted.theory, near.form)
+    angle = tuple(c for c in chosen if c != "sign")
+    if not angle:
+        return True
+    try:
+        question = _question(to_python(near.form.tree), theory, near.quantity, letters_of, rest)
+    except BadInput:
+        return True
+    signs = ((),) if safe(near.fitted.claim.name) in own else ((), ("sign",))
+    return any(holds_with(question, (*angle, *sign)) for sign in signs)
 
 
 # edits that take away no slip: what is on the way to a quantity lacks a term or a factor, and programs mix units
 _NO_SLIP = {"left out", "put back", "degrees", "unit"}
 
 
-def _explains(repair: Repair, tree: Node, own: Mapping[str, str]) -> bool:
+def _explains(repair: Repair, tree: Node, own: Mapping[str, str], named: bool) -> bool:
     # nobody mistakes a variable for one that the program has not; a limit of long rods is a step, too
     if repair.max_rel_error >= _EXACT or not set(letters(repair.tree)) <= {*own, "pi"}:
         return False
-    return not any(edit.kind in _NO_SLIP or _counts_otherwise(edit.new, tree) for edit in repair.edits)
+    # where neighbours agree, a power that is lost of a letter that stands there is no step on the way
+    steps = _NO_SLIP - ({"put back"} if named and set(letters(repair.tree)) == set(letters(tree)) else set())
+    return not any(edit.kind in steps or _counts_otherwise(edit.new, tree) for edit in repair.edits)
 
 
 def _counts_otherwise(new: Node, tree: Node) -> bool:
@@ -95,24 +139,27 @@ def renamed_to(node: Node, names: Mapping[str, str]) -> Node | None:
     return trees.name(names[node.id]) if isinstance(node, ast.Name) and node.id in names else None
 
 
-def slip(fitted: Fitted, form: Formula, quantity: str, states: Probes) -> Row | None:
+def slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row | None:
     """What is said of a formula: it agrees, one slip takes it away from a quantity, or it is wrong; None: not sure.
 
     Programs count a way or a speed in either direction: what goes against the quantity is asked about turned, too.
     """
+    fitted, form, quantity, states = near.fitted, near.form, near.quantity, near.states
     if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
         return None
     own = {safe(k): v for k, v in fitted.meanings.items()}
+    named = bool(beside) and quantity in fitted.quantities
     twice, wrong = _is_of_two_alike(fitted, form, states), None
     printed, expected = states.values(states.random, form, quantity)
     good = np.isfinite(printed) & np.isfinite(expected)
     against = float(np.sum((printed * expected)[good])) < 0
     for turned in (False, True) if against else (False,):
         tree = _negative(form.tree) if turned else form.tree
-        row, repair = asked_once(to_python(tree), fitted.theory, quantity, own, at_rest(fitted.theory, form), twice)
+        rest = at_rest(fitted.theory, form)
+        row, repair = asked_once(to_python(tree), fitted.theory, quantity, own, rest, twice, beside, of_angle)
         if row["verdict"] in PASSED:
             return row | {"verdict": "agrees"}
-        if row["verdict"] == "misprint" and repair is not None and _explains(repair, tree, own):
+        if row["verdict"] == "misprint" and repair is not None and _explains(repair, tree, own, named):
             row |= {"correction": to_python(_negative(repair.tree))} if turned else {}
             meant = {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}
             return _renamed(row, fitted) | {"letters": meant}

@@ -133,19 +133,20 @@ def _shifted(shift: Mapping[str, Node], node: Node) -> Node | None:
     return shift.get(node.id) if isinstance(node, ast.Name) else None
 
 
-def also_exact(question: Question) -> str:
-    """Under which other conventions a formula would be exact, in words; empty where there is none."""
+def also_exact(question: Question) -> tuple[str, ...]:
+    """Under which other conventions a formula would be exact; none where there is none."""
     if not question.theory.angle or question.theory.angle in question.hold:
-        return ""
+        return ()
     for angle in ("", *_ANGLES):
         for sign in ((), ("sign",)):
             chosen = (*((angle,) if angle else ()), *sign)
-            if chosen and _holds(question, chosen):
-                return told(chosen)
-    return ""
+            if chosen and holds_with(question, chosen):
+                return chosen
+    return ()
 
 
-def _holds(question: Question, chosen: tuple[str, ...]) -> bool:
+def holds_with(question: Question, chosen: tuple[str, ...]) -> bool:
+    """Whether a formula is exact under conventions."""
     try:
         other = converted(question, chosen)
     except BadInput:
@@ -170,7 +171,7 @@ _FACTORS: dict[Kind, dict[str, float]] = {
     ANGLE: {"degrees": 180 / np.pi},
 }
 _SAME, _TURN = 1e-9, 12
-_ROUND = "bBdDrR"  # what radii and diameters are called
+_ROUND, _ELASTIC = "bBdDrR", "eEG"  # what radii and diameters, what moduli are called
 
 
 def reading(judged: Judges, tree: Node) -> str:
@@ -205,7 +206,8 @@ def _others(kind: Kind | None, values: Values, called: str) -> Iterator[tuple[st
         yield "the ratio the other way round", 1 / values
         yield "the ratio the other way round, reversed", -1 / values
     round_ones = kind != kind_of_unit("m") or called[0] in _ROUND and "_d" not in called or "radius" in called
-    for words, factor in _FACTORS.get(kind, {}).items() if kind and round_ones else ():
+    elastic = kind != kind_of_unit("Pa") or called[0] in _ELASTIC
+    for words, factor in _FACTORS.get(kind, {}).items() if kind and round_ones and elastic else ():
         yield words, factor * values
 
 

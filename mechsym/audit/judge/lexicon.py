@@ -4,9 +4,11 @@ import ast
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
+from itertools import islice, product
 
 import numpy as np
 
+from mechsym.audit.judge.dimensions import ANGLE, kind_of, kind_of_unit
 from mechsym.audit.judge.question import Question, drawn, float_values, used_names
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.algebra import FLOATS, Values, evaluate
@@ -23,6 +25,7 @@ from mechsym.quantities import record
 ANGLES = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "crankangle", "angle", "varphi")
 _RATES = {"d": ("omega", "w", "angular velocity", "angular speed"), "dd": ("alpha", "angular acceleration")}
 _LEAST_LETTERS = 3  # of a formula that is told by its numbers and not by its name
+_MEANINGS, _TRIED, _READINGS = 3, 200, 4  # of a letter; of a formula at most: looked at, and held against numbers
 _POINTS, _TURNS, _STEPS = 24, 4, 7  # states at which numbers are compared, and of turns
 _SAME = 1e-9
 # factors by which units differ: degrees, minutes, inches and feet, thousands
@@ -46,6 +49,7 @@ class Fitted:
     meanings: Mapping[str, str]  #: Letter of the program to its meaning in the theory
     quantities: Sequence[str]  #: That the name is called like
     strong: int  #: Letters that a word tells, and not a single sign
+    rank: int  #: How well its name tells the quantities, as of `Lexicon.meanings`
 
 
 def words(text: str) -> tuple[str, ...]:
@@ -145,45 +149,61 @@ def _stands_in(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
     return any(said[i : i + n] == phrase for i in range(min(6, len(said) - n + 1)))
 
 
-def fit(claim: Claim, vocabulary: Lexicon) -> Fitted | None:
-    """A claim in a theory's letters; None where a name in it means nothing there."""
+def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
+    """A claim in a theory's letters, the best told way first; none where a name in it means nothing there."""
     theory = vocabulary.theory
     rank, called = _called(claim, vocabulary)
-    tree, meanings, strong = _of_either_sign(claim.tree), {}, 0
+    tree, options = _of_either_sign(claim.tree), dict[str, list[tuple[int, str]]]()
     for _ in range(12):
         put_in = {}
         for letter in letters(tree):
-            if letter in meanings or letter == "pi":
+            if letter in options or letter == "pi":
                 continue
-            shared, meaning = vocabulary.meaning(base(letter), claim.abouts.get(base(letter), ""))
-            if _is_told_better(letter, shared, claim, vocabulary):
+            ranked = [
+                (r, m)
+                for r, m in vocabulary.meanings(base(letter), claim.abouts.get(base(letter), ""))
+                if base(m) not in called
+            ]
+            unsure = not ranked or len(ranked) > 1 and ranked[0][0] == ranked[1][0]
+            told = ranked[0][0] if ranked else 0
+            if letter in claim.values and (unsure or _is_told_better(letter, told, claim, vocabulary)):
                 put_in[letter] = claim.values[letter]
-            elif meaning and base(meaning) not in called:
-                meanings[letter] = meaning
-                strong += shared > 1
-            elif letter in claim.values:
-                put_in[letter] = claim.values[letter]
+            elif ranked:
+                options[letter] = ranked[:_MEANINGS]
             else:
-                return None
+                return
         if not put_in:
             break
         whole = inlined(tree, put_in, keep={k: 1 for k in claim.values if k not in put_in})
         if whole is None:
-            return None
+            return
         tree = whole
     used = [k for k in letters(tree) if k != "pi"]
-    meanings = {k: v for k, v in meanings.items() if k in used}
-    if len(set(meanings.values())) < len(used) or len(used) < 2:
-        return None
-    meanings = {k: _in_degrees(k, v, tree, theory) for k, v in meanings.items()}
-    return Fitted(
-        theory=theory, claim=claim, tree=tree, meanings=meanings, quantities=called if rank else (), strong=strong
-    )
+    if not used or any(k not in options for k in used):
+        return
+    for reading in _distinct([options[k] for k in used]):
+        meanings = {k: _in_degrees(k, m, tree, theory) for k, (_, m) in zip(used, reading, strict=True)}
+        strong = sum(r > 1 for r, _ in reading)
+        quantities = called if rank else ()
+        yield Fitted(
+            theory=theory, claim=claim, tree=tree, meanings=meanings, quantities=quantities, strong=strong, rank=rank
+        )
+
+
+def _distinct(options: Sequence[Sequence[tuple[int, str]]]) -> Iterator[tuple[tuple[int, str], ...]]:
+    # no two letters mean one thing; those that words tell best, and ties between them
+    best = [o[0][0] for o in options]
+    chosen = (c for c in islice(product(*options), _TRIED) if len({m for _, m in c}) == len(c))
+    ranked = sorted(chosen, key=lambda c: -sum(r for r, _ in c))
+    if ranked:
+        least = sum(r for r, _ in ranked[0])
+        plain = least == sum(best)
+        yield from islice((c for c in ranked if not plain or sum(r for r, _ in c) == least), _READINGS)
 
 
 def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon) -> bool:
     # phi = radians(pressure_angle): another letter in its place, whose name says more
-    inside = letters(claim.values[letter]) if letter in claim.values else []
+    inside = letters(claim.values[letter])
     named = [k for k in inside if k != "pi"]
     return len(named) == 1 and vocabulary.meaning(base(named[0]), claim.abouts.get(base(named[0]), ""))[0] > told
 
@@ -196,12 +216,14 @@ def _of_either_sign(tree: Node) -> Node:
 
 
 def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
-    # quantities that the name or the comment of a claim says
-    about = claim.about
-    name = claim.scope if claim.name == "return" else claim.name
-    ranked = [(r, m) for r, m in vocabulary.meanings(name, about) if m in vocabulary.theory.tape]
-    best = ranked[0][0] if ranked else 0
-    return best, [m for r, m in ranked if r == best]
+    # quantities that the name or the comment of a claim says, or the function that gives it back
+    names = [claim.scope] if claim.name == "return" else [claim.name, *[claim.scope] * claim.last]
+    best, called = 0, dict[str, None]()
+    for name in names:
+        ranked = [(r, m) for r, m in vocabulary.meanings(name, claim.about) if m in vocabulary.theory.tape]
+        called |= dict.fromkeys(m for r, m in ranked if r == ranked[0][0])
+        best = max(best, ranked[0][0] if ranked else 0)
+    return best, list(called)
 
 
 def _in_degrees(letter: str, meaning: str, tree: Node, theory: Theory) -> str:
@@ -308,7 +330,16 @@ def compared(form: Formula, states: Probes, quantity: str) -> Nearness | None:
     middle = float(np.median(ratios))
     constant = bool(np.all(np.abs(ratios - middle) <= _SAME * (1 + abs(middle)))) and middle != 0
     away = min(float(np.max(np.abs(p - e))), float(np.max(np.abs(p + e)))) / float(np.max(np.abs(e)))
-    return Nearness(away=away, ratio=middle if constant else None, shift=turns is not None and _shifted(*turns))
+    return Nearness(
+        away=away,
+        ratio=middle if constant else None,
+        shift=turns is not None and _shifted(*turns) and _is_place(states.theory, quantity),
+    )
+
+
+def _is_place(theory: Theory, quantity: str) -> bool:
+    # what may be counted from another place
+    return kind_of(theory, trees.name(quantity)) in (ANGLE, kind_of_unit("m"), kind_of_unit("m^3"))
 
 
 def _shifted(printed: np.ndarray, expected: np.ndarray) -> bool:
@@ -318,6 +349,17 @@ def _shifted(printed: np.ndarray, expected: np.ndarray) -> bool:
     moves = np.ptp(expected.reshape(_TURNS, _STEPS), axis=1)
     rests = [np.ptp((printed - sign * expected).reshape(_TURNS, _STEPS), axis=1) for sign in (1, -1)]
     return bool(np.all(moves > 0)) and any(bool(np.all(rest <= _SAME * moves)) for rest in rests)
+
+
+@record
+class Near:
+    """A formula beside a quantity of a theory that it may be."""
+
+    away: float  #: Largest difference by the quantity's largest size; 0 where it is the quantity [-]
+    fitted: Fitted
+    form: Formula
+    quantity: str  #: Empty where it is near to none
+    states: Probes
 
 
 _SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi) for power in (1, -1))

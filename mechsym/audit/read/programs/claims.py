@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
@@ -33,6 +34,7 @@ class Claim:
     values: Mapping[str, Node] = field(default_factory=dict)
     abouts: Mapping[str, str] = field(default_factory=dict)
     parameters: Sequence[str] = ()
+    last: bool = False  #: Of a function that gives nothing back by `return`: what it ends with
 
 
 @record
@@ -93,9 +95,16 @@ def _reading(program: ProgramText) -> Reading:
         build.run(scope.body, 0)
         if scope is program.scopes[0]:
             globals_ = build
-        claims += build.claims
+        claims += _with_last(build.claims)
     assigned = sum(_count(scope.body) for scope in program.scopes)
     return Reading(names=[s.name for s in program.scopes], assigned=assigned, claims=claims, functions=functions)
+
+
+def _with_last(claims: Sequence[Claim]) -> Sequence[Claim]:
+    # MATLAB and Fortran give back what a name has at the end
+    if not claims or not claims[-1].scope or any(c.name == "return" for c in claims):
+        return claims
+    return [*claims[:-1], replace(claims[-1], last=True)]
 
 
 def _count(body: Sequence[Statement]) -> int:
@@ -173,6 +182,7 @@ class _Build:
         self.values: dict[str, Node] = {}
         self.claims: list[Claim] = []
         self.counts: dict[str, int] = {}
+        self.on_line = Counter(let.line for let in _lets(scope.body))
 
     def run(self, body: Sequence[Statement], case: int) -> None:
         """Go through statements."""
@@ -243,6 +253,8 @@ class _Build:
 
     def _about(self, let: Let) -> str:
         comments, alone = self.program.comments, self.program.alone
+        if self.on_line[let.line] > 1:
+            return ""  # which of them it is about, nobody knows
         if let.line in comments and let.line not in alone:
             return comments[let.line]
         return comments[let.line - 1] if let.line - 1 in alone else ""

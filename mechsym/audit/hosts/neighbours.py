@@ -1,0 +1,174 @@
+"""The formulas of one program held against theories: each by itself, and in the light of those that stand beside it.
+
+A formula that is the quantity that its name says shows what the letters of its file mean. What is near to a quantity in
+the same letters is told then also where its names alone say too little, and a convention that only this one formula
+would have is none.
+"""
+
+import ast
+from collections.abc import Iterator, Sequence
+from itertools import islice
+
+from mechsym.audit.hosts.slips import slip
+from mechsym.audit.judge.lexicon import (
+    Fitted,
+    Lexicon,
+    Near,
+    Probes,
+    at_rest,
+    compared,
+    formula,
+    is_slip,
+    nearest,
+    of_same_letters,
+    of_units,
+    readings,
+)
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.programs.claims import Claim, base
+from mechsym.audit.read.reader import Formula
+from mechsym.audit.row import Row
+from mechsym.errors import BadInput
+
+_NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
+_WITNESSES = 2  # formulas that agree beside one that is more than a slip away
+_HEAVY = 8  # operations of a formula that comes to no quantity by chance
+_ASKED = 4  # quantities that a slip of a formula is searched for
+
+
+class Neighbours:
+    """The claims of a program with what they are in theories."""
+
+    def __init__(self, claims: Sequence[Claim], vocabularies: Sequence[Lexicon]) -> None:
+        self.vocabularies = vocabularies
+        self.near = {id(claim): list(self._near(claim)) for claim in claims}
+        self.witnesses = [
+            near
+            for every in self.near.values()
+            for near in every
+            if near.away == 0.0 and near.quantity in near.fitted.quantities and len(near.fitted.meanings) > 1
+        ]
+
+    def outcome(self, claim: Claim) -> Row | None:
+        """The best of what theories say of a claim: it agrees with one, is a slip away from one, or differs from it."""
+        every = self.near[id(claim)]
+        if not every:
+            return None
+        for near in every:
+            if near.away == 0.0 and (near.quantity in near.fitted.quantities or not self._clashes(near)):
+                return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"}
+        beside = [(near, self._beside(near)) for near in every if near.quantity]
+        beside.sort(
+            key=lambda b: (
+                not b[0].fitted.quantities, not b[1], len(at_rest(b[0].fitted.theory, b[0].form)), b[0].away,
+            )
+        )  # fmt: skip
+        worse = None
+        for near, others in islice(((n, o) for n, o in beside if n.away and _is_told(n, o)), _ASKED):
+            row = slip(near, others, self._of_angle(near))
+            if row is not None and row["verdict"] == "wrong":
+                worse = worse or _wrong(row, near, others)
+            elif row is not None:
+                return row
+        return worse or {"verdict": "", "claim": ""}
+
+    def _clashes(self, near: Near) -> bool:
+        # by number it is a quantity of another name, with a letter that elsewhere in the program means something else
+        own = {base(k): m for k, m in near.fitted.meanings.items()}
+        for other in self.witnesses:
+            if other.fitted.theory is near.fitted.theory:
+                meant = {base(k): m for k, m in other.fitted.meanings.items()}
+                taken = {m: k for k, m in meant.items()}
+                if any(meant.get(k, m) != m or taken.get(m, k) != k for k, m in own.items()):
+                    return True
+        return False
+
+    def _of_angle(self, near: Near) -> list[Near]:
+        """Witnesses of any theory that count the same angle."""
+        angles = {base(k) for k, m in near.fitted.meanings.items() if base(m) == near.fitted.theory.angle}
+        return [
+            other
+            for other in self.witnesses
+            if other.fitted.claim is not near.fitted.claim
+            and any(base(k) in angles and m == other.fitted.theory.angle for k, m in other.fitted.meanings.items())
+        ]
+
+    def _near(self, claim: Claim) -> Iterator[Near]:
+        several = len(set(trees.letters(claim.tree)) - {"pi"}) > 1  # twice a name is no formula of what it stands for
+        for vocabulary in self.vocabularies:
+            for fitted in readings(claim, vocabulary):
+                if not several and len(fitted.meanings) > 1:
+                    continue
+                try:
+                    form = formula(fitted)
+                except BadInput:
+                    continue
+                states = vocabulary.states(form)
+                met = list(_met(fitted, form, states))
+                for away, quantity in met:
+                    yield Near(away=away, fitted=fitted, form=form, quantity=quantity, states=states)
+                if not met and len(fitted.meanings) > 1:
+                    yield Near(away=1.0, fitted=fitted, form=form, quantity="", states=states)
+
+    def _beside(self, near: Near) -> list[Near]:
+        # other quantities of the theory that other formulas are, and no letter means something else in them
+        if near.fitted.quantities and near.quantity not in near.fitted.quantities:
+            return []
+        meant = {base(k): m for k, m in near.fitted.meanings.items()}
+        return [
+            other
+            for other in self.witnesses
+            if other.fitted.theory is near.fitted.theory
+            and other.quantity != near.quantity
+            and other.fitted.claim is not near.fitted.claim
+            and all(meant.get(base(k), m) == m for k, m in other.fitted.meanings.items())
+        ]
+
+
+def _met(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
+    seen = set()
+    for quantity in fitted.quantities:
+        met = compared(form, states, quantity)
+        if met is not None:
+            seen.add(quantity)
+            right = of_units(met.ratio) or met.shift
+            if right or is_slip(met.ratio):
+                yield (0.0 if right else max(met.away, 1e-9)), quantity
+    many = len(fitted.meanings)
+    if many > 2 or many > 1 and fitted.strong and seen:
+        for away, quantity in nearest(fitted, form, states):
+            if quantity not in seen and (away == 0.0 or not fitted.quantities and away <= _NEAR):
+                yield away, quantity
+
+
+def _is_told(near: Near, beside: Sequence[Near]) -> bool:
+    """Whether names, neighbours or its size say that a formula is meant to be a quantity."""
+    fitted = near.fitted
+    many, strong = len(fitted.meanings), fitted.strong
+    if near.quantity not in fitted.quantities:
+        alike = bool(beside) and of_same_letters(fitted.theory, near.form, near.quantity)
+        return near.away <= _NEAR and many > 2 and (strong > 1 or alike) and not _chooses(near.form)
+    if many == strong and many > 1 or many > 4 and strong > 1 or near.away <= _NEAR and many > 2 and strong > 0:
+        return True
+    if beside:
+        return many > 1 or fitted.rank > 2
+    return many > 2 and _operations(near.form) >= _HEAVY
+
+
+def _chooses(form: Formula) -> bool:
+    # (a + b + abs(a - b))/2 is the larger of two
+    return any(isinstance(n, ast.Name) and n.id in ("abs", "max", "min") for n in ast.walk(form.tree))
+
+
+def _operations(form: Formula) -> int:
+    return sum(isinstance(n, (ast.BinOp, ast.Call)) for _, n in trees.walk(form.tree))
+
+
+def _wrong(row: Row, near: Near, beside: Sequence[Near]) -> Row | None:
+    # more than a slip away: told only where the letters are certainly understood
+    quantities = sorted({other.quantity for other in beside if len(other.fitted.meanings) > 2})
+    nearer = any(away <= near.away and q != near.quantity for away, q in nearest(near.fitted, near.form, near.states))
+    sure = len(quantities) >= _WITNESSES and of_same_letters(near.fitted.theory, near.form, near.quantity)
+    if nearer or not sure or list(near.fitted.quantities) != [near.quantity]:
+        return None
+    return row | {"note": f"in the same letters {' and '.join(quantities)} of this file agree"}
