@@ -1,5 +1,6 @@
 """Whole files and folders of programs: slips are found, and what only looks alike is left alone."""
 
+import ast
 import json
 import random
 
@@ -148,6 +149,15 @@ def test_whole_numbers_of_c_divide_as_c_divides_them():
     pytest.importorskip("tree_sitter")
     (claim,) = read_program("double f(double r, double h) { return 1/3*r*r*h; }", ".c").claims
     assert to_python(claim.tree) == "0*r*r*h"
+
+
+@pytest.mark.parametrize(
+    "text", ["b/4*(r + a)", "b**2*(r + a)", "b + 4 + (r + a)", "b**2 - (r + a)", "b*2.5**(r - a)", "b/2/(r + a)"]
+)
+def test_numbers_before_brackets_of_julia(text):
+    pytest.importorskip("tree_sitter")
+    (claim,) = read_program(f"y = {text.replace('**', '^').replace(' ', '')}\n", ".jl").claims
+    assert to_python(claim.tree) == to_python(ast.parse(text, mode="eval").body)
 
 
 def test_fields_indices_loops_and_other_letters():

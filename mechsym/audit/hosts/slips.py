@@ -93,21 +93,38 @@ def _holds_beside(near: Near, chosen: tuple[str, ...], own: Mapping[str, str]) -
 _NO_SLIP = {"left out", "put back", "degrees", "unit"}
 
 
-def _explains(repair: Repair, tree: Node, own: Mapping[str, str], named: bool) -> bool:
+def _explains(repair: Repair, near: Near, tree: Node, own: Mapping[str, str], beside: Sequence[Near]) -> bool:
     # nobody mistakes a variable for one that the program has not; a limit of long rods is a step, too
     if repair.max_rel_error >= _EXACT or not set(letters(repair.tree)) <= {*own, "pi"}:
         return False
     # where neighbours agree, a power that is lost of a letter that stands there is no step on the way
-    steps = _NO_SLIP - ({"put back"} if named and set(letters(repair.tree)) == set(letters(tree)) else set())
-    return not any(edit.kind in steps or _counts_otherwise(edit.new, tree) for edit in repair.edits)
+    whole = beside and near.quantity in near.fitted.quantities and set(letters(repair.tree)) == set(letters(tree))
+    steps = _NO_SLIP - ({"put back"} if whole else set())
+    plain = {m for other in beside for m in other.fitted.meanings.values()}
+    counted = (own.get(_counted_otherwise(edit.new, tree), "pi") for edit in repair.edits)
+    if any(edit.kind in steps for edit in repair.edits) or any(m != "pi" and m not in plain for m in counted):
+        return False
+    return not _is_idle(repair.tree, near.form, near.states)
 
 
-def _counts_otherwise(new: Node, tree: Node) -> bool:
+def _is_idle(tree: Node, form: Formula, states: Probes) -> bool:
+    # an edit that makes a difference of what is alike takes a term away, as none mistypes it
+    for _, node in trees.walk(tree):
+        if trees.is_operation(node, ast.Sub):
+            left, right = (
+                states.of(replace(form, tree=part)) if trees.letters(part) else None for part in (node.left, node.right)
+            )
+            if left is not None and right is not None and np.allclose(left, right, rtol=1e-9, atol=0.0):
+                return True
+    return False
+
+
+def _counted_otherwise(new: Node, tree: Node) -> str:
     # m becomes m + 1: an exponent, or a number of teeth, that its author counts in another way; not so m - 1 that does
     letter = _beside_one(new)
     if not letter or any(_beside_one(n) == letter for _, n in trees.walk(tree)):
-        return False
-    return sum(isinstance(n, ast.Name) and n.id == letter for _, n in trees.walk(tree)) == 1
+        return ""
+    return letter if sum(isinstance(n, ast.Name) and n.id == letter for _, n in trees.walk(tree)) == 1 else ""
 
 
 def _beside_one(tree: Node) -> str:
@@ -147,8 +164,7 @@ def slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row | 
     fitted, form, quantity, states = near.fitted, near.form, near.quantity, near.states
     if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
         return None
-    own = {safe(k): v for k, v in fitted.meanings.items()}
-    named = bool(beside) and quantity in fitted.quantities
+    own = {safe(k): v for k, v in {**fitted.meanings, **fitted.spare}.items()}
     twice, wrong = _is_of_two_alike(fitted, form, states), None
     printed, expected = states.values(states.random, form, quantity)
     good = np.isfinite(printed) & np.isfinite(expected)
@@ -159,10 +175,12 @@ def slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row | 
         row, repair = asked_once(to_python(tree), fitted.theory, quantity, own, rest, twice, beside, of_angle)
         if row["verdict"] in PASSED:
             return row | {"verdict": "agrees"}
-        if row["verdict"] == "misprint" and repair is not None and _explains(repair, tree, own, named):
-            row |= {"correction": to_python(_negative(repair.tree))} if turned else {}
-            meant = {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}
-            return _renamed(row, fitted) | {"letters": meant}
+        if row["verdict"] == "misprint" and repair is not None:
+            repair = replace(repair, tree=trees.substitute(repair.tree, lambda n: renamed_to(n, _own_names(own))))
+            if _explains(repair, near, tree, own, beside):
+                row |= {"correction": to_python(_negative(repair.tree) if turned else repair.tree)}
+                meant = {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}
+                return _renamed(row, fitted, own) | {"letters": meant}
         if row["verdict"] not in ("wrong", "nearer"):
             return None
         wrong = row | {"verdict": "wrong"}
@@ -184,9 +202,16 @@ def _is_negative(tree: Node) -> bool:
     return isinstance(tree, ast.UnaryOp) and isinstance(tree.op, ast.USub)
 
 
-def _renamed(row: Row, fitted: Fitted) -> Row:
+def _own_names(own: Mapping[str, str]) -> dict[str, str]:
+    # the program's letter for what the theory calls otherwise
+    return {meaning: letter for letter, meaning in own.items() if meaning.isidentifier() and meaning not in own}
+
+
+def _renamed(row: Row, fitted: Fitted, own: Mapping[str, str]) -> Row:
     # the program's own names again
-    names = {safe(k): base(k).replace(OF, ".") for k in fitted.meanings if safe(k) != k}
+    every = {**fitted.meanings, **fitted.spare}
+    plain = {safe(k): base(k).replace(OF, ".") for k in every}
+    names = {k: v for k, v in plain.items() if k != v} | {m: plain[k] for m, k in _own_names(own).items()}
     if not names:
         return row
     pattern = re.compile(rf"\b(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})\b")

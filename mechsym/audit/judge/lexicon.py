@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import islice, product
@@ -48,6 +49,7 @@ class Fitted:
     tree: Node  #: In the program's letters that have a meaning, other names put in
     meanings: Mapping[str, str]  #: Letter of the program to its meaning in the theory
     quantities: Sequence[str]  #: That the name is called like
+    spare: Mapping[str, str]  #: Other letters of its function that have one meaning, which no letter of it has
     strong: int  #: Letters that a word tells, and not a single sign
     rank: int  #: How well its name tells the quantities, as of `Lexicon.meanings`
 
@@ -125,7 +127,16 @@ class Lexicon:
                 rank = max(rank, 4)
             if rank > counts.get(meaning, 0):
                 counts[meaning] = rank
+        if slope := self._slope(name.rpartition(OF)[2]):
+            counts[slope] = 3
         return sorted(((r, m) for m, r in counts.items()), reverse=True)
+
+    def _slope(self, name: str) -> str:
+        # dV_dtheta: the slope of what V is, by the angle
+        match, angle = _DERIVATIVE.fullmatch(name), self.theory.angle
+        if not angle or not match or match["by"] not in (angle, *ANGLES):
+            return ""
+        return next((f"d{m}_d{angle}" for _, m in self.meanings(match["of"], "") if m in self.theory.results), "")
 
     def meaning(self, name: str, about: str) -> tuple[int, str]:
         """The one thing that a name means; empty where it means none or several alike."""
@@ -134,6 +145,7 @@ class Lexicon:
         return ranked[0] if ranked and not several else (0, "")
 
 
+_DERIVATIVE = re.compile(r"d_?(?P<of>\w+?)_?d_?(?P<by>[A-Za-z]+)")
 # (rad/sec) says nothing of a crank rad: what stands in brackets and has short words only
 _UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-z]))*[\])]")
 # a sign spelled out is no word
@@ -186,8 +198,21 @@ def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
         strong = sum(r > 1 for r, _ in reading)
         quantities = called if rank else ()
         yield Fitted(
-            theory=theory, claim=claim, tree=tree, meanings=meanings, quantities=quantities, strong=strong, rank=rank
+            theory=theory,
+            claim=claim,
+            tree=tree,
+            meanings=meanings,
+            quantities=quantities,
+            spare=_spare(claim, meanings, vocabulary),
+            strong=strong,
+            rank=rank,
         )
+
+
+def _spare(claim: Claim, meanings: Mapping[str, str], vocabulary: Lexicon) -> dict[str, str]:
+    told = {p: vocabulary.meaning(p, claim.abouts.get(p, ""))[1] for p in claim.parameters if p not in meanings}
+    counts = Counter([*told.values(), *meanings.values()])
+    return {p: m for p, m in told.items() if m.isidentifier() and counts[m] == 1}
 
 
 def _distinct(options: Sequence[Sequence[tuple[int, str]]]) -> Iterator[tuple[tuple[int, str], ...]]:
@@ -305,13 +330,22 @@ class Probes:
 
     def values(self, at: dict[str, Values], form: Formula, quantity: str) -> tuple[np.ndarray, np.ndarray]:
         """Numbers of a formula and of a quantity at states [unit of each]. Raises BadInput and ArithmeticError."""
-        count = len(next(v for k, v in at.items() if k != "pi"))
         with np.errstate(all="ignore"):
-            complete(self.theory, at, [quantity, *used_names(form)], FLOATS)
+            complete(self.theory, at, [quantity], FLOATS)
+        return self.of(form, at), _as_row(at[quantity], at)
+
+    def of(self, form: Formula, at: dict[str, Values] | None = None) -> np.ndarray:
+        """Numbers of a formula at states, those drawn where none are given [its unit]. Raises as `values`."""
+        at = self.random if at is None else at
+        with np.errstate(all="ignore"):
+            complete(self.theory, at, used_names(form), FLOATS)
             own = {k: evaluate(tree, at, FLOATS) for k, tree in form.letters.items()}
-            printed = evaluate(form.tree, {**at, **own}, FLOATS)
-        own_values, its = (np.broadcast_to(np.asarray(v, dtype=float), (count,)) for v in (printed, at[quantity]))
-        return own_values, its
+            return _as_row(evaluate(form.tree, {**at, **own}, FLOATS), at)
+
+
+def _as_row(values: Values, at: dict[str, Values]) -> np.ndarray:
+    count = len(next(v for k, v in at.items() if k != "pi"))
+    return np.broadcast_to(np.asarray(values, dtype=float), (count,))
 
 
 def compared(form: Formula, states: Probes, quantity: str) -> Nearness | None:
@@ -328,7 +362,7 @@ def compared(form: Formula, states: Probes, quantity: str) -> Nearness | None:
     with np.errstate(all="ignore"):
         ratios = p / e
     middle = float(np.median(ratios))
-    constant = bool(np.all(np.abs(ratios - middle) <= _SAME * (1 + abs(middle)))) and middle != 0
+    constant = bool(np.all(np.abs(ratios - middle) <= _SAME * abs(middle))) and middle != 0
     away = min(float(np.max(np.abs(p - e))), float(np.max(np.abs(p + e)))) / float(np.max(np.abs(e)))
     return Nearness(
         away=away,
@@ -362,7 +396,7 @@ class Near:
     states: Probes
 
 
-_SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi) for power in (1, -1))
+_SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi) for power in (1, -1, 0.5, -0.5))
 
 
 def is_slip(ratio: float | None) -> bool:
