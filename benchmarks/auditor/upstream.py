@@ -86,6 +86,25 @@ def slider_acceleration(r: float = 0.05, rod: float = 0.15, omega: float = 100.0
     return float(off.max() / np.abs(right).max()), float(np.degrees(a[np.argmax(off)]))
 
 
+def volume_at_right_angle() -> tuple[float, float]:
+    """Cylinder volume at 90 degrees as written and right [cm^3]: crank 27, rod 85, bore 68 mm, 5 cm^3 of clearance."""
+    crank, rod, bore = 2.7, 8.5, 6.8
+    pins = (np.sqrt(rod**2 + sign * crank**2) for sign in (1, -1))
+    written, right = (5 + np.pi * bore**2 / 4 * (rod + crank - pin) for pin in pins)
+    return float(written), float(right)
+
+
+def diesel_efficiency() -> tuple[float, float, float]:
+    """Efficiency of a Diesel cycle as written, by its heats and by its closed form; ratios 15 and 2, 1.4."""
+    r, cut, k, cold = 15.0, 2.0, 1.4, 300.0
+    warm = cold * r ** (k - 1)
+    hot = warm * cut
+    end = hot * (cut / r) ** (k - 1)
+    written = 1 - (end - cold) / (hot - warm) / r ** (k - 1)
+    by_heats = 1 - (end - cold) / (k * (hot - warm))
+    return written, by_heats, 1 - (cut**k - 1) / (k * (cut - 1) * r ** (k - 1))
+
+
 def main() -> None:
     """Print the numbers in the order of the page."""
     for target in (25, 35):
@@ -108,6 +127,12 @@ def main() -> None:
     print(
         "slider-crank-mech-edu: acceleration off by {:.0%} of its largest, at {:.0f} degrees".format(
             *slider_acceleration()
+        )
+    )
+    print("Combustion-Engine: at 90 degrees {:.1f} cm^3 as written, {:.1f} cm^3".format(*volume_at_right_angle()))
+    print(
+        "Python-Programs: efficiency {:.3f} as written, {:.3f} by its heats, {:.3f} in closed form".format(
+            *diesel_efficiency()
         )
     )
     swept = np.pi * 0.04**2 * 0.02 / 2

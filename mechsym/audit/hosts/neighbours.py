@@ -7,6 +7,7 @@ would have is none.
 
 import ast
 from collections.abc import Iterator, Sequence
+from difflib import SequenceMatcher
 from itertools import islice
 
 from mechsym.audit.hosts.slips import slip
@@ -27,6 +28,7 @@ from mechsym.audit.judge.lexicon import (
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import Claim, base
 from mechsym.audit.read.reader import Formula
+from mechsym.audit.read.spelling import to_python
 from mechsym.audit.row import Row
 from mechsym.errors import BadInput
 
@@ -63,13 +65,20 @@ class Neighbours:
                 not b[0].fitted.quantities, not b[1], len(at_rest(b[0].fitted.theory, b[0].form)), b[0].away,
             )
         )  # fmt: skip
-        worse = None
+        worse, misprints = None, []
         for near, others in islice(((n, o) for n, o in beside if n.away and _is_told(n, o)), _ASKED):
             row = slip(near, others, self._of_angle(near))
             if row is not None and row["verdict"] == "wrong":
                 worse = worse or _wrong(row, near, others)
+            elif row is not None and row["verdict"] == "misprint":
+                misprints.append(row)
             elif row is not None:
                 return row
+        # of two quantities that are a slip away the one whose formula is most like what stands there
+        text = to_python(claim.tree)
+        likeness = [SequenceMatcher(None, text, row["correction"]).ratio() for row in misprints]
+        if misprints:
+            return misprints[likeness.index(max(likeness))]
         return worse or {"verdict": "", "claim": ""}
 
     def _clashes(self, near: Near) -> bool:

@@ -1,6 +1,7 @@
 """Claims of a program: each assigned name with its formula, and what the names in that formula stand for."""
 
 import ast
+import math
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -19,6 +20,8 @@ ENDS = (".py", ".ipynb", ".mo", *GRAMMARS)  #: Of the names of files that are re
 _LONGEST, _LONGEST_NOTEBOOK = 1_000_000, 50_000_000  # characters; a notebook's pictures among them
 # before the number of a name's later values: changed with regard to the one before, or given in branches alone
 _AGAIN, _ANEW = "__v", "__w"
+
+_PI = {round(math.pi, digits) for digits in range(2, 16)} | {3.1415, 3.141592, 3.14159265}
 
 
 @record
@@ -232,9 +235,7 @@ class _Build:
         except (Opaque, BadInput, RecursionError):
             tree = None
         if tree is not None:
-            tree = trees.substitute(
-                tree, lambda n: trees.name(self.names[n.id]) if isinstance(n, ast.Name) and n.id in self.names else None
-            )
+            tree = trees.substitute(tree, self._meant)
         about = self._about(let)
         if let.name == "return":
             if tree is not None:
@@ -250,6 +251,13 @@ class _Build:
         if trees.letters(tree) and trees.letters(tree) != ("pi",):
             self._claim(let, tree, about or self.abouts.get(let.name, ""), case)
         self.values[letter] = tree
+
+    def _meant(self, node: Node) -> Node | None:
+        # a name as it stands by now, and pi for its digits
+        if isinstance(node, ast.Name) and node.id in self.names:
+            return trees.name(self.names[node.id])
+        digits = isinstance(node, ast.Constant) and node.value in _PI
+        return trees.name("pi") if digits and "pi" not in self.names else None
 
     def _about(self, let: Let) -> str:
         comments, alone = self.program.comments, self.program.alone
