@@ -8,22 +8,20 @@ would have is none.
 import ast
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
+from functools import cache
 from itertools import islice
 
 from mechsym.audit.hosts.slips import slip
-from mechsym.audit.judge.lexicon import (
-    Fitted,
-    Lexicon,
+from mechsym.audit.judge.lexicon import Fitted, Lexicon, formula, readings
+from mechsym.audit.judge.nearness import (
     Near,
     Probes,
     at_rest,
     compared,
-    formula,
     is_slip,
     nearest,
     of_same_letters,
     of_units,
-    readings,
 )
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import Claim, base
@@ -112,7 +110,7 @@ class Neighbours:
                     form = formula(fitted)
                 except BadInput:
                     continue
-                states = vocabulary.states(form)
+                states = _states(vocabulary, at_rest(fitted.theory, form))
                 met = list(_met(fitted, form, states))
                 for away, quantity in met:
                     yield Near(away=away, fitted=fitted, form=form, quantity=quantity, states=states)
@@ -132,6 +130,12 @@ class Neighbours:
             and other.fitted.claim is not near.fitted.claim
             and all(meant.get(base(k), m) == m for k, m in other.fitted.meanings.items())
         ]
+
+
+@cache
+def _states(vocabulary: Lexicon, rest: tuple[str, ...]) -> Probes:
+    # where numbers are compared: what a formula does not have, and may be none, is none
+    return Probes(vocabulary.theory, rest)
 
 
 def _met(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:

@@ -12,7 +12,8 @@ from pathlib import Path
 from mechsym.audit.hosts.neighbours import Neighbours
 from mechsym.audit.hosts.slips import asked_once, renamed_to
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.judge.lexicon import ANGLES, Lexicon, Probes, compared, of_units, safe
+from mechsym.audit.judge.lexicon import ANGLES, Lexicon, safe
+from mechsym.audit.judge.nearness import Probes, compared, of_units
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, inlined, longest, read_program
 from mechsym.audit.read.programs.statements import OF

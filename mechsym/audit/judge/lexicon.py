@@ -7,19 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import islice, product
 
-import numpy as np
-
-from mechsym.audit.judge.dimensions import ANGLE, kind_of, kind_of_unit
-from mechsym.audit.judge.question import Question, drawn, float_values, used_names
 from mechsym.audit.read import tree as trees
-from mechsym.audit.read.algebra import FLOATS, Values, evaluate
 from mechsym.audit.read.programs.claims import Claim, base, inlined
 from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import RESERVED, Formula, read_expression
 from mechsym.audit.read.tree import Node, letters
-from mechsym.audit.theory.record import Theory, complete, dependencies, known
-from mechsym.audit.theory.tape import needed
-from mechsym.errors import BadInput
+from mechsym.audit.theory.record import Theory, known
 from mechsym.quantities import record
 
 # what the angle that turns, and its rates, are called in programs
@@ -27,17 +20,6 @@ ANGLES = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "cranka
 _RATES = {"d": ("omega", "w", "angular velocity", "angular speed"), "dd": ("alpha", "angular acceleration")}
 _LEAST_LETTERS = 3  # of a formula that is told by its numbers and not by its name
 _MEANINGS, _TRIED, _READINGS = 3, 200, 4  # of a letter; of a formula at most: looked at, and held against numbers
-_POINTS, _TURNS, _STEPS = 24, 4, 7  # states at which numbers are compared, and of turns
-_SAME = 1e-9
-# factors by which units differ: degrees, minutes, inches and feet, thousands
-_SCALES = (1.0, np.pi / 180, 60.0, 2 * np.pi, np.pi / 30, 12.0, 25.4, 0.3048, 25.4**2, 25.4**3)
-_UNITS = tuple(
-    sign * 10.0**n * scale**power
-    for n in (-9, -6, -3, -2, -1, 0, 1, 2, 3, 5, 6, 9)
-    for scale in _SCALES
-    for power in (1, -1)
-    for sign in (1.0, -1.0)
-)
 
 
 @record
@@ -88,14 +70,6 @@ class Lexicon:
         self.heads = {_joined(phrase) for phrase, _ in self.phrases}
         self.parts = {word for phrase, _ in self.phrases for word in phrase if len(word) > 2}
         self.known: dict[tuple[str, str], list[tuple[int, str]]] = {}
-        self._states: dict[tuple[str, ...], Probes] = {}
-
-    def states(self, form: Formula) -> "Probes":
-        """Where the numbers of a formula are compared: what it does not have, and may be none, is none."""
-        rest = at_rest(self.theory, form)
-        if rest not in self._states:
-            self._states[rest] = Probes(self.theory, rest)
-        return self._states[rest]
 
     def touches(self, names: Iterable[str]) -> bool:
         """Whether two names at least may mean something here."""
@@ -279,145 +253,3 @@ def safe(letter: str) -> str:
     """A program's name as a letter that a formula may hold."""
     plain = letter.replace("__v", "_").replace("__w", "_").replace(OF, "_").strip("_") or "x"
     return f"{plain}_own" if plain in RESERVED or plain in ("lambda", "in", "is", "if", "as", "or") else plain
-
-
-def at_rest(theory: Theory, form: Formula) -> tuple[str, ...]:
-    """Letters that a formula does not have and that are 0 in many machines: an offset, the angular acceleration."""
-    used = {m for tree in form.letters.values() for m in letters(tree)}
-    offsets = [k for k, about in theory.letters.items() if about.unit == "m" and about.sign == "any"]
-    rates = [f"{theory.angle}dd"] if theory.angle and f"{theory.angle}d" in used else []
-    return tuple(k for k in (*offsets, *rates) if k not in used)
-
-
-def of_same_letters(theory: Theory, form: Formula, quantity: str) -> bool:
-    """Whether a formula has the letters that a quantity is made of, or names made of them, and no other."""
-    used = {m for tree in form.letters.values() for m in letters(tree)} - {"pi"}
-    reached: set[str] = set()
-    waiting = [quantity]
-    while waiting:
-        wish = waiting.pop()
-        if wish not in reached and (wish not in used or wish == quantity):
-            reached.add(wish)
-            waiting += needed(theory.tape[wish]) if wish in theory.tape else []
-    lacking = reached & theory.letters.keys() - used - {*at_rest(theory, form)}
-    return not lacking and used <= dependencies(theory, [quantity])
-
-
-@record
-class Nearness:
-    """Numbers of a formula beside those of a quantity, at random states."""
-
-    away: float  #: Largest difference by the quantity's largest size [-]
-    ratio: float | None  #: Where the formula is the quantity times one number [-]
-    shift: bool  #: Whether it is the quantity, of either sign, but for what does not turn
-
-
-class Probes:
-    """Random states of a theory, and turns of its angle from four of them, with the values of its names as needed."""
-
-    def __init__(self, theory: Theory, rest: Sequence[str] = ()) -> None:
-        self.theory = theory
-        question = Question(formula=Formula(tree=trees.number(1)), theory=theory, quantity=theory.results[-1])
-        draws = float_values(drawn(question, _POINTS, seed=5))
-        self.random: dict[str, Values] = {"pi": np.pi, **draws}
-        few = float_values(drawn(question, _TURNS, seed=6))
-        turned = {k: np.repeat(v, _STEPS) for k, v in few.items()}
-        if theory.angle:
-            turned[theory.angle] = np.tile(np.linspace(0.3, 5.9, _STEPS), _TURNS)
-        for letter in rest:
-            self.random[letter], turned[letter] = np.zeros(_POINTS), np.zeros(_TURNS * _STEPS)
-        self.turned: dict[str, Values] = {"pi": np.pi, **turned}
-
-    def values(self, at: dict[str, Values], form: Formula, quantity: str) -> tuple[np.ndarray, np.ndarray]:
-        """Numbers of a formula and of a quantity at states [unit of each]. Raises BadInput and ArithmeticError."""
-        with np.errstate(all="ignore"):
-            complete(self.theory, at, [quantity], FLOATS)
-        return self.of(form, at), _as_row(at[quantity], at)
-
-    def of(self, form: Formula, at: dict[str, Values] | None = None) -> np.ndarray:
-        """Numbers of a formula at states, those drawn where none are given [its unit]. Raises as `values`."""
-        at = self.random if at is None else at
-        with np.errstate(all="ignore"):
-            complete(self.theory, at, used_names(form), FLOATS)
-            own = {k: evaluate(tree, at, FLOATS) for k, tree in form.letters.items()}
-            return _as_row(evaluate(form.tree, {**at, **own}, FLOATS), at)
-
-
-def _as_row(values: Values, at: dict[str, Values]) -> np.ndarray:
-    count = len(next(v for k, v in at.items() if k != "pi"))
-    return np.broadcast_to(np.asarray(values, dtype=float), (count,))
-
-
-def compared(form: Formula, states: Probes, quantity: str) -> Nearness | None:
-    """A formula's numbers beside a quantity's; None where there are none."""
-    try:
-        printed, expected = states.values(states.random, form, quantity)
-        turns = states.values(states.turned, form, quantity) if states.theory.angle else None
-    except (BadInput, ArithmeticError, ValueError, KeyError, RecursionError):
-        return None
-    good = np.isfinite(expected) & np.isfinite(printed)
-    if np.count_nonzero(good) < _POINTS // 2 or not np.any(expected[good]):
-        return None
-    p, e = printed[good], expected[good]
-    with np.errstate(all="ignore"):
-        ratios = p / e
-    middle = float(np.median(ratios))
-    constant = bool(np.all(np.abs(ratios - middle) <= _SAME * abs(middle))) and middle != 0
-    away = min(float(np.max(np.abs(p - e))), float(np.max(np.abs(p + e)))) / float(np.max(np.abs(e)))
-    return Nearness(
-        away=away,
-        ratio=middle if constant else None,
-        shift=turns is not None and _shifted(*turns) and _is_place(states.theory, quantity),
-    )
-
-
-def _is_place(theory: Theory, quantity: str) -> bool:
-    # what may be counted from another place
-    return kind_of(theory, trees.name(quantity)) in (ANGLE, kind_of_unit("m"), kind_of_unit("m^3"))
-
-
-def _shifted(printed: np.ndarray, expected: np.ndarray) -> bool:
-    # counted from another place: the difference does not change with the angle
-    if not np.all(np.isfinite(printed)) or not np.all(np.isfinite(expected)):
-        return False
-    moves = np.ptp(expected.reshape(_TURNS, _STEPS), axis=1)
-    rests = [np.ptp((printed - sign * expected).reshape(_TURNS, _STEPS), axis=1) for sign in (1, -1)]
-    return bool(np.all(moves > 0)) and any(bool(np.all(rest <= _SAME * moves)) for rest in rests)
-
-
-@record
-class Near:
-    """A formula beside a quantity of a theory that it may be."""
-
-    away: float  #: Largest difference by the quantity's largest size; 0 where it is the quantity [-]
-    fitted: Fitted
-    form: Formula
-    quantity: str  #: Empty where it is near to none
-    states: Probes
-
-
-_SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi) for power in (1, -1, 0.5, -0.5))
-
-
-def is_slip(ratio: float | None) -> bool:
-    """Whether a ratio [-] is one that is lost or taken twice; another one is somebody's own number."""
-    return ratio is None or any(abs(abs(ratio) / k - 1) < 1e-5 for k in _SLIPS)
-
-
-def of_units(ratio: float | None) -> bool:
-    """Whether a ratio of numbers [-] is one of units, or of sign alone."""
-    return ratio is not None and any(abs(ratio / u - 1) < 1e-5 for u in _UNITS)
-
-
-def nearest(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
-    """Quantities whose numbers a formula comes near to, the nearest first, with how far it is off [-]."""
-    theory = fitted.theory
-    used = {m for t in form.letters.values() for m in letters(t)}
-    near = []
-    for quantity in theory.results:
-        needed = dependencies(theory, [quantity])
-        if quantity in used or not used & needed or isinstance(theory.tape[quantity], tuple):
-            continue
-        if (met := compared(form, states, quantity)) is not None:
-            near.append((0.0 if of_units(met.ratio) or met.shift else met.away, quantity))
-    yield from sorted(near)
