@@ -27,7 +27,7 @@ from mechsym.machine.loads import Load, PropellerLoad, TableLoad
 from mechsym.mechanisms.proportions import Proportions
 from mechsym.mechanisms.shaft import ElasticShaft
 from mechsym.plausible import Doubt, inputs, piston_speed, proportion, proportions
-from mechsym.quantities.units import NewtonMetre
+from mechsym.quantities.units import Newton, NewtonMetre
 
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
@@ -41,6 +41,7 @@ _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _RPM = 30 / math.pi  # rpm of one rad/s
 _DIGITS = 1e-3  # within which two numbers have the same digits, of the larger
 _WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
+_OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its joints, by its length [-]
 _CARRIES = 10.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
 _LEADS = math.pi / 4  # how far pistons of one chamber lead and lag at the most [rad]
 _LATE = 0.9  # of a run, from when on a drive has no time to show what it does
@@ -263,6 +264,14 @@ def by_links(
     return tuple(worst.values())
 
 
+def by_force(listing: "Listing", letters: Mapping[str, float], force: Newton) -> tuple[Doubt, ...]:
+    """The largest force that joints bear by the stoutest link.
+
+    listing: as stored of the declaration. letters: values of the parameters [SI].
+    """
+    return tuple(_stress(listing.get("links", ()), letters, force, 0.0, "of the joints"))
+
+
 def linked(listing: "Listing", letters: Mapping[str, float]) -> float:
     """Mass of all links with two joints and more [kg].
 
@@ -293,7 +302,9 @@ def _masses(
             yield from proportion("link_density", what, letters[name] / longest**3)
 
 
-def _stress(links: Sequence[Json], letters: Mapping[str, float], force: float, torque: float) -> Iterator[Doubt]:
+def _stress(
+    links: Sequence[Json], letters: Mapping[str, float], force: float, torque: float, of: str = "of [inputs]"
+) -> Iterator[Doubt]:
     r"""A force and a torque by the section A of the stoutest link, a square bar of steel of its mass and length.
 
     .. math:: F/A, \qquad 6 M / A^{3/2}
@@ -301,7 +312,7 @@ def _stress(links: Sequence[Json], letters: Mapping[str, float], force: float, t
     lengths = [(_number(link["mass"], letters), _length(link, letters)) for link in links]
     section = max((mass / (_STEEL * length) for mass, length in lengths if length > 0), default=0.0)
     if section > 0:
-        what = "largest force of [inputs] / section of the stoutest link"
+        what = f"largest force {of} / section of the stoutest link"
         yield from proportion("link_stress", what, force / section)
         what = "largest torque that bends / section modulus of the stoutest link"
         yield from proportion("link_stress", what, 6 * torque / section**1.5)
@@ -358,12 +369,15 @@ def _of(
             about = f"inertia of {name} / (mass * (twice its centre from its joint)^2)"
             yield from proportion("link_needle", about, inertia / (mass * length**2))
             about, wide = f"inertia of {name} / (mass * (longest link)^2)", inertia / (mass * longest**2)
-            if link["turns"] not in rotors and wide > 1:  # a wheel as wide as the machine, and no flywheel
+            if wide > 1:  # a wheel as wide as the machine; a flywheel is not so much wider
                 yield from proportion("link_inertia", about, wide, _WHEEL)
         return
     share = inertia / (moving * length**2) if moving > 0 and not mass else 0.0
     if link["turns"] in rotors and 0 < share < 1:  # a crank that is given by its inertia alone, and no heavy flywheel
         yield from proportion("inertia", f"inertia of {name} / (moving mass * throw^2)", share)
+    if link["turns"] in rotors and mass > 0 and inertia > mass * longest**2:
+        yield from proportion("link_inertia", f"inertia of {name} / (mass * (longest link)^2)",
+                              inertia / (mass * longest**2), _WHEEL)  # fmt: skip
     if link["turns"] in rotors or link["turns"] and link["centre"] == list(link["pivot"] or ()):
         inertia = 0.0  # of a flywheel
     # webs, discs and counterweights of a crank are wider than its throw
@@ -372,7 +386,8 @@ def _of(
         yield from proportion("link_density", f"mass of {name} / ({of})^3", mass / size**3)
         middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True))
         away = math.dist(_point(link["centre"], letters), middle)
-        yield from proportion("link_centre", f"centre of {name} from the middle of its joints / {of}", away / size)
+        what = f"centre of {name} from the middle of its joints / {of}"
+        yield from proportion("link_centre", what, away / size, None if link["turns"] else _OF_ROD)
         about, ratio = f"inertia of {name} / (mass * ({of})^2)", inertia / (mass * size**2)
         if inertia and link["turns"]:
             yield from proportion("link_needle", about, ratio, _CARRIES)

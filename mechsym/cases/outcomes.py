@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cases.laws import by_links, fired, linked
+from mechsym.cases.laws import by_force, by_links, fired, linked
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.motion import pistons_of, travel_of
@@ -77,14 +77,17 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     dynamics = mechanism.functions["dynamics"]
     inertia = np.asarray(dynamics(phi, *[0.0] * (dynamics.n_in() - 1))[0]).ravel()
     closed = np.isfinite(inertia)
+    if not closed.all():
+        return proportion("open_loop", "operation: share of a turn in which the loops close", float(closed.mean()))
+    inner = _borne(case, mechanism, phi)
     bores = [getattr(case.sections.get(name), "bore", None) for name in ("chamber", "cycle")]
     bore = next(filter(None, bores), None)
-    if bore is None or not closed.all():
-        return proportion("open_loop", "operation: share of a turn in which the loops close", float(closed.mean()))
+    if bore is None:
+        return inner
     travels = [travel_of(mechanism, piston.travel)(phi) for piston in pistons_of(case.mechanism)]
     x, dx = (np.array([np.asarray(travel[k]).ravel() for travel in travels]) for k in (0, 1))
     stroke, area, omega = float(np.ptp(x, axis=1).max()), math.pi / 4 * bore**2, case.need("operation").speed
-    raised = proportions(stroke, None, omega, fired(case.sections))
+    raised = inner + proportions(stroke, None, omega, fired(case.sections))
     raised += proportion("stroke_ratio", "stroke of the pistons / bore", stroke / bore)
     squares = (dx**2).sum(axis=0)
     columns = np.stack([np.ones(inertia.size), squares], axis=1)
@@ -99,6 +102,19 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     work = 1e6 * area * stroke * len(x)  # at ten bar, about full load
     return raised + (proportion("shaft_energy", "work of a turn / energy of the shaft", work / (least * omega**2))
                     if least > 0 and omega else ())  # fmt: skip
+
+
+def _borne(case: Case, mechanism: Mechanism, phi: np.ndarray) -> tuple[Doubt, ...]:
+    """What joints bear at the speed of operation by inertia alone, by the stoutest link; none where none is known."""
+    reactions, q = mechanism.functions.get("reactions"), mechanism.coordinates[0]
+    listing = plan_of(case.mechanism).listing(None)
+    if reactions is None or any(doubt.code == "point_speed" for doubt in case.doubts):  # one slip is told once
+        return ()
+    at = {q: phi, f"{q}d": case.need("operation").speed}
+    forces = reactions(*(at.get(name, 0.0) for name in reactions.name_in()))
+    pairs = zip(reactions.name_out(), forces if isinstance(forces, (tuple, list)) else [forces], strict=True)
+    borne = [float(np.nanmax(np.abs(np.asarray(v)))) for name, v in pairs if name in listing.get("reactions", {})]
+    return by_force(listing, asdict(case.need("parameters")), max(borne, default=0.0))
 
 
 def of_run(
@@ -148,13 +164,19 @@ def of_forces(case: Case, forces: Forces) -> tuple[Doubt, ...]:
     vectors = [*((pin.x, pin.y) for pin in forces.loads.pins), *forces.loads.bearings.values()]
     largest = max((float(np.hypot(x, y).max()) for x, y in vectors), default=0.0)
     largest = max([largest, *(float(np.abs(side).max()) for side in forces.loads.guides.values())])
+    listing = plan_of(case.mechanism).listing(None)
+    borne = [
+        float(np.abs(forces.columns[name]).max()) for name in listing.get("reactions", {}) if name in forces.columns
+    ]
+    stress = by_force(listing, asdict(case.need("parameters")), max(borne, default=0.0))
     doubts = of_gas(case, forces.turn.gas) + _driven(case, forces)
     if forces.turn.gas is None and any(rotor.drive for rotor in roles_of(case.mechanism).rotors):
         mean = -float(np.mean(forces.turn.torque))
         # what only swings to and fro takes nothing but rounding
         swing = 1e-9 * float(np.abs(forces.turn.torque).max())
         doubts += proportion("driven_drive", "mean torque of the drive over a turn", mean) if mean < -swing else ()
-    if forces.turn.gas is None or not max(pushes, default=0.0) > 0:
+    doubts += stress
+    if stress or forces.turn.gas is None or not max(pushes, default=0.0) > 0:
         return doubts
     beyond = _inertia(case, forces, max(pushes))
     # one slip is told once

@@ -192,7 +192,7 @@ class Declaration(Linkage, Elements, Drawing):
         self.dampers.append(self._element(damping, stretch, "damping", ("N*s/m", "N*m*s/rad")))
 
     def _element(self, value: Expr | float, along: Expr | float, what: str, units: tuple[str, str]) -> Element:
-        displacement = Integer(0) if along == 0 else self._moving(along, "displacement")
+        displacement = Integer(0) if along == 0 and what == "force" else self._moving(along, "displacement")
         kind = self.dimension(displacement)
         straight = kind == self._unit("m")
         if kind not in (None, dimensions.PURE) and not straight:

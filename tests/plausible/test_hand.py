@@ -11,7 +11,7 @@ _FAST = 6  # one light row of so many runs with the fast tests
 def rows(kind):
     of_peers = [
         row
-        for name in ("peers", "trackers", "office", "laws", "shop", "field", "yard")
+        for name in ("peers", "trackers", "office", "laws", "shop", "field", "yard", "depot")
         for row in LISTS[name][kind]
         if half(row) == "seen"
     ]
@@ -19,7 +19,14 @@ def rows(kind):
         command = row.get("run", row.get("line")).split()[0]
         light = (
             command in ("check", "forces", "cycle", "new")
-            and row not in (*LISTS["laws"][kind], *LISTS["shop"][kind], *LISTS["field"][kind], *LISTS["yard"][kind])
+            and row
+            not in (
+                *LISTS["laws"][kind],
+                *LISTS["shop"][kind],
+                *LISTS["field"][kind],
+                *LISTS["yard"][kind],
+                *LISTS["depot"][kind],
+            )
             and zlib.crc32(name(row).encode()) % _FAST == 0
         )
         marks = [] if light else [pytest.mark.slow, *([pytest.mark.heavy] if row in of_peers else [])]

@@ -1,9 +1,9 @@
 """Two-cylinder compressor, cylinders at a right angle, both rods on one crank pin.
 
-   [1]     [2]     x1, x2 travels from the heads; axes at +-45 deg from the vertical
-      \\   /
-       A        O main bearing, A crank pin, B1 and B2 piston pins
-       O
+[1]     [2]     x1, x2 travels from the heads; axes at +-45 deg from the vertical
+   \\   /
+    A        O main bearing, A crank pin, B1 and B2 piston pins
+    O
 """
 
 from mechsym.derive import Mechanism, cos, pi, sin
