@@ -19,14 +19,7 @@ def rows(kind):
         command = row.get("run", row.get("line")).split()[0]
         light = (
             command in ("check", "forces", "cycle", "new")
-            and row
-            not in (
-                *LISTS["laws"][kind],
-                *LISTS["shop"][kind],
-                *LISTS["field"][kind],
-                *LISTS["yard"][kind],
-                *LISTS["depot"][kind],
-            )
+            and not any(row in LISTS[late][kind] for late in ("laws", "shop", "field", "yard", "depot"))
             and zlib.crc32(name(row).encode()) % _FAST == 0
         )
         marks = [] if light else [pytest.mark.slow, *([pytest.mark.heavy] if row in of_peers else [])]
