@@ -19,7 +19,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from importlib import resources
 
-from mechsym.cases import laws
+from mechsym.cases import laws, links
 from mechsym.cases.laws import Records, value
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.mechanisms import own
@@ -78,13 +78,13 @@ def judged(sections: Records, mechanism: str) -> tuple[Doubt, ...]:
     plan = plan_of(mechanism)
     sizes, area = plan.proportions(parameters), _piston_area(sections)
     if own.is_file(mechanism):
-        doubts += tuple(laws.by_sign(plan.listing(None), dataclasses.asdict(parameters)))
+        doubts += tuple(links.by_sign(plan.listing(None), dataclasses.asdict(parameters)))
     if sizes is None:
         coordinates, speed = plan.listing(None)["coordinates"], getattr(sections.get("operation"), "speed", None)
         steady = dataclasses.asdict(sections["inputs"]) if "inputs" in sections else {}
         steady |= {next(iter(coordinates)): value(sections, "drive", "torque")}
         fast = dict.fromkeys(coordinates, speed) if speed else {}
-        return doubts + laws.by_links(plan.listing(None), dataclasses.asdict(parameters), steady, fast)
+        return doubts + links.by_links(plan.listing(None), dataclasses.asdict(parameters), steady, fast)
     bore = None if area is None else math.sqrt(4 * area / math.pi)
     alone, together = _sizes(sections, sizes, bore), by_size(sections, sizes, bore)
     if any(d.code == "reciprocating_mass" for d in alone):  # one slip is told once

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cases.laws import by_force, by_links, fired, linked
+from mechsym.cases.laws import fired
+from mechsym.cases.links import by_force, by_links, linked
 from mechsym.cycle.gas import Gas
 from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.motion import pistons_of, travel_of

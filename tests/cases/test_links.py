@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from mechsym import cases
-from mechsym.cases.laws import by_links, by_sign
+from mechsym.cases.links import by_force, by_links, by_sign
+from mechsym.cases.outcomes import of_own
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 #: case, letter, value: code of the doubt
@@ -183,3 +184,25 @@ def test_a_rotor_carries_its_flywheel():
     heavy = SIZES | {"I": 50.0}
     assert [d.code for d in by_links(listing, heavy, {}, {})] == ["link_needle"]
     assert by_links(listing | {"roles": {"rotor": [{"name": "arm", "angle": "q"}]}}, heavy, {}, {}) == ()
+
+
+def test_what_joints_bear_is_held_against_the_stoutest_link():
+    """A bar of 7.85 kg and a metre has 10 cm^2 of steel: 400 kN are 400 MPa, 600 kN are beyond what steel bears."""
+    link = {"name": "bar", "mass": "m", "inertia": "0", "centre": ["0", "0"], "points": [["0", "0"], ["l", "0"]]}
+    listing = {"links": [link | {"pivot": None, "turns": ""}]}
+    assert by_force(listing, {"m": 7.85, "l": 1.0}, 4e5) == ()
+    (doubt,) = by_force(listing, {"m": 7.85, "l": 1.0}, 6e5)
+    assert doubt.code == "link_stress" and doubt.value == pytest.approx(6e8)
+
+
+def test_a_speed_that_no_rod_bears_is_doubted():
+    case = str(EXAMPLES / "whitworth.toml")
+    quiet, wild = ({d.code for d in _judged(case, speed)} for speed in ("60 rpm", "3000 rpm"))
+    assert "link_stress" in wild - quiet
+
+
+def _judged(case, speed):
+    from mechsym.jobs.machine import one_coordinate
+
+    loaded = cases.load(case, {"operation.speed": speed})
+    return of_own(loaded, one_coordinate)

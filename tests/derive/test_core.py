@@ -7,6 +7,7 @@ from mechsym.derive import Mechanism, cos, derive, sin
 from mechsym.derive.emit import module_text
 from mechsym.derive.tape import Intermediates, derivative_name
 from mechsym.derive.textbook import disagreements, proved
+from mechsym.errors import BadInput
 
 
 def pendulum():
@@ -87,6 +88,14 @@ def test_springs_and_dampers_enter_by_virtual_work():
     m.force_at((F, 0), (x, 0))
     e = derive(m)
     assert sp.expand(e.generalized_force[0] - (F - k * x - c * letter("xd"))) == 0
+
+
+def test_a_spring_that_nothing_stretches_is_refused():
+    m = Mechanism("oscillator", source="textbook")
+    x = m.coordinates("x", "m")
+    k = m.parameters("k", "N/m")
+    with pytest.raises(BadInput, match="moves with no coordinate"):
+        m.spring(k, stretch=x - x)
 
 
 def test_constraints_give_jacobian_and_bias():

@@ -1,0 +1,213 @@
+r"""Links of a user's own mechanism by what a bar of their length can weigh and hold.
+
+l is the largest distance of two joints of the link, c its centre of mass, R the reach from its pivot, b from the middle
+of its joints to the farthest of what it may be made of. A zero leaves the part away and is never doubted; a link that
+turns with a coordinate may carry a flywheel: where it is a rotor, or balanced. A link with one joint reaches as far
+behind its centre; none is a wheel far wider than the longest link. A piston, with one joint, is held against that. The
+section A is that of the stoutest link, a square bar of steel of its mass and length.
+
+.. math:: \frac{I}{m l^2} \le \frac{b^2 - |c - \bar p|^2}{l^2}, \qquad
+    \frac{|c - \bar p|}{l}, \qquad \frac{m}{l^3}, \qquad \omega R, \qquad \frac{F}{A}
+"""
+
+import itertools
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mechsym.files import Json
+from mechsym.plausible import Doubt, proportion
+from mechsym.quantities.units import Newton
+
+if TYPE_CHECKING:
+    from mechsym.derive.listing import Listing
+
+_STEEL = 7850.0  # its density [kg/m^3]
+_BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
+_WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
+_OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its joints, by its length [-]
+_CARRIES = 10.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+
+_WORDS = {name: getattr(math, name) for name in ("pi", "sqrt", "sin", "cos", "tan", "atan", "atan2", "exp", "log")}
+
+
+def by_links(
+    listing: "Listing", letters: Mapping[str, float], inputs: Mapping[str, float], speeds: Mapping[str, float]
+) -> tuple[Doubt, ...]:
+    """What is out of proportion to a link, of each kind the worst.
+
+    listing: as stored of the declaration. letters, inputs: values of the parameters and of what acts, a torque along a
+    coordinate under its name [SI]. speeds: of coordinates, where they are known [rad/s].
+    """
+    links, units = listing.get("links", ()), listing["parameters"]
+    rotors = {str(role.get("angle")) for role in listing.get("roles", {}).get("rotor", ())}
+
+    def far(doubt: Doubt) -> float:
+        return abs(math.log(doubt.value)) if doubt.value > 0 else math.inf
+
+    worst: dict[str, Doubt] = {}
+    acts = {q: "N*m" for q, unit in listing["coordinates"].items() if unit == "rad"} | dict(listing["inputs"])
+    longest = max((_length(link, letters) for link in links), default=0.0)
+    moving = sum(_number(link["mass"], letters) for link in links)
+    of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors, (longest, moving)))
+    pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
+    forces = max(pushes, default=0.0), max(turns, default=0.0)
+    slides = "m" in listing["coordinates"].values()
+    together = (*_masses(links, letters, units, slides), *_stress(links, letters, *forces))
+    for doubt in (*of_links, *together):
+        if doubt.code not in worst or far(doubt) > far(worst[doubt.code]):
+            worst[doubt.code] = doubt
+    return tuple(worst.values())
+
+
+def by_force(listing: "Listing", letters: Mapping[str, float], force: Newton) -> tuple[Doubt, ...]:
+    """The largest force that joints bear by the stoutest link.
+
+    listing: as stored of the declaration. letters: values of the parameters [SI].
+    """
+    return tuple(_stress(listing.get("links", ()), letters, force, 0.0, "of the joints"))
+
+
+def linked(listing: "Listing", letters: Mapping[str, float]) -> float:
+    """Mass of all links with two joints and more [kg].
+
+    listing: as stored of the declaration. letters: values of the parameters [SI].
+    """
+    return sum(_number(link["mass"], letters) for link in listing.get("links", ()) if len(link["points"]) > 1)
+
+
+def _length(link: Json, letters: Mapping[str, float]) -> float:
+    points = [_point(pair, letters) for pair in link["points"]]
+    if len(points) == 1:
+        return 2 * math.dist(points[0], _point(link["centre"], letters))
+    return max(math.dist(p, q) for p, q in itertools.combinations(points, 2))
+
+
+def _masses(
+    links: Sequence[Json], letters: Mapping[str, float], units: Mapping[str, str], slides: bool
+) -> Iterator[Doubt]:
+    """Letters in kg by the longest link, or twice the longest letter: none is heavier than a cube of steel of it.
+
+    A body that slides where its coordinate says is as wide as no letter tells.
+    """
+    lengths = [] if slides else [2 * abs(letters[name]) for name, unit in units.items() if unit == "m"]
+    longest = max([_length(link, letters) for link in links] or lengths, default=0.0)
+    for name, unit in units.items() if longest > 0 else ():
+        if unit == "kg" and letters[name] > 0:
+            what = f"parameters.{name} / ({'longest link' if links else 'twice the longest letter'})^3"
+            yield from proportion("link_density", what, letters[name] / longest**3)
+
+
+def _stress(
+    links: Sequence[Json], letters: Mapping[str, float], force: float, torque: float, of: str = "of [inputs]"
+) -> Iterator[Doubt]:
+    r"""A force and a torque by the section A of the stoutest link, a square bar of steel of its mass and length.
+
+    .. math:: F/A, \qquad 6 M / A^{3/2}
+    """
+    lengths = [(_number(link["mass"], letters), _length(link, letters)) for link in links]
+    section = max((mass / (_STEEL * length) for mass, length in lengths if length > 0), default=0.0)
+    if section > 0:
+        what = f"largest force {of} / section of the stoutest link"
+        yield from proportion("link_stress", what, force / section)
+        what = "largest torque that bends / section modulus of the stoutest link"
+        yield from proportion("link_stress", what, 6 * torque / section**1.5)
+
+
+def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]:
+    """Springs and dampers of a declaration with the sign of what drives, and loops with a side that nobody chose.
+
+    listing: as stored of it. letters: values of the parameters [SI].
+    """
+    for kind, texts in (("spring", listing.get("springs", ())), ("damper", listing.get("dampers", ()))):
+        for text in texts:
+            yield from proportion(f"{kind}_sign", f"{kind} {text}", _number(text, letters))
+    yield from _swinging(listing, letters)
+    for name, (xx, yy, zz, xy, xz, yz) in listing.get("tensors", {}).items():
+        rows = [[_number(entry, letters) for entry in row] for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
+        moments = np.linalg.eigvalsh(rows)
+        if moments[0] > 0:
+            about = f"largest principal moment of {name} / sum of the other two"
+            yield from proportion("principal_moments", about, moments[2] / (moments[0] + moments[1]))
+    if joints := listing.get("open_sides", ()):
+        yield from proportion("open_side", f"loops of pins whose side nobody chose ({', '.join(joints)})", len(joints))
+
+
+def _swinging(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]:
+    """The heaviest mass on the softest spring, m g/k, and the strongest damper beside them, c/(2 sqrt(k m))."""
+    units = listing["parameters"]
+
+    def values(texts: Collection[str], unit: str) -> list[float]:
+        return [letters[text] for text in texts if units.get(text) == unit and letters[text] > 0]
+
+    masses, springs = values(units, "kg"), values(listing.get("springs", ()), "N/m")
+    if masses and springs and not listing.get("links"):  # links carry what no spring does
+        yield from proportion("spring_rest", "heaviest mass * g / softest spring", 9.81 * max(masses) / min(springs))
+    for damping in values(listing.get("dampers", ()), "N*s/m") if masses and springs else ():
+        share = damping / (2 * math.sqrt(max(springs) * max(masses)))
+        yield from proportion("damping_share", f"damper {damping:g} N*s/m / (2 sqrt(spring * mass))", share)
+
+
+_OfAll = tuple[float, float]  # longest link [m], and what all weigh [kg]
+
+
+def _of(
+    link: Json, letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str], all_: _OfAll
+) -> Iterator[Doubt]:
+    name, (longest, moving) = link["name"], all_
+    points = [_point(pair, letters) for pair in link["points"]]
+    length = _length(link, letters)
+    mass, inertia = (_number(link[name], letters) for name in ("mass", "inertia"))
+    if length <= 0:
+        return
+    if len(points) == 1:  # its size is that of its centre's distance: a disc beside its axis is wider, a bob thinner
+        if mass > 0 and inertia:
+            about = f"inertia of {name} / (mass * (twice its centre from its joint)^2)"
+            yield from proportion("link_needle", about, inertia / (mass * length**2))
+            about, wide = f"inertia of {name} / (mass * (longest link)^2)", inertia / (mass * longest**2)
+            if wide > 1:  # a wheel as wide as the machine; a flywheel is not so much wider
+                yield from proportion("link_inertia", about, wide, _WHEEL)
+        return
+    share = inertia / (moving * length**2) if moving > 0 and not mass else 0.0
+    if link["turns"] in rotors and 0 < share < 1:  # a crank that is given by its inertia alone, and no heavy flywheel
+        yield from proportion("inertia", f"inertia of {name} / (moving mass * throw^2)", share)
+    if link["turns"] in rotors and mass > 0 and inertia > mass * longest**2:
+        about = f"inertia of {name} / (mass * (longest link)^2)"
+        yield from proportion("link_inertia", about, inertia / (mass * longest**2), _WHEEL)
+    if link["turns"] in rotors or link["turns"] and link["centre"] == list(link["pivot"] or ()):
+        inertia = 0.0  # of a flywheel
+    # webs, discs and counterweights of a crank are wider than its throw
+    size, of = (longest, "longest link") if link["turns"] else (length, "distance of its joints")
+    if mass > 0:
+        yield from proportion("link_density", f"mass of {name} / ({of})^3", mass / size**3)
+        middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True))
+        away = math.dist(_point(link["centre"], letters), middle)
+        what = f"centre of {name} from the middle of its joints / {of}"
+        yield from proportion("link_centre", what, away / size, None if link["turns"] else _OF_ROD)
+        about, ratio = f"inertia of {name} / (mass * ({of})^2)", inertia / (mass * size**2)
+        if inertia and link["turns"]:
+            yield from proportion("link_needle", about, ratio, _CARRIES)
+        elif inertia:
+            # of all that weighs m within a circle about the middle, whose centre of mass lies beside it
+            reach = _BEYOND * (max(math.dist(middle, p) for p in points) + away)
+            yield from proportion("link_inertia", about, ratio, (reach**2 - away**2) / length**2)
+    elif inertia and link["pivot"] and not link["turns"]:  # about its bearing in the frame no mass is needed
+        yield from proportion("link_density", f"inertia of {name} / (distance of its joints)^5", inertia / length**5)
+    elif inertia and not link["turns"]:
+        why = "what has no mass has no inertia: give it a mass, or leave its inertia away"
+        yield Doubt(code="massless", quantity=f"inertia of {name}", value=inertia, usual="0 without a mass", why=why)
+    if link["turns"] in speeds:
+        reach = max(math.dist(_point(link["pivot"], letters), p) for p in points) if link["pivot"] else length
+        speed = abs(speeds[link["turns"]]) * reach
+        yield from proportion("point_speed", f"speed of the outermost joint of {name}", speed)
+
+
+def _point(place: Sequence[str], letters: Mapping[str, float]) -> tuple[float, ...]:
+    return tuple(_number(text, letters) for text in place)
+
+
+def _number(text: str, letters: Mapping[str, float]) -> float:
+    """Value of an expression that the derivation has written, in its letters."""
+    return float(eval(text, {"__builtins__": {}}, {**_WORDS, **letters}))
