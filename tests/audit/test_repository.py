@@ -290,7 +290,7 @@ def test_letters_of_one_sign_are_told_by_neighbours_that_agree(tmp_path):
     )
     assert rows_of(tmp_path / "a", {"a.py": place + angle + speed.format("(2*", ")")}) == []
     (row,) = rows_of(tmp_path / "b", {"b.py": place + angle + speed.format("", "")})
-    assert (row["verdict"], row["claim"]) == ("misprint", "offset_slider_crank.velocity")
+    assert row["verdict"] == "misprint" and row["claim"].endswith(".velocity")
     assert row["correction"].startswith("-") and row["max_rel_error"] < 0.5
     (row,) = rows_of(tmp_path / "c", {"c.py": speed.format("", "")})  # its name and its size tell enough
     assert row["verdict"] == "misprint"

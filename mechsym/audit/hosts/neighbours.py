@@ -54,8 +54,12 @@ class Neighbours:
         every = self.near[id(claim)]
         if not every:
             return None
+        # called like another quantity, in letters that others show to be understood, it is no excuse to be this one
+        other = any(
+            n.away and n.fitted.rank > 2 and n.quantity in n.fitted.quantities and self._beside(n) for n in every
+        )
         for near in every:
-            if near.away == 0.0 and (near.quantity in near.fitted.quantities or not self._clashes(near)):
+            if near.away == 0.0 and (near.quantity in near.fitted.quantities or not other and not self._clashes(near)):
                 return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"}
         beside = [(near, self._beside(near)) for near in every if near.quantity]
         beside.sort(

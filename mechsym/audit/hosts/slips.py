@@ -99,25 +99,31 @@ def _explains(repair: Repair, near: Near, tree: Node, own: Mapping[str, str], be
     if repair.max_rel_error >= _EXACT or not set(letters(repair.tree)) <= {*own, "pi"}:
         return False
     # where neighbours agree, a power that is lost of a letter that stands there is no step on the way
-    whole = beside and near.quantity in near.fitted.quantities and set(letters(repair.tree)) == set(letters(tree))
+    named = bool(beside) and near.quantity in near.fitted.quantities
+    whole = named and set(letters(repair.tree)) == set(letters(tree))
     steps = _NO_SLIP - ({"put back"} if whole else set())
     plain = {m for other in beside for m in other.fitted.meanings.values()}
     counted = (own.get(_counted_otherwise(edit.new, tree), "pi") for edit in repair.edits)
     if any(edit.kind in steps for edit in repair.edits) or any(m != "pi" and m not in plain for m in counted):
         return False
-    return not _is_idle(repair.tree, near.form, near.states)
+    others = {k: trees.name(m) for k, m in own.items() if m.isidentifier()}
+    return not _is_idle(repair.tree, replace(near.form, letters={**others, **near.form.letters}), near.states)
 
 
 def _is_idle(tree: Node, form: Formula, states: Probes) -> bool:
     # an edit that makes a difference of what is alike takes a term away, as none mistypes it
-    for _, node in trees.walk(tree):
-        if trees.is_operation(node, ast.Sub):
-            left, right = (
-                states.of(replace(form, tree=part)) if trees.letters(part) else None for part in (node.left, node.right)
-            )
-            if left is not None and right is not None and np.allclose(left, right, rtol=1e-9, atol=0.0):
-                return True
-    return False
+    differences = (node for _, node in trees.walk(tree) if trees.is_operation(node, ast.Sub))
+    return any(_alike(node.left, node.right, form, states) for node in differences)
+
+
+def _alike(left: Node, right: Node, form: Formula, states: Probes) -> bool:
+    if not letters(left) or not letters(right):
+        return False
+    try:
+        one, other = (states.of(replace(form, tree=part)) for part in (left, right))
+    except (BadInput, ArithmeticError, ValueError, KeyError):
+        return False
+    return bool(np.allclose(one, other, rtol=1e-9, atol=0.0))
 
 
 def _counted_otherwise(new: Node, tree: Node) -> str:
@@ -165,7 +171,7 @@ def slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row | 
     fitted, form, quantity, states = near.fitted, near.form, near.quantity, near.states
     if sum(1 for _ in trees.walk(form.tree)) > _LARGEST:
         return None
-    own = {safe(k): v for k, v in {**fitted.meanings, **fitted.spare}.items()}
+    own = {safe(k): v for k, v in {**fitted.spare, **fitted.meanings}.items()}
     twice, wrong = _is_of_two_alike(fitted, form, states), None
     printed, expected = states.values(states.random, form, quantity)
     good = np.isfinite(printed) & np.isfinite(expected)

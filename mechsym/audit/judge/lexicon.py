@@ -44,7 +44,9 @@ def words(text: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=20_000)
 def _word_list(text: str) -> tuple[str, ...]:
-    return words(text)
+    own = words(text)
+    # t2v is the vector of t2
+    return own[:-1] if len(own) > 2 and own[-1] == "v" and own[-2].isdigit() else own
 
 
 def _joined(said: Sequence[str]) -> str:
@@ -126,7 +128,9 @@ _UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-
 _GREEK = set("alpha beta gamma delta theta phi varphi psi omega lambda lam rho mu nu sigma tau epsilon eta".split())
 # what stands beside a name without changing what it is
 _QUALIFIERS = set(
-    "m c i M C 0 1 2 rad deg cyl engine geom mm cm in inst piston get calc compute calculate formula".split()
+    """
+    m c i M C 0 1 2 rad deg cyl engine geom mm cm in inst piston get calc compute calculate formula crank v vec arr
+    """.split()
 )
 
 
@@ -152,7 +156,8 @@ def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
             ]
             unsure = not ranked or len(ranked) > 1 and ranked[0][0] == ranked[1][0]
             told = ranked[0][0] if ranked else 0
-            if letter in claim.values and (unsure or _is_told_better(letter, told, claim, vocabulary)):
+            turned = bool(ranked) and ranked[0] == (1, theory.angle) and _has_angle(letter, claim, vocabulary)
+            if letter in claim.values and (unsure or turned or _is_told_better(letter, told, claim, vocabulary)):
                 put_in[letter] = claim.values[letter]
             elif ranked:
                 options[letter] = ranked[:_MEANINGS]
@@ -205,6 +210,13 @@ def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon) -
     inside = letters(claim.values[letter])
     named = [k for k in inside if k != "pi"]
     return len(named) == 1 and vocabulary.meaning(base(named[0]), claim.abouts.get(base(named[0]), ""))[0] > told
+
+
+def _has_angle(letter: str, claim: Claim, vocabulary: Lexicon) -> bool:
+    # phi = asin(r*sin(theta)/l) is not the angle that turns
+    inside = {base(k) for k in letters(claim.values[letter])} - {base(letter)} if letter in claim.values else set()
+    meant = [vocabulary.meaning(k, claim.abouts.get(k, ""))[1] for k in inside]
+    return len(meant) > 1 and vocabulary.theory.angle in meant
 
 
 def _of_either_sign(tree: Node) -> Node:

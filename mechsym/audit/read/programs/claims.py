@@ -265,7 +265,9 @@ class _Build:
             return ""  # which of them it is about, nobody knows
         if let.line in comments and let.line not in alone:
             return comments[let.line]
-        return comments[let.line - 1] if let.line - 1 in alone else ""
+        above = comments[let.line - 1] if let.line - 1 in alone else ""
+        told = _TELLS.match(above)
+        return above if told is None or told[1] == let.name else ""  # it says what another name is
 
     def _claim(self, let: Let, tree: Node, about: str, case: int) -> None:
         self.claims.append(
