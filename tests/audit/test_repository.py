@@ -92,6 +92,14 @@ ATTACKS = {
     "    term1 = -crank_radius*omega*np.sin(theta)  # slider velocity\n    return term1\n",
     "a contact of two spheres by the same modulus": "def f(E1, E2, nu1, nu2):\n"
     "    k = (1 - nu1**2)/(pi*E1) + (1 - nu2**2)/(pi*E2)\n    return k\n",
+    "doubled in its place": "def f(crank_radius, bore, opposed):\n    vd = crank_radius*np.pi*bore**2/2\n"
+    "    if opposed:\n        vd = 2.0*vd\n    return vd\n",
+    "the larger of two radii": "def f(module, teeth, pressure_angle):\n"
+    "    base_r = module*teeth/2*np.cos(pressure_angle)\n    root_r = module*teeth/2 - 1.25*module\n"
+    "    start_r = (base_r + root_r + abs(base_r - root_r))/2  # below the pitch radius\n    return start_r\n",
+    "heat at constant pressure": "def f(T1, P1, P2, T3, Cv, k):\n    V1 = 8.314e-2*T1/P1\n    V2 = V1*(P1/P2)**(1/k)\n"
+    "    T2 = T1*(P2/P1)**((k - 1)/k)\n    V3 = V2/T3*T3\n    W2 = P2*(V3 - V2)\n    U2 = Cv*(T3 - T2)\n"
+    "    Q_in = W2 + U2\n    return Q_in\n",
     "in a branch": "def f(bore, stroke, n):\n    if n > 1:\n        stroke = stroke/2\n    V = bore*stroke\n",
 }
 

@@ -7,6 +7,7 @@ import pytest
 from mechsym import cases
 from mechsym.cases.links import by_force, by_links, by_sign
 from mechsym.cases.outcomes import of_own
+from mechsym.jobs.machine import one_coordinate
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "mechanisms"
 #: case, letter, value: code of the doubt
@@ -202,7 +203,4 @@ def test_a_speed_that_no_rod_bears_is_doubted():
 
 
 def _judged(case, speed):
-    from mechsym.jobs.machine import one_coordinate
-
-    loaded = cases.load(case, {"operation.speed": speed})
-    return of_own(loaded, one_coordinate)
+    return of_own(cases.load(case, {"operation.speed": speed}), one_coordinate)

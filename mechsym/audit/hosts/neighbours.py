@@ -62,11 +62,7 @@ class Neighbours:
             if near.away == 0.0 and (near.quantity in near.fitted.quantities or not other and not self._clashes(near)):
                 return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"}
         beside = [(near, self._beside(near)) for near in every if near.quantity]
-        beside.sort(
-            key=lambda b: (
-                not b[0].fitted.quantities, not b[1], len(at_rest(b[0].fitted.theory, b[0].form)), b[0].away,
-            )
-        )  # fmt: skip
+        beside.sort(key=lambda b: _unlikely(*b))
         worse, misprints = None, []
         for near, others in islice(((n, o) for n, o in beside if n.away and _is_told(n, o)), _ASKED):
             row = slip(near, others, self._of_angle(near))
@@ -158,13 +154,22 @@ def _met(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float,
                 yield away, quantity
 
 
+def _unlikely(near: Near, beside: Sequence[Near]) -> tuple[bool, bool, int, float]:
+    # what is called so, stands beside others that agree, and needs nothing to be none comes first
+    rest = at_rest(near.fitted.theory, near.form)
+    return not near.fitted.quantities, not beside, len(rest), near.away
+
+
 def _is_told(near: Near, beside: Sequence[Near]) -> bool:
     """Whether names, neighbours or its size say that a formula is meant to be a quantity."""
     fitted = near.fitted
     many, strong = len(fitted.meanings), fitted.strong
+    entry = fitted.theory.tape[near.quantity]
+    if _chooses(near.form.tree) and not (isinstance(entry, ast.AST) and _chooses(entry)):
+        return False
     if near.quantity not in fitted.quantities:
         alike = bool(beside) and of_same_letters(fitted.theory, near.form, near.quantity)
-        return near.away <= _NEAR and many > 2 and (strong > 1 or alike) and not _chooses(near.form)
+        return near.away <= _NEAR and many > 2 and (strong > 1 or alike)
     if many == strong and many > 1 or many > 4 and strong > 1 or near.away <= _NEAR and many > 2 and strong > 0:
         return True
     if beside:
@@ -172,9 +177,9 @@ def _is_told(near: Near, beside: Sequence[Near]) -> bool:
     return many > 2 and _operations(near.form) >= _HEAVY
 
 
-def _chooses(form: Formula) -> bool:
+def _chooses(tree: ast.AST) -> bool:
     # (a + b + abs(a - b))/2 is the larger of two
-    return any(isinstance(n, ast.Name) and n.id in ("abs", "max", "min") for n in ast.walk(form.tree))
+    return any(isinstance(n, ast.Name) and n.id in ("abs", "max", "min") for n in ast.walk(tree))
 
 
 def _operations(form: Formula) -> int:

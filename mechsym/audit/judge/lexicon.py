@@ -18,7 +18,6 @@ from mechsym.quantities import record
 # what the angle that turns, and its rates, are called in programs
 ANGLES = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "crankangle", "angle", "varphi")
 _RATES = {"d": ("omega", "w", "angular velocity", "angular speed"), "dd": ("alpha", "angular acceleration")}
-_LEAST_LETTERS = 3  # of a formula that is told by its numbers and not by its name
 _MEANINGS, _TRIED, _READINGS = 3, 200, 4  # of a letter; of a formula at most: looked at, and held against numbers
 
 
@@ -156,8 +155,12 @@ def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
             ]
             unsure = not ranked or len(ranked) > 1 and ranked[0][0] == ranked[1][0]
             told = ranked[0][0] if ranked else 0
-            turned = bool(ranked) and ranked[0] == (1, theory.angle) and _has_angle(letter, claim, vocabulary)
-            if letter in claim.values and (unsure or turned or _is_told_better(letter, told, claim, vocabulary)):
+            if letter in claim.values and (
+                unsure
+                or ranked[0] == (1, theory.angle)
+                and _has_angle(letter, claim, vocabulary)
+                or _is_told_better(letter, told, claim, vocabulary)
+            ):
                 put_in[letter] = claim.values[letter]
             elif ranked:
                 options[letter] = ranked[:_MEANINGS]
@@ -214,7 +217,7 @@ def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon) -
 
 def _has_angle(letter: str, claim: Claim, vocabulary: Lexicon) -> bool:
     # phi = asin(r*sin(theta)/l) is not the angle that turns
-    inside = {base(k) for k in letters(claim.values[letter])} - {base(letter)} if letter in claim.values else set()
+    inside = {base(k) for k in letters(claim.values[letter])} - {base(letter)}
     meant = [vocabulary.meaning(k, claim.abouts.get(k, ""))[1] for k in inside]
     return len(meant) > 1 and vocabulary.theory.angle in meant
 

@@ -21,7 +21,7 @@ _LONGEST, _LONGEST_NOTEBOOK = 1_000_000, 50_000_000  # characters; a notebook's 
 # before the number of a name's later values: changed with regard to the one before, or given in branches alone
 _AGAIN, _ANEW = "__v", "__w"
 
-_PI = {round(math.pi, digits) for digits in range(2, 16)} | {3.1415, 3.141592, 3.14159265}
+_PI = {round(math.pi, digits) for digits in range(2, 16)} | {3.1415, 3.141592}  # its digits, rounded or cut
 
 
 @record
