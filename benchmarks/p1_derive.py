@@ -70,7 +70,7 @@ def _called(make: Callable[[], Any], x: np.ndarray) -> None:
 
 
 def _warm(throws: int) -> Callable[..., Any]:
-    cache.load.cache_clear()
+    cache.forget()
     source.stored_program.cache_clear()
     mechanism = crank_train.build(models.train(throws))
     return native.compiled(acceleration_function(mechanism)).scalar

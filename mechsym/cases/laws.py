@@ -8,7 +8,7 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mechsym.cycle.kinds import four_stroke, kind_of
 from mechsym.machine.loads import Load, PropellerLoad, TableLoad
@@ -16,9 +16,6 @@ from mechsym.mechanisms.proportions import Proportions
 from mechsym.mechanisms.shaft import ElasticShaft
 from mechsym.plausible import Doubt, inputs, piston_speed, proportion, proportions
 from mechsym.quantities.units import NewtonMetre
-
-if TYPE_CHECKING:
-    pass
 
 Records = Mapping[str, Any]  # of a case, by section
 # charge pressure by the cycle's name for it, and how many times as much drives the piston at full load

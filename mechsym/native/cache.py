@@ -157,6 +157,11 @@ def _loaded(source: str, mode: str, program: compiler.Compiler, _home: Path) -> 
         ) from None
 
 
+def forget() -> None:
+    """Load anew what is asked for from now on."""
+    _loaded.cache_clear()
+
+
 @functools.lru_cache(maxsize=256)
 def module(path: str) -> ModuleType | None:
     """A loaded shared object as a Python extension module; None when compiled without Python's headers."""

@@ -86,6 +86,10 @@ class LastSteps:
     step: np.ndarray  #: shape (k,): Its length [s]
     terms: np.ndarray  #: shape (8, n, k): Of the first states, see `ms_inside` in c/dop853.h [SI]
 
+    def hold(self, times: Second[Array]) -> bool:
+        """Whether ascending times lie within them."""
+        return bool(len(self.t)) and self.t[0] <= times[0] and times[-1] <= (self.t[-1] + self.step[-1]) * (1 + 1e-12)
+
     def at(self, times: Second[Array]) -> np.ndarray:
         """The states at ascending times within them, shape (n, m) [SI]."""
         k = np.maximum(np.searchsorted(self.t, times, side="right") - 1, 0)

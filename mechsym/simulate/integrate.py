@@ -17,7 +17,7 @@ from mechsym.simulate.problem import Along, FormulaForce, Periodic, Problem, Ste
 from mechsym.simulate.settings import FALLBACK, NATIVE, Settings, backend
 
 _DONE, _MET, _TOO_MANY = 0, 1, 2
-_KEEP = 1024  # last steps that are kept: two turns of many cylinders at a tight tolerance
+_KEEP, _KEPT = 1024, 2**16  # last steps that are kept, at least, and numbers of each term of theirs at most
 _SAME = 1e-6  # of the spacing of results: closer than this to the end is the end
 
 
@@ -67,6 +67,7 @@ def runs(problem: Problem, equations: System, settings: Settings, times: np.ndar
     """A problem as the native integrator takes it. problem, equations, settings, times, ends: see `integrate` [s]."""
     place = equations.columns.index
     tables, kinks = [], []
+    keep = max(_KEEP, min(4 * _KEEP, _KEPT // (2 * equations.size)))
     for i, value in enumerate(equations.values):
         if isinstance(value, Periodic):
             poly = fitted(value)
@@ -87,7 +88,7 @@ def runs(problem: Problem, equations: System, settings: Settings, times: np.ndar
         rtol=settings.tolerance,
         atol=settings.tolerance,
         max_steps=settings.max_steps,
-        keep=0 if settings.check == "none" else _KEEP,  # nobody looks into a run that checks another
+        keep=keep if settings.check != "none" else 0,  # nobody looks into a run that checks another
         kept_states=2 * equations.size,
     )
 

@@ -123,7 +123,7 @@ def dataset(result: Result) -> "xarray.Dataset":
 _A_STEP = 16  # looks at each step of the integrator, whose formulas of high order swing within one
 _FINER = 129  # looks between two samples, one of which is before the last period
 _NEAR_WHOLE = 1e-6  # of a period, that a run which was to end with it may lack
-_LEAST, _MOST = 720, 50_000  # looks at a stretch
+_LEAST, _MOST = 720, 10_000  # looks at a stretch
 
 
 @results.result

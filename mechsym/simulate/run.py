@@ -207,12 +207,14 @@ def opens(mechanism: Mechanism, q: np.ndarray, u: np.ndarray) -> bool:
 def _dense(
     problem: Problem, equations: System, raw: Raw, settings: Settings
 ) -> Callable[[np.ndarray], dict[str, np.ndarray]]:
-    """A run between its samples: within its last steps, else taken up again at the sample before by the same method."""
+    """A run between its samples: within steps that are kept, else taken up again at the sample before."""
     n, names = equations.size, equations.columns[: 2 * equations.size]
+    kept = [raw.last]
 
     def at(times: np.ndarray) -> dict[str, np.ndarray]:
-        if raw.last is not None and len(raw.last.t) and raw.last.t[0] <= times[0]:
-            return dict(zip(names, raw.last.at(times), strict=True))
+        for steps in kept:
+            if steps is not None and steps.hold(times):
+                return dict(zip(names, steps.at(times), strict=True))
         i = max(int(np.searchsorted(raw.t, times[0], side="right")) - 1, 0)
         y, after = raw.y[i], times[times > raw.t[i]]
         inner = zip(problem.states, y[len(y) - len(problem.states) :], strict=True)
@@ -228,6 +230,7 @@ def _dense(
             output=tuple(after),
         )
         _, run, _ = _raw(again, settings, equations)
+        kept[1:] = [run.last]
         return dict(zip(names, run.y[0 if times[0] == raw.t[i] else 1 :].T, strict=False))
 
     return at

@@ -59,16 +59,18 @@ def _greatest(values: Callable[[np.ndarray], np.ndarray], t: np.ndarray, rows: n
     for _ in range(_LOOKS):
         t, brackets = t[: rows.shape[1]], []
         for k, row in enumerate(rows):
-            # what a parabola through each sample and its neighbours adds to it; 0 where that sample is no peak
-            h, d = np.diff(t), np.diff(row) / np.diff(t)
-            bend = np.diff(d) / (h[1:] + h[:-1])
-            slope = (d[:-1] * h[1:] + d[1:] * h[:-1]) / (h[1:] + h[:-1])
-            even = np.abs(h[1:] - h[:-1]) < 0.5 * (h[1:] + h[:-1])  # not across the gap between two brackets
-            peak = (d[:-1] >= 0) & (d[1:] <= 0) & (bend < 0) & even
-            gain = np.where(peak, slope**2 / (-4 * np.where(peak, bend, -1.0)), 0.0)
-            may = np.flatnonzero((gain > 0) & (row[1:-1] + gain >= greatest[k])) + 1
-            if gain[may - 1].max(initial=0.0) <= _SURE * np.abs(row).max():
-                greatest[k] = max(greatest[k], (row[may] + gain[may - 1]).max(initial=-np.inf))
+            at = np.flatnonzero((row[1:-1] >= row[:-2]) & (row[1:-1] >= row[2:])) + 1
+            before, after = t[at] - t[at - 1], t[at + 1] - t[at]
+            rise, fall = (row[at] - row[at - 1]) / before, (row[at + 1] - row[at]) / after
+            bend, slope = (fall - rise) / (before + after), (rise * after + fall * before) / (before + after)
+            even = np.abs(after - before) < 0.5 * (after + before)  # not across the gap between two brackets
+            peak = (bend < 0) & even
+            # what a parabola through the sample and its neighbours adds to it
+            at, gain = at[peak], slope[peak] ** 2 / (-4 * bend[peak])
+            more = (gain > 0) & (row[at] + gain >= greatest[k])
+            may, gain = at[more], gain[more]
+            if gain.max(initial=0.0) <= _SURE * np.abs(row).max():
+                greatest[k] = max(greatest[k], (row[may] + gain).max(initial=-np.inf))
                 continue
             brackets += [(t[i - 1], t[i + 1]) for i in may[np.argsort(-row[may])][:_MOST]]
         if not brackets:

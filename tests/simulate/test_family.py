@@ -13,6 +13,8 @@ from mechsym.jobs.problem import problem_of
 from mechsym.mechanisms.crank_train import build
 from mechsym.mechanisms.record import LazyFunctions, bind, form_of
 from mechsym.simulate import Settings, simulate, simulate_many
+from mechsym.simulate import integrate as integrate_module
+from mechsym.simulate import run as run_module
 from mechsym.simulate.equations import held, start_of, system
 from mechsym.simulate.many import systems
 from mechsym.simulate.problem import FormulaForce, Problem
@@ -121,3 +123,19 @@ def test_a_train_that_is_put_together_otherwise_has_another_form():
     whole = build(replace(p, I_f=3.0)).functions["dynamics"](**{n: v for n, v in at.items() if n != "I_f"})
     for name, value in rates(**{**at, "I_f": 3.0}).items():
         np.testing.assert_allclose(value, whole[name], rtol=1e-14)
+
+
+def test_a_stretch_before_the_last_steps_is_taken_up_once(monkeypatch):
+    case = cases.load("zotov-89", {"simulation.turns": 3})  # a table of gas forces: no steps but those of DOP853
+    problem = problem_of(case)
+    whole = simulate(problem).dense
+    monkeypatch.setattr(integrate_module, "_KEEP", 4)
+    few = simulate(problem)
+    taken, integrate = [], run_module._raw
+    monkeypatch.setattr(run_module, "_raw", lambda *words: taken.append(1) or integrate(*words))
+    middle = few.t[len(few.t) // 2]
+    for end in (0.02, 0.015, 0.01):
+        times = np.linspace(middle, middle + end, 50)
+        for key, values in few.dense(times).items():
+            np.testing.assert_allclose(values, whole(times)[key], rtol=1e-8, atol=1e-10)
+    assert len(taken) == 1
