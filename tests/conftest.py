@@ -1,5 +1,6 @@
 """Shared fixtures: seeded random numbers, the built-in parameters, hypothesis settings."""
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -9,7 +10,12 @@ from hypothesis import settings
 
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
 from mechsym.mechanisms.crosshead import CrossheadParameters
+from mechsym.native import compiler
 
+# A thousand files are compiled; what is tested of them in native/ and generated/ is as users have it
+if "CC" not in os.environ:
+    with contextlib.suppress(compiler.NoCompiler):
+        os.environ["CC"] = f"{compiler.find().command[0]} -O1"
 settings.register_profile("mechsym", deadline=None, derandomize=True, max_examples=30)
 settings.load_profile("mechsym")
 

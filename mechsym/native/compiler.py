@@ -40,7 +40,7 @@ class Compiler:
     """A C compiler."""
 
     command: tuple[str, ...]
-    stamp: str  #: Changes when the program changes: path, size and time of its file
+    stamp: str  #: Changes when the program changes, path, size and time of its file, or what CC says to it
 
 
 def find() -> Compiler:
@@ -56,7 +56,7 @@ def _find(named: str, path: str) -> Compiler:
         if program:
             real = Path(program).resolve()
             status = real.stat()
-            stamp = f"{real} {status.st_size} {status.st_mtime_ns}"
+            stamp = " ".join([f"{real} {status.st_size} {status.st_mtime_ns}", *command[1:]])
             return Compiler(command=(program, *command[1:]), stamp=stamp)
     names = ", ".join(c[0] for c in tried)
     raise NoCompiler(f"no C compiler found (tried {names}); install gcc or clang, or name one in the variable CC")
@@ -111,9 +111,11 @@ def version(compiler: Compiler) -> str:
 def compile_file(compiler: Compiler, source: Path, target: Path, options: tuple[str, ...]) -> None:
     """Compile one C file into a shared object.
 
-    source, target: C file to read, shared object to write. Raises NoCompiler: the compiler failed; the message has its
-    first line of complaint.
+    source, target: C file to read, shared object to write; options: of `flags`, an optimisation that CC names is the
+    one. Raises NoCompiler: the compiler failed; the message has its first line of complaint.
     """
+    if any(word.startswith("-O") for word in compiler.command):
+        options = tuple(word for word in options if not word.startswith("-O"))
     call([*compiler.command, *options, str(source), "-o", str(target), "-lm"], source.name, target)
 
 

@@ -84,7 +84,9 @@ def test_a_narrower_range_needs_less():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("changes", [{"knots": 40}, {"knots": 90}, {"angles": 360}])
+@pytest.mark.parametrize(
+    "changes", [{"knots": 40}, *(pytest.param(c, marks=pytest.mark.heavy) for c in ({"knots": 90}, {"angles": 360}))]
+)
 def test_finer_splines_and_angles_change_nothing(changes):
     assert solve(dataclasses.replace(task(), **changes)).flywheel == pytest.approx(design().flywheel, rel=1e-3)
 

@@ -140,7 +140,14 @@ HEAVY = ("chmielewski/fmu", "chmielewski/identify", "generator/page", "generator
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("entry", [pytest.param(e, id=e.name) for e in entries() if e.name in HEAVY])
+@pytest.mark.parametrize(
+    "entry",
+    [
+        pytest.param(e, id=e.name, marks=[pytest.mark.heavy] * (e.name == "generator/report"))
+        for e in entries()
+        if e.name in HEAVY
+    ],
+)
 def test_every_number_of_a_heavy_command_has_unit_and_meaning(entry, prepared):
     now, rows = record(entry, prepared), results.rows(entry.line.split()[0])
     assert now["exit"] in (0, 1)

@@ -188,3 +188,12 @@ def test_files_used_longest_ago_are_removed(home, monkeypatch):
     assert new in left and made[0] in left
     assert made[2] not in left
     assert sum(p.stat().st_size for p in cache.contents()) <= size
+
+
+@needs_compiler
+def test_what_cc_says_to_the_compiler_is_compiled_for(monkeypatch):
+    plain = cache.shared_object(SOURCE, "strict")
+    monkeypatch.setenv("CC", f"{compiler.find().command[0]} -O0")
+    other = cache.shared_object(SOURCE, "strict")
+    assert plain.name.partition("-")[0] != other.name.partition("-")[0]
+    assert plain.read_bytes() != other.read_bytes()  # -O0, and not what comes after it

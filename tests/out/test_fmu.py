@@ -56,8 +56,15 @@ def test_fmutool_finds_no_error(unit, name, version):
     assert "seems to be compliant" in said and "No semantic error" in said, said
 
 
-@pytest.mark.parametrize("version", VERSIONS)
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize(
+    ("name", "version"),
+    [
+        *(pytest.param("zotov-89", version) for version in VERSIONS),
+        *(pytest.param(name, 3, marks=pytest.mark.slow) for name in cases.names() if name != "zotov-89"),
+        # the same C in the other wrapper
+        *(pytest.param(n, 2, marks=[pytest.mark.slow, pytest.mark.heavy]) for n in cases.names() if n != "zotov-89"),
+    ],
+)
 def test_numbers_are_those_of_simulate(unit, exported, name, version):
     for found in compare(unit(name, version), exported(name)[0].problem):
         assert found.points == 201

@@ -74,7 +74,7 @@ def test_new_engines(name, command, tmp_path, monkeypatch):
     "words",
     [
         ["forces", "zotov-89", "--comparison"],
-        ["forces", "nunes-slider-crank", "--comparison"],
+        pytest.param(["forces", "nunes-slider-crank", "--comparison"], marks=pytest.mark.heavy),
         ["compare", "nunes-slider-crank", "nunes-hypocycloid"],
         ["simulate", "chmielewski", "--dampings", "1,5"],
         ["sweep", "zotov-89", "--over", "spring.p0=4..6 MPa:3"],
