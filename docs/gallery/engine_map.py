@@ -9,6 +9,6 @@ import numpy as np
 
 from mechsym import cases, jobs
 
-found = jobs.cycle(cases.load("nunes-slider-crank"), np.linspace(1000, 8000, 8) * np.pi / 30)
-print(found.table())
-figure = found.plot("speeds")
+result = jobs.cycle(cases.load("nunes-slider-crank"), np.linspace(1000, 8000, 8) * np.pi / 30)
+print(result.table())
+figure = result.plot("speeds")

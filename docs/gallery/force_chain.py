@@ -7,6 +7,6 @@ From the shell: mechsym forces moroianu
 
 from mechsym import cases, jobs
 
-found = jobs.forces(cases.load("moroianu"))
-print(f"crank pin {found.columns['crank_pin_load'].max() / 1e3:.0f} kN")
-figure = found.plot("forces")
+result = jobs.forces(cases.load("moroianu"))
+print(f"crank pin {result.columns['crank_pin_load'].max() / 1e3:.0f} kN")
+figure = result.plot("forces")

@@ -7,6 +7,6 @@ From the shell: mechsym forces zotov-89
 
 from mechsym import cases, jobs
 
-found = jobs.forces(cases.load("zotov-89"))
-print(f"mechanical efficiency {100 * found.losses.mechanical_efficiency:.1f} %")
-figure = found.plot("friction")
+result = jobs.forces(cases.load("zotov-89"))
+print(f"mechanical efficiency {100 * result.losses.mechanical_efficiency:.1f} %")
+figure = result.plot("friction")

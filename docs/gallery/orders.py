@@ -7,7 +7,7 @@ From the shell: mechsym forces zotov-89
 
 from mechsym import cases, jobs
 
-found = jobs.forces(cases.load("zotov-89"))
-weight = found.shaking.counterweight
+result = jobs.forces(cases.load("zotov-89"))
+weight = result.shaking.counterweight
 print(f"{weight.rms_before / 1e3:.1f} kN rms, {weight.rms_after / 1e3:.1f} kN with {weight.unbalance:.0f} kg m")
-figure = found.plot("orders")
+figure = result.plot("orders")

@@ -7,5 +7,5 @@ From the shell: mechsym forces nunes-slider-crank --out forces
 
 from mechsym import cases, jobs
 
-found = jobs.forces(cases.load("nunes-slider-crank"))
-figure = found.plot("polar")
+result = jobs.forces(cases.load("nunes-slider-crank"))
+figure = result.plot("polar")

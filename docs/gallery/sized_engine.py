@@ -7,6 +7,6 @@ From the shell: mechsym size nunes-hypocycloid
 
 from mechsym import cases, jobs
 
-found = jobs.size(cases.load("nunes-hypocycloid"))
-print(len(found.rows), "rows,", len(found.failing), "factors too low")
-figure = found.plot("section")
+result = jobs.size(cases.load("nunes-hypocycloid"))
+print(len(result.rows), "rows,", len(result.failing), "factors too low")
+figure = result.plot("section")

@@ -125,8 +125,8 @@ class RunPanel(Panel):
         """Lay out what it holds."""
         ui = self.ui
         self.values: dict[str, float] = {}
-        self.found: Run | None = None
-        self.found_for: dict[str, float] | None = None
+        self.last: Run | None = None
+        self.last_of: dict[str, float] | None = None
         self.pinned: Run | None = None
         self.running: asyncio.Task[Run] | None = None
         self.drawn_for: dict[str, float] | None = None
@@ -158,10 +158,10 @@ class RunPanel(Panel):
         self.values = dict(values)
         if self.drawn_for is None:  # the machine first
             await self._turn(dict(values))
-        if self.found_for == self.values:
+        if self.last_of == self.values:
             self.note.text = ""
         elif self.name not in commands.LIVE:
-            self.note.text = "of other values: run it again" if self.found else ""
+            self.note.text = "of other values: run it again" if self.last else ""
         else:
             await asyncio.sleep(_REST)
             if newest():
@@ -188,15 +188,15 @@ class RunPanel(Panel):
         asked, self.seconds, self.busy.visible = dict(self.values), 0, True
         self.running = mine = asyncio.ensure_future(commands.run(self.line()))
         try:
-            self.found, self.found_for = await mine, asked
+            self.last, self.last_of = await mine, asked
         except asyncio.CancelledError:
             return
         self.busy.visible, self.note.text = False, ""
-        self._show(self.found)
+        self._show(self.last)
         page = await run.io_bound(reading, self.path, asked, self.name)
-        if page and self.found_for == asked:
-            self.found = replace(self.found, page=page)
-            self._show(self.found)
+        if page and self.last_of == asked:
+            self.last = replace(self.last, page=page)
+            self._show(self.last)
 
     def _tick(self) -> None:
         if self.busy.visible:
@@ -211,9 +211,9 @@ class RunPanel(Panel):
 
     def pin(self) -> None:
         """Keep what is shown beside what comes."""
-        self.pinned = self.found
-        if self.found:
-            self._show(self.found)
+        self.pinned = self.last
+        if self.last:
+            self._show(self.last)
 
 
 class AuditPanel(RunPanel):

@@ -155,8 +155,8 @@ def locate(name: str, key: str, overrides: Mapping[str, object] | None = None, o
     name: name of a built-in case or a path to a TOML file. key: dotted key; a bare key works if it is unique. option:
     where the key was written, for messages. Raises BadInput: unknown or ambiguous key.
 
-    >>> found = locate("zotov-89", "p0")
-    >>> found.section, found.field, found.unit
+    >>> place = locate("zotov-89", "p0")
+    >>> place.section, place.field, place.unit
     ('spring', 'p0', 'Pa')
     """
     file, head, sections = _raw(name, overrides)

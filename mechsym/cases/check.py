@@ -20,7 +20,7 @@ from mechsym.cases.older import renewed
 from mechsym.cases.values import convert, flat, without_unit
 from mechsym.errors import BadInput, shown, suggest
 from mechsym.files import Json
-from mechsym.files.trust import is_own
+from mechsym.files.trust import is_trusted
 from mechsym.mechanisms import own
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
@@ -67,7 +67,7 @@ def check_file(name: str, trust: bool = False) -> Checked:
     sections = {k: v for k, v in tables.items() if k not in (*HEAD, "doubts")}
     if mechanism is not None and own.is_file(mechanism):
         sections.setdefault("parameters", {})
-        trust = trust or is_own(own.file_of(mechanism)[0].resolve())
+        trust = trust or is_trusted(own.file_of(mechanism)[0].resolve())
     untold = mechanism is None or (own.is_file(mechanism) and not trust)
     skipped = tuple(s for s in sections if s in schema.LETTERS) if untold else ()
     problems, records = [*head], dict[str, Record]()

@@ -143,7 +143,7 @@ def _repository(
         for one in read.audited(place, Asked(text="", against="", **said), chosen):
             files.append(one)
             bar.update(1)
-    rows = findings.findings(files)
+    rows = findings.of_files(files)
     if log is not None:
         click.echo(str(write_text(log, json.dumps(findings.sarif(rows, __version__), indent=1))), err=True)
     if out is not None:

@@ -12,8 +12,8 @@ from mechsym.derive.letters import Letters
 from mechsym.derive.linkage import Pair, point_of
 from mechsym.derive.refuse import refuse
 from mechsym.files import Json
+from mechsym.style.shapes import DECLARED
 
-PAINTED = ("frame", "flywheel", "cam", "piston", "planet", "rod", "crank", "roller", "joint", "trace")
 SKETCHED = ("line", "circle", "box", "piston", "cylinder", "slider_crank")
 
 
@@ -51,8 +51,8 @@ class Drawing(Letters):
         return all_names
 
     def _shape(self, kind: str, role: str, points: tuple[object, ...], **sizes: object) -> None:
-        if role not in PAINTED:
-            refuse(f"nothing is painted as {role!r}; there are {', '.join(PAINTED)}")
+        if role not in DECLARED:
+            refuse(f"nothing is painted as {role!r}; there are {', '.join(DECLARED)}")
         named = {key: self._size(size) for key, size in sizes.items()}
         self.shapes.append({"kind": kind, "role": role, "points": self.point_names(points), **named})
 
@@ -84,8 +84,8 @@ class Drawing(Letters):
         a `slider_crank` with throw r, rod l, offset and the angle of its crank [m, rad]."""
         if kind not in SKETCHED:
             refuse(f"nothing is sketched as {kind!r}; there are {', '.join(SKETCHED)}")
-        if role and role not in PAINTED:
-            refuse(f"nothing is painted as {role!r}; there are {', '.join(PAINTED)}")
+        if role and role not in DECLARED:
+            refuse(f"nothing is painted as {role!r}; there are {', '.join(DECLARED)}")
         moving = (*self.q,)
         named = {
             k: self._size_of(v, "rad" if k == "angle" else "m", f"{k} of a {kind}", moving) for k, v in sizes.items()

@@ -49,12 +49,12 @@ def refuse_foreign(path: Path) -> None:
         return
     if _commands[-1][1]:
         keep(path.parent)
-    elif not is_own(path):
+    elif not is_trusted(path):
         way_out = f"read it, then say --trust once for all files of its folder, or work in {path.parent}"
         raise BadInput(f"mechanism {path} is a program from outside the working folder and is not run; {way_out}")
 
 
-def is_own(path: Path) -> bool:
+def is_trusted(path: Path) -> bool:
     """Whether a Python file, resolved, runs without a word while a command runs."""
     return bool(_commands) and (path in _commands[-1][0] or _at_hand(path) or path.parent in _known())
 

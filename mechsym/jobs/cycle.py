@@ -206,8 +206,8 @@ def cycle(case: Case, omega: RadPerSecond[Array] | None = None, progress: Progre
     so on, of the engine; `per_cylinder` of one cylinder, or `pistons` of each where they move differently.
 
     >>> from mechsym import cases
-    >>> found = cycle(cases.load("zotov-89"))
-    >>> round(float(found["power_kw"][0]), 2), found.view.cards[1].value
+    >>> result = cycle(cases.load("zotov-89"))
+    >>> round(float(result["power_kw"][0]), 2), result.view.cards[1].value
     (83.88, '83.88 kW')
     """
     require(case, "cycle")

@@ -67,8 +67,8 @@ def forces(case: Case, comparison: bool = False) -> Forces:
     stand. comparison: whether the mechanisms are put side by side as well.
 
     >>> from mechsym import cases
-    >>> found = forces(cases.load("zotov-89"))
-    >>> round(float(found.columns["crank_pin_load"].max()) / 1e3, 1)
+    >>> result = forces(cases.load("zotov-89"))
+    >>> round(float(result.columns["crank_pin_load"].max()) / 1e3, 1)
     485.8
     """
     require(case, "forces")
@@ -117,10 +117,10 @@ def write(case: Case, loads: Forces, numbers: Json, folder: Path, findings: Sequ
     return shown.write(loads, numbers, folder, about, findings)
 
 
-def write_motion(found: driven.DrivenForces, numbers: Json, folder: Path) -> list[Path]:
+def write_motion(motion: driven.DrivenForces, numbers: Json, folder: Path) -> list[Path]:
     """Write table and summary of a motion."""
     return [
-        write_quantities(folder / "forces.csv", found.columns, found.columns.units),
+        write_quantities(folder / "forces.csv", motion.columns, motion.columns.units),
         write_text(folder / "summary.json", to_json(numbers) + "\n"),
     ]
 

@@ -11,11 +11,12 @@ from mechsym.mechanisms import constraints, own
 from mechsym.mechanisms.drawing import Circle, Line, Shapes, declared, extent_of, shapes
 from mechsym.mechanisms.drawn_parts import turns_round
 from mechsym.mechanisms.record import bind
-from mechsym.mechanisms.turning import STYLES, ordered, rules, scene
+from mechsym.mechanisms.turning import ordered, rules, scene
 from mechsym.page import page
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Metre, Radian
 from mechsym.style import INK, axis_unit, svg
+from mechsym.style.shapes import STYLES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

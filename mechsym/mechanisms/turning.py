@@ -9,29 +9,11 @@ from mechsym.files import Json
 from mechsym.mechanisms.drawn_parts import Circle, Line, Shapes, extent_of
 from mechsym.quantities import record
 from mechsym.quantities.units import Pure
-from mechsym.style import BLUE, DARK, GREEN, INK, PAPER, QUIET, RED, VIOLET
-from mechsym.style.panels import GAS, ORANGE, PISTON, ROLLER, WHEEL
+from mechsym.style import DARK, RED
+from mechsym.style.panels import GAS
+from mechsym.style.shapes import STYLES
 
 FRAMES = 120
-# role: colour of the line, line width in points, filled colour; what comes first lies behind
-STYLES: dict[str, tuple[str, float, str]] = {
-    "second_track": (VIOLET, 1.6, "none"),
-    "track": (RED, 2.2, "none"),
-    "gas": (GAS, 0.5, GAS),
-    "frame": (QUIET, 1.4, "none"),
-    "flywheel": (QUIET, 1.2, WHEEL),
-    "cam": (INK, 1.4, WHEEL),
-    "piston": (INK, 1.4, PISTON),
-    "planet": (GREEN, 2.0, "none"),
-    "rod": (BLUE, 3.0, "none"),
-    "spring": (BLUE, 2.0, "none"),
-    "crank": (RED, 3.4, "none"),
-    "roller": (INK, 1.4, ROLLER),
-    "joint": (INK, 1.2, PAPER),
-    "force": (ORANGE, 2.6, "none"),
-    "trace": (ORANGE, 1.0, "none"),
-}
-
 _BODIES, _BODY = ("rod", "crank"), 4.0  # drawn by their middle lines; as wide as bodies in a page
 
 

@@ -3,6 +3,7 @@
 panels     colours on light and on dark paper; figures with quiet panels, legends above them, axes in the units that
            were chosen, labels that keep clear of each other, equal curves named once, significant digits
 picture    a figure as SVG: text as text, title and description, ids of its own, dark where the reader wants it
+shapes     how shapes of drawings are painted, and which of them a mechanism may name
 
 matplotlib is imported inside functions, so that whoever only needs a colour or a number does not load it.
 """

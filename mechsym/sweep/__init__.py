@@ -1,7 +1,7 @@
 """Many runs of a case over ranges of its values, or over samples of them, as one labelled data set.
 
-    found = sweep(Plan(case="zotov-89", over=("spring.p0=3..8 MPa:11", "speed_rpm=80,89")))
-    dataset(found)["guide.z_max"].sel(speed_rpm=89)
+    result = sweep(Plan(case="zotov-89", over=("spring.p0=3..8 MPa:11", "speed_rpm=80,89")))
+    dataset(result)["guide.z_max"].sel(speed_rpm=89)
 
 What runs is what the case is for: a driven machine is simulated (side by side in compiled code), an engine with a
 spring gets its hinge designed, an engine without one runs its cycle (as one map). A point that cannot be computed is a

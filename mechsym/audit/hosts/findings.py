@@ -48,7 +48,7 @@ def message(row: Row) -> str:
     return f"{row['printed']} is not {row['claim']}{size}{should}"
 
 
-def findings(files: Sequence[File]) -> list[Row]:
+def of_files(files: Sequence[File]) -> list[Row]:
     """All findings, by file and line."""
     return [row for one in files for row in sorted(one.rows, key=lambda r: r["line"])]
 
