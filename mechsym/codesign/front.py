@@ -30,6 +30,7 @@ from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.guide import setting_of
 from mechsym.hinge.springs.face import affine_energy
+from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import Array, Inertia, Pascal, Pure, RadPerSecond
@@ -197,9 +198,7 @@ def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
     high = 1e3
     while excess(high) > 0 and high < 1e7:
         high *= 3
-    flywheel = (
-        0.0 if excess(0.0) <= 0 else float(scipy.optimize.brentq(excess, 0.0, high, xtol=1e-3)) if high < 1e7 else None
-    )
+    flywheel = 0.0 if excess(0.0) <= 0 else root(excess, 0.0, high, xtol=1e-3) if high < 1e7 else None
     rows = [best(k, flywheel or high) for k in range(len(points))]
     return CutForOne(at=at, flywheel=flywheel, p0=np.array([r[0] for r in rows]), ripple=np.array([r[1] for r in rows]))
 
@@ -358,4 +357,4 @@ def _least(worst: Callable[[float], float], wanted: float) -> float | None:
         high *= 3
         if high > _MOST:
             return None
-    return float(scipy.optimize.brentq(lambda x: worst(x) - wanted, 0.0, high, xtol=1e-6 * high))
+    return root(lambda x: worst(x) - wanted, 0.0, high, xtol=1e-6 * high)

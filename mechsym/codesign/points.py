@@ -14,6 +14,7 @@ import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
+from mechsym.periodic.roots import root
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Inertia, Pure
 
@@ -121,4 +122,4 @@ def bare_flywheel(points: Sequence[Point], wanted: Pure) -> Inertia:
     high = 2 * swing / wanted
     while excess(high) > 0:
         high *= 2
-    return float(scipy.optimize.brentq(excess, 0.0, high, xtol=1e-6 * high, rtol=1e-10))
+    return root(excess, 0.0, high, xtol=1e-6 * high, rtol=1e-10)

@@ -19,6 +19,7 @@ from mechsym.codesign.points import Function, Point
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
+from mechsym.periodic.roots import root
 from mechsym.quantities import quantity, record
 from mechsym.quantities.display import per_cent, quantity_text
 from mechsym.quantities.units import Inertia, Scalar
@@ -71,7 +72,7 @@ def misfire_flywheel(design: CoDesign, share: float, least: Inertia | None = Non
     high = max(2 * low, 100.0)
     while short(high) < 0:
         high *= 2
-    return float(scipy.optimize.brentq(short, low, high, xtol=min(1.0, 1e-3 * high)))
+    return root(short, low, high, xtol=min(1.0, 1e-3 * high))
 
 
 def table(design: CoDesign, ks: Sequence[int] | None = None) -> list[Scenario]:

@@ -20,10 +20,10 @@ from typing import Annotated, Any
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput
 from mechsym.mechanisms.arrays import over_arrays
+from mechsym.periodic.roots import root
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import (
     Area,
@@ -243,9 +243,7 @@ def with_bottom(motion: Motion) -> Motion:
         raise BadInput(f"the piston goes out and back {count} times in a turn; a cycle knows one bottom dead centre")
     best = int(np.argmax(x))
     low, high = phi[best - 1], phi[best + 1]
-    return dataclasses.replace(
-        motion, bottom=float(scipy.optimize.brentq(lambda a: float(travel(motion, a)[1]), low, high, xtol=1e-15))
-    )
+    return dataclasses.replace(motion, bottom=root(lambda a: float(travel(motion, a)[1]), low, high, xtol=1e-15))
 
 
 def check_motion(motion: Motion) -> None:

@@ -22,6 +22,7 @@ from mechsym.cycle.pressure import periodic, pressure_over
 from mechsym.cycle.source import ENGINE_PAGE, EngineParts, Progress, otto_bound, unseen
 from mechsym.errors import BadInput
 from mechsym.files import Json
+from mechsym.periodic.roots import root
 from mechsym.quantities import RPM
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import Array, Radian, RadPerSecond
@@ -176,7 +177,7 @@ def _closed_period(
 def _drawn_from(room: Chamber, ratio: float, gamma: float) -> float:
     """Angle at which what is left in the clearance has fallen to intake pressure, and fresh gas comes in [rad]."""
     wanted = room.clearance * ratio ** (1 / gamma)
-    angle = scipy.optimize.brentq(lambda phi: float(volume(room, phi)) - wanted, 0.0, math.pi, xtol=1e-14)
+    angle = root(lambda phi: float(volume(room, phi)) - wanted, 0.0, math.pi, xtol=1e-14)
     return float(2 * math.pi + angle)
 
 

@@ -13,6 +13,7 @@ from mechsym.cycle.chamber import Chamber, motion_over
 from mechsym.cycle.motion import dead_centre
 from mechsym.cycle.pressure import Pieces, Pressure, peak
 from mechsym.page import Shown
+from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.units import Newton, Radian, Scalar
 
@@ -94,7 +95,7 @@ def over_travel(gas: Gas, own: ca.Function, other: ca.Function, late: Radian = 0
         return forth(back_again(theta - late)) + late
 
     def back(phi: float) -> float:
-        return float(scipy.optimize.brentq(lambda theta: float(angle(theta)) - phi, phi - 1.0, phi + 1.0, xtol=1e-14))
+        return root(lambda theta: float(angle(theta)) - phi, phi - 1.0, phi + 1.0, xtol=1e-14)
 
     whole = gas.pressure
     pressure = dataclasses.replace(

@@ -19,6 +19,7 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.roles import PistonRole
+from mechsym.periodic.roots import root
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Radian
 
@@ -84,7 +85,7 @@ def dead_centre(travel: ca.Function, sign: float) -> float:
         return sign * float(travel(angle)[1])
 
     if slope(low) < 0 < slope(high):
-        best = float(scipy.optimize.brentq(slope, low, high, xtol=1e-15))
+        best = root(slope, low, high, xtol=1e-15)
     else:
         best = float(
             scipy.optimize.minimize_scalar(lambda a: sign * float(travel(a)[0]), bounds=(low, high), method="bounded").x

@@ -21,7 +21,6 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import numpy as np
-import scipy
 
 from mechsym.cycle.chamber import Chamber, travel
 from mechsym.quantities.results import quantity, result
@@ -31,6 +30,7 @@ ATMOSPHERE = 101325.0
 
 # Gauss panels of two degrees with eight nodes: a polytrope is integrated to round-off
 _PANEL = math.pi / 90
+_LOOKS, _FINER = 6, 16  # at a peak, each so much finer than the one before
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 #: From and to an angle [rad], and a formula of it for numbers and CasADi symbols
@@ -130,19 +130,18 @@ def pressure_over(
 
 
 def peak(absolute: Callable[[Scalar], Scalar], period: Radian, kinks: tuple[Radian, ...]) -> tuple[Pascal, Radian]:
-    """Highest pressure and its angle.
+    """Highest pressure and its angle, looked at more and more finely.
 
     absolute: callable, pressure of the crank angle [Pa]; period: 2 pi or 4 pi; kinks: angles in [0, period) where the
     pressure is not smooth. Returns phi: its angle in (-period/2, period/2].
     """
     phi = np.union1d(np.linspace(-period / 2, period / 2, 2881)[1:], _centred(np.asarray(kinks), period))
     at = phi[int(np.argmax(absolute(phi)))]
-    step = period / 2880
-    refined = scipy.optimize.minimize_scalar(
-        lambda angle: -float(absolute(angle)), bounds=(at - step, at + step), method="bounded", options={"xatol": 1e-9}
-    )
-    best = max((float(at), float(refined.x)), key=lambda angle: float(absolute(angle)))
-    return float(absolute(best)), float(_centred(best, period))
+    span = period / 2880
+    for _ in range(_LOOKS):
+        near = at + span * np.linspace(-1, 1, 2 * _FINER + 1)
+        at, span = near[int(np.argmax(absolute(near)))], span / _FINER
+    return float(absolute(at)), float(_centred(at, period))
 
 
 def _centred(angle: Scalar, period: float) -> Scalar:

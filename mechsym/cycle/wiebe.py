@@ -13,8 +13,8 @@ y = 0, also with respect to m.
 
 import casadi as ca
 import numpy as np
-import scipy
 
+from mechsym.periodic.roots import root
 from mechsym.quantities.units import Pure, Scalar
 
 # Smallest y of the symbolic form: log(y), which the derivative with respect to m needs, stays finite
@@ -101,7 +101,7 @@ def double_burnt_at(share: Pure, shape: tuple[float, ...], end: Pure) -> Pure:
     wanted, last = share * float(double_wiebe(end, *shape)), 1.0
     while double_wiebe(last, *shape) < wanted:
         last *= 2
-    return float(scipy.optimize.brentq(lambda y: double_wiebe(y, *shape) - wanted, 0.0, last, xtol=1e-14))
+    return root(lambda y: double_wiebe(y, *shape) - wanted, 0.0, last, xtol=1e-14)
 
 
 def _symbolic(value: object) -> bool:

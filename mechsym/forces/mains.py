@@ -34,6 +34,7 @@ from mechsym.errors import BadInput
 from mechsym.forces.turn import Turn, main_roles
 from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.roles import BearingRole
+from mechsym.periodic.roots import root
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Array, Metre, Pascal, Pure, Radian, RadPerSecond
 from mechsym.torsion.twist import ShaftLimits
@@ -249,15 +250,12 @@ def velocity(eccentricity: complex, load: complex) -> complex:
     The load drives the motion, so the velocity stands within a quarter turn of it, and the direction of the impedance
     grows with that of the velocity.
     """
-    from scipy.optimize import brentq
 
     e, turned = min(abs(eccentricity), _TOUCHING), (eccentricity / abs(eccentricity) if eccentricity else 1.0)
     seen = load / turned  # with the eccentricity along x
     across = (seen / abs(seen)).conjugate()
     beta = cmath.phase(seen)
-    alpha = brentq(
-        lambda alpha: (impedance(e, alpha) * across).imag, beta - math.pi / 2, beta + math.pi / 2, xtol=1e-12
-    )
+    alpha = root(lambda alpha: (impedance(e, alpha) * across).imag, beta - math.pi / 2, beta + math.pi / 2, xtol=1e-12)
     return complex(turned * abs(seen) / abs(impedance(e, alpha)) * cmath.rect(1.0, alpha))
 
 

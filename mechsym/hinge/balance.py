@@ -31,6 +31,7 @@ from mechsym.errors import BadInput
 from mechsym.hinge.choices import BALANCES
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
+from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Inertia, Joule, NewtonMetre, Pure, Radian, RadPerSecond
 from mechsym.simulate.speed import Speed
@@ -127,7 +128,7 @@ def constant_load_speed(
     slowest = float(np.max(missing - inertia * omega**2 / 2)) + max(1e-9 * swing, 1e-14 * energy)
     if excess(slowest) > 0:
         return None
-    return phid(scipy.optimize.brentq(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))
+    return phid(root(excess, slowest, float(missing.max()) + energy, xtol=1e-12 * energy))
 
 
 def propeller_load_speed(

@@ -15,6 +15,7 @@ import scipy
 
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.native.runs import Level
+from mechsym.periodic.roots import root
 from mechsym.simulate.equations import right_side
 from mechsym.simulate.phase import Leg, Phase, Span
 from mechsym.simulate.problem import Steps
@@ -106,7 +107,7 @@ def _time(dense: "scipy.integrate.DenseOutput", surface: Level, t_old: float, t:
 
     if distance(t_old) * distance(t) >= 0:
         return t
-    return max(float(scipy.optimize.brentq(distance, t_old, t, xtol=1e-300, rtol=1e-15)), float(np.nextafter(t_old, t)))
+    return max(root(distance, t_old, t, xtol=1e-300, rtol=1e-15), float(np.nextafter(t_old, t)))
 
 
 def advance_sundials(phase: Phase) -> Leg:

@@ -18,6 +18,7 @@ from numpy.polynomial import chebyshev
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism
 from mechsym.native.runs import Level
+from mechsym.periodic.roots import root
 from mechsym.quantities import record
 
 _TERMS = 16  # of the polynomial, less where it needs fewer
@@ -164,7 +165,7 @@ def _through(branch: _Branch, q: np.ndarray, way: float, reach: float) -> Crossi
     value = scipy.interpolate.BarycentricInterpolator(
         [branch.at[j] for j in near], [branch.determinants[j] for j in near]
     )
-    meet = scipy.optimize.brentq(value, branch.at[k], branch.at[k + 1], xtol=1e-15)
+    meet = root(value, branch.at[k], branch.at[k + 1], xtol=1e-15)
     for turned in (branch.at, branch.poses, branch.determinants):
         turned.reverse()
     if not all(branch.advance(-step) for _ in range(max(count - int(_NEAR), 0))):

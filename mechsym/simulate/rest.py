@@ -18,6 +18,7 @@ import scipy
 from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import velocities
+from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.simulate import constrained, equations
@@ -144,7 +145,7 @@ def _round(motion: _Motion, start: np.ndarray) -> tuple[list[np.ndarray], list[f
         if p is None or r is None or not a * b <= 0 or a == b == 0 or (b == 0 and r is not rows[-1][0]):
             continue
         try:
-            angle = scipy.optimize.brentq(lambda x, p=p: _along(motion, x, p), p[i], r[i], xtol=1e-14)
+            angle = root(lambda x, p=p: _along(motion, x, p), p[i], r[i], xtol=1e-14)
         except ValueError:  # the loop opens in between
             continue
         pose = motion.close(np.array([angle]), p)

@@ -11,9 +11,9 @@ known; the closed forms of `mechsym.hinge.balance` give the speed then, for cons
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from mechsym.machine.loads import ConstantLoad, load_torque
+from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.units import Inertia, NewtonMetre, Pure, RadPerSecond
 from mechsym.simulate.angle import AngleTurn, Panels, extremes, gauss, lowest_energy, speeds, stop_angle, turn
@@ -95,7 +95,7 @@ def _neutral(panels: Panels, speed: float, flywheel: float) -> Steady:
     bottom = -low + 1e-9 * top
     if surplus(bottom) > 0:
         return _none(f"no start keeps the mean speed at {speed:.6g} rad/s: the shaft stops before it is so slow")
-    energy = scipy.optimize.brentq(surplus, bottom, top * (1 + 1e-9), xtol=1e-300, rtol=1e-14)
+    energy = root(surplus, bottom, top * (1 + 1e-9), xtol=1e-300, rtol=1e-14)
     reason = "constant load in balance: any speed repeats; this is the motion with the wanted mean speed"
     return _steady(panels, flywheel, turn(panels, flywheel, energy), "neutral", reason)
 
@@ -167,7 +167,7 @@ def flywheel_for_ripple(panels: Panels, speed: RadPerSecond, target: Pure = 1 / 
     bottom = top
     while excess(bottom) <= 0:
         bottom = bottom / 2 if bottom > 1e-6 * top else 0.0
-    inertia = float(scipy.optimize.brentq(excess, bottom, top, rtol=1e-12, xtol=1e-300))
+    inertia = root(excess, bottom, top, rtol=1e-12, xtol=1e-300)
     reason = f"ripple {target:.6g} in steady motion"
     return Flywheel(status="found", reason=reason, inertia=inertia, speed_ripple=excess(inertia) + target)
 
@@ -199,7 +199,7 @@ def smallest_flywheel_that_turns(panels: Panels, speed: RadPerSecond, turns: int
     top = 2 * _swing(panels) / speed**2
     for _ in range(40):
         if lowest(top) > 0:
-            inertia = float(scipy.optimize.brentq(lowest, 0.0, top, rtol=1e-12, xtol=1e-300))
+            inertia = root(lowest, 0.0, top, rtol=1e-12, xtol=1e-300)
             reason = f"started at {speed:.6g} rad/s, it completes {turns} periods"
             return Flywheel(status="found", reason=reason, inertia=inertia, speed_ripple=None)
         top *= 2

@@ -11,9 +11,9 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput
+from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.units import Metre, Radian
 from mechsym.sizing.checks import Check, at_least, at_most, at_speed
@@ -100,7 +100,7 @@ def face_width(part: GearPart, loads: ToothLoads, wants: Wants, material: Materi
         raise BadInput(
             f"face width: {1e3 * (short(most) + most):.1f} mm are needed, the pinion bears {1e3 * most:.1f} mm"
         )
-    return float(scipy.optimize.brentq(short, 1e-4, most, xtol=1e-9)) if short(1e-4) > 0 else 1e-4
+    return root(short, 1e-4, most, xtol=1e-9) if short(1e-4) > 0 else 1e-4
 
 
 def candidates(d: Metre, pressure_angle: Radian, base: GearPart) -> Iterator[GearPart]:

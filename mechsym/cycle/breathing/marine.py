@@ -15,7 +15,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from mechsym.cycle.breathing.flow import Scavenging, dew_point, flow_area, orifice_flow, remaining, trapped_temperature
 from mechsym.cycle.breathing.turbocharger import atmosphere, compressor_temperature
@@ -33,6 +32,7 @@ from mechsym.cycle.kinds.two_stroke import (
 from mechsym.cycle.pressure import Pressure, mean_indicated_pressure
 from mechsym.cycle.source import CylinderGas, EngineParts
 from mechsym.errors import BadInput
+from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import RadPerSecond
@@ -147,7 +147,7 @@ def scavenge(s: Scavenging, cycle: TwoStrokeMarine, room: Chamber, omega: RadPer
     if not stable:
         raise BadInput(_no_balance(engine, surplus))
     at = stable[-1]
-    p_s = float(scipy.optimize.brentq(lambda p: _surplus(engine, p), trials[at], trials[at + 1], xtol=1e-9, rtol=1e-14))
+    p_s = root(lambda p: _surplus(engine, p), trials[at], trials[at + 1], xtol=1e-9, rtol=1e-14)
     return _state(engine, _charge(engine, p_s))
 
 
@@ -216,9 +216,7 @@ def _receiver(engine: _Engine, c: _Charge) -> float | None:
         flow = _flow(engine, c, p_r)
         return flow.air + flow.fuel - flow.through
 
-    return (
-        float(scipy.optimize.brentq(rest, low, high, xtol=1e-9, rtol=1e-15)) if low < high and rest(high) < 0 else None
-    )
+    return root(rest, low, high, xtol=1e-9, rtol=1e-15) if low < high and rest(high) < 0 else None
 
 
 def _surplus(engine: _Engine, p_s: float) -> float:

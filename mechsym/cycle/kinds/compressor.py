@@ -12,12 +12,12 @@ The gas takes work: the mean indicated pressure is negative, and so is the mean 
 import math
 
 import numpy as np
-import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.pressure import Pieces, Pressure, pressure_over
 from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput
+from mechsym.periodic.roots import root
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Pascal, Radian, Scalar
 
@@ -71,7 +71,7 @@ def valves(cycle: CompressorCycle, room: Chamber) -> dict[str, float]:
     full = room.clearance + room.displacement
 
     def reached(wanted: float, low: float, high: float) -> float:
-        return float(scipy.optimize.brentq(lambda phi: float(volume(room, phi)) / wanted - 1, low, high, xtol=1e-15))
+        return root(lambda phi: float(volume(room, phi)) / wanted - 1, low, high, xtol=1e-15)
 
     return {
         "delivery valve closes": 0.0,

@@ -25,6 +25,7 @@ from mechsym.cycle.kinds.two_stroke import burnt_angles, scavenging_pressure
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput
+from mechsym.periodic.roots import root
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Pure, Scalar
 
@@ -166,7 +167,7 @@ def _fuel(cycle: TwoStrokeZone, air: float, mean: Callable[[float], float]) -> f
             f"mean_indicated_pressure = {wanted / 1e5:g} bar cannot be had: without fuel there are {low / 1e5:.3g} "
             f"bar, with all the air burnt {high / 1e5:.3g} bar; change it or the scavenge pressure p_s"
         )
-    return float(scipy.optimize.brentq(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13))
+    return root(lambda fuel: mean(fuel) - wanted, least, most, xtol=1e-13 * most, rtol=1e-13)
 
 
 def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Scalar], Scalar]:

@@ -25,6 +25,7 @@ import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.errors import BadInput
+from mechsym.periodic.roots import root
 from mechsym.quantities.units import Array, Pascal, Radian
 
 # Standard deviation of a fourth difference of white noise of deviation 1, and a median turned into a deviation
@@ -98,7 +99,7 @@ def motored_width(cylinder: Chamber) -> Radian:
     v_c, half = float(volume(cylinder, 0.0)), 2 ** (1 / 1.33)
     if cylinder.compression_ratio <= half:
         return math.pi
-    return 2 * float(scipy.optimize.brentq(lambda phi: float(volume(cylinder, phi)) / v_c - half, 0.0, math.pi))
+    return 2 * root(lambda phi: float(volume(cylinder, phi)) / v_c - half, 0.0, math.pi)
 
 
 def _refuse_second_hump(file: str, mean: np.ndarray, rows: np.ndarray, step: float, period: float) -> None:

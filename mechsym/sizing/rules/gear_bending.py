@@ -26,10 +26,10 @@ from functools import cache
 from importlib import resources
 
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput
 from mechsym.files import Json
+from mechsym.periodic.roots import root
 from mechsym.quantities.units import Pure, Radian
 from mechsym.sizing.checks import require
 from mechsym.sizing.rules.gear_geometry import Pair, action_line, contact_ratio, tooth_thickness
@@ -109,9 +109,7 @@ def critical_section(pair: Pair, member: int) -> tuple[Pure, Pure]:
         raise BadInput(
             f"teeth = {teeth}, shift = {pair.shift:g}: no critical section; the tooth is undercut or pointed"
         )
-    xi, eta = fillet(
-        pair, member, scipy.optimize.brentq(touching, angles[crossing[0]], angles[crossing[0] + 1], xtol=1e-12)
-    )
+    xi, eta = fillet(pair, member, root(touching, angles[crossing[0]], angles[crossing[0] + 1], xtol=1e-12))
     return float(r_L - eta), float(2 * xi)
 
 

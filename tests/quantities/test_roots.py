@@ -1,0 +1,45 @@
+"""Roots of continuous functions: enclosed as closely as asked, as scipy's, and refused where there is none."""
+
+import math
+
+import pytest
+import scipy
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mechsym.periodic.roots import root
+
+SHAPES = {
+    "a cube that is flat at its root": lambda x: x**3 + 1e-3 * x,
+    "an exponential": lambda x: math.expm1(3 * x),
+    "a steep arc tangent": lambda x: math.atan(50 * x),
+    "a jump": lambda x: math.copysign(1.0, x),
+    "a tiny slope": lambda x: 1e-300 * x,
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@given(at=st.floats(-3, 3), left=st.floats(0.01, 5), right=st.floats(0.01, 5), sign=st.sampled_from((-1, 1)))
+def test_a_root_is_as_close_as_asked(shape, at, left, right, sign):
+    calls = []
+
+    def function(x):
+        calls.append(x)
+        return sign * SHAPES[shape](x - at)
+
+    assert abs(root(function, at - left, at + right, xtol=1e-12) - at) <= 1e-12 + 1e-15 * abs(at)
+    assert len(calls) < 65  # no more than halves need
+    there = scipy.optimize.brentq(function, at - left, at + right, xtol=1e-12)
+    assert root(function, at + right, at - left, xtol=1e-12) == pytest.approx(there, abs=3e-12)
+
+
+def test_roots_at_the_ends():
+    assert root(lambda x: x, 0, 1) == 0 and root(lambda x: x - 1, 0, 1) == 1
+
+
+@pytest.mark.parametrize(
+    "function", [lambda x: x * x + 1, lambda x: math.nan, lambda x: math.log(x) if x < 1 else math.nan]
+)
+def test_what_encloses_no_root_is_refused(function):
+    with pytest.raises(ValueError, match="no root|not a number"):
+        root(function, 0.5, 2.0)
