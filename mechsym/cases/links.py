@@ -10,6 +10,7 @@ section A is that of the stoutest link, a square bar of steel of its mass and le
     \frac{|c - \bar p|}{l}, \qquad \frac{m}{l^3}, \qquad \omega R, \qquad \frac{F}{A}
 """
 
+import contextlib
 import itertools
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -29,6 +30,8 @@ _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
 _OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its joints, by its length [-]
 _CARRIES = 10.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+
+_STEP, _PLACES = 1e-4, tuple(k * math.pi / 6 for k in range(12))  # of a slope, and where it is taken [rad]
 
 _WORDS = {name: getattr(math, name) for name in ("pi", "sqrt", "sin", "cos", "tan", "atan", "atan2", "exp", "log")}
 
@@ -55,7 +58,12 @@ def by_links(
     pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
     forces = max(pushes, default=0.0), max(turns, default=0.0)
     slides = "m" in listing["coordinates"].values()
-    together = (*_masses(links, letters, units, slides), *_stress(links, letters, *forces))
+    together = (
+        *_masses(links, letters, units, slides),
+        *_stress(links, letters, *forces),
+        *_carried(listing, letters, speeds),
+        *_turning(listing, letters, forces[1]),
+    )
     for doubt in (*of_links, *together):
         if doubt.code not in worst or far(doubt) > far(worst[doubt.code]):
             worst[doubt.code] = doubt
@@ -76,6 +84,31 @@ def linked(listing: "Listing", letters: Mapping[str, float]) -> float:
     listing: as stored of the declaration. letters: values of the parameters [SI].
     """
     return sum(_number(link["mass"], letters) for link in listing.get("links", ()) if len(link["points"]) > 1)
+
+
+def _carried(listing: "Listing", letters: Mapping[str, float], speeds: Mapping[str, float]) -> Iterator[Doubt]:
+    """Speeds of bodies that are no links, as an angle moves them; none of what coordinates hold together."""
+    angles = [q for q in speeds if listing["coordinates"][q] == "rad"]
+    for name, place in listing.get("bodies", {}).items():
+        fastest = 0.0
+        for q, at in itertools.product(angles, _PLACES):
+            values = {**letters, **dict.fromkeys(listing["coordinates"], at)}
+            with contextlib.suppress(ValueError, ZeroDivisionError):  # a root that has no value there
+                moved = math.dist(*(_point(place, {**values, q: at + step}) for step in (-_STEP, _STEP)))
+                fastest = max(fastest, moved / (2 * _STEP) * abs(speeds[q]))
+        yield from proportion("point_speed", f"speed of {name}", fastest)
+
+
+def _turning(listing: "Listing", letters: Mapping[str, float], torque: float) -> Iterator[Doubt]:
+    """How far the largest torque winds up the softest spring that turns, M/k, and inertias beside one another."""
+    units = listing["parameters"]
+    springs = [letters[text] for text in listing.get("springs", ()) if units.get(text) == "N*m/rad"]
+    if any(k > 0 for k in springs):
+        what = "largest torque of [drive] and [inputs] / softest spring that turns"
+        yield from proportion("spring_wound", what, torque / min(k for k in springs if k > 0))
+    inertias = [letters[name] for name, unit in units.items() if unit == "kg*m^2" and letters[name] > 0]
+    if len(inertias) > 1 and not listing.get("links"):  # which have inertias of all sizes
+        yield from proportion("inertia_spread", "largest inertia / smallest", max(inertias) / min(inertias))
 
 
 def _length(link: Json, letters: Mapping[str, float]) -> float:
@@ -136,7 +169,7 @@ def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]
 
 
 def _swinging(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]:
-    """The heaviest mass on the softest spring, m g/k, and the strongest damper beside them, c/(2 sqrt(k m))."""
+    """The heaviest mass on the softest spring, m g/k; the strongest damper beside, c/(2 sqrt(k m)); also turning."""
     units = listing["parameters"]
 
     def values(texts: Collection[str], unit: str) -> list[float]:
@@ -145,9 +178,11 @@ def _swinging(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doub
     masses, springs = values(units, "kg"), values(listing.get("springs", ()), "N/m")
     if masses and springs and not listing.get("links"):  # links carry what no spring does
         yield from proportion("spring_rest", "heaviest mass * g / softest spring", 9.81 * max(masses) / min(springs))
-    for damping in values(listing.get("dampers", ()), "N*s/m") if masses and springs else ():
-        share = damping / (2 * math.sqrt(max(springs) * max(masses)))
-        yield from proportion("damping_share", f"damper {damping:g} N*s/m / (2 sqrt(spring * mass))", share)
+    for mass, stiffness, unit in (("kg", "N/m", "N*s/m"), ("kg*m^2", "N*m/rad", "N*m*s/rad")):
+        masses, springs = values(units, mass), values(listing.get("springs", ()), stiffness)
+        for damping in values(listing.get("dampers", ()), unit) if masses and springs else ():
+            share = damping / (2 * math.sqrt(max(springs) * max(masses)))
+            yield from proportion("damping_share", f"damper {damping:g} {unit} / (2 sqrt(spring * mass))", share)
 
 
 _OfAll = tuple[float, float]  # longest link [m], and what all weigh [kg]

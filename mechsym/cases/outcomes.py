@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -131,7 +131,10 @@ def of_run(
     else:
         letters = asdict(case.need("parameters"))
         listing = plan_of(case.mechanism).listing(None)
-        links = by_links(listing, letters, {}, dict.fromkeys(listing["coordinates"], fastest))
+        first = next(iter(listing["coordinates"]))
+        over_window = run.speeds if run is not None else {}
+        speeds = {q: max(abs(row["min"]), abs(row["max"])) for q, row in over_window.items()}
+        links = by_links(listing, letters, {}, {**speeds, first: max(abs(fastest), speeds.get(first, 0.0))})
         doubts += tuple(doubt for doubt in links if doubt.code == "point_speed")
     doubts += _motion(case, run) if run is not None else ()
     if wanted is None or wanted.window is None or not length > 0:
@@ -143,10 +146,13 @@ def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
     """Speeds of what slides, sense of rotation, whether the drive drives, and turns between two results."""
     wanted, work = case.sections.get("simulation"), run.energy.work
     doubts: tuple[Doubt, ...] = ()
-    for name, speed in run.speeds.items():
+    for number, (name, speed) in enumerate(run.speeds.items()):
+        fastest = max(abs(speed["min"]), abs(speed["max"]))
         if speed.units["max"] == "m/s":
-            fastest = max(abs(speed["min"]), abs(speed["max"]))
             doubts += proportion("point_speed", f"highest speed along {name}", fastest)
+        elif number and speed.units["max"] == "rad/s":  # the first is judged by itself
+            beyond = results({"speed_max": fastest})
+            doubts += tuple(replace(doubt, quantity=f"highest speed of {name}") for doubt in beyond)
     if run.rate != "rad/s":
         return doubts
     if wanted is not None and wanted.output_step:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import NotRequired, TypedDict, cast
 
-from sympy import Eq, Expr, Integer, Mul, Symbol, cos, latex, mathml, sin
+from sympy import Eq, Expr, Function, Integer, Mul, Symbol, cos, latex, mathml, sin
 
 from mechsym.derive.declare import Declaration, Element
 from mechsym.derive.emit import groups
@@ -18,6 +18,7 @@ from mechsym.files import Json
 _DOT, _TWO_DOTS = "\u0307", "\u0308"
 _LATEX = {"lam": r"\lambda", "phi": r"\varphi", "inertia": "I"}
 _PLACED = ("revolute", "universal", "spherical")  # joints in space that stand at a point of both bodies
+_FEW = 6  # names in the formula of a centre
 _GREEK = {
     "phi": "\u03c6", "psi": "\u03c8", "theta": "\u03b8", "alpha": "\u03b1", "beta": "\u03b2", "gamma": "\u03b3",
     "delta": "\u03b4", "lam": "\u03bb", "mu": "\u03bc", "xi": "\u03be", "eta": "\u03b7", "rho": "\u03c1",
@@ -50,6 +51,7 @@ class Listing(TypedDict):
     pins: NotRequired[dict[str, list[str]]]  #: Where each pin is drawn, and each slide, with a place across it
     sketch: NotRequired[list[Json]]
     links: NotRequired[list[Json]]
+    bodies: NotRequired[dict[str, list[str]]]  #: Centres of what is no link, by coordinates and parameters
     springs: NotRequired[list[str]]
     dampers: NotRequired[list[str]]
     watched: NotRequired[list[str]]  #: Points that `m.watch` names
@@ -96,6 +98,7 @@ def _own(m: Declaration) -> Json:
         "pins": m.pins,
         "sketch": m.sketches,
         "links": [link for link in (*map(partial(_link, m), m.links), *_in_space(m)) if link],
+        "bodies": _bodies(m),
         "springs": _constants(m, m.springs),
         "dampers": _constants(m, m.dampers),
         "watched": [*m.watched],
@@ -110,6 +113,20 @@ def _own(m: Declaration) -> Json:
 def _constants(m: Declaration, elements: Sequence[Element]) -> list[str]:
     """Stiffness or damping of elements, by letters of the parameters; one that moves is left out."""
     return [str(e.value) for e in elements if e.value.free_symbols <= {*m.parameter_list}]
+
+
+def _bodies(m: Declaration) -> dict[str, list[str]]:
+    """Centres that move as a short formula of coordinates says; links are told by themselves."""
+    links, moves = {link.name for link in m.links}, {*m.q} - {*m.dependent_list}
+    centres = {}
+    for body in (b for b in m.bodies if b.name not in links and b.mass != 0):
+        if len(m.tape.needed(body.at)) <= _FEW:
+            place = [m.tape.flat(x) for x in body.at]
+            letters = {s for x in place for s in x.free_symbols}
+            plain = all(isinstance(f, (sin, cos)) for x in place for f in x.atoms(Function))
+            if plain and letters & moves and letters <= moves | {*m.parameter_list}:
+                centres[body.name] = [str(x) for x in place]
+    return centres
 
 
 def _link(m: Declaration, link: Link) -> Json:

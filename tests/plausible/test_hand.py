@@ -11,7 +11,7 @@ _FAST = 6  # one light row of so many runs with the fast tests
 def rows(kind):
     of_peers = [
         row
-        for name in ("peers", "trackers", "office", "laws", "shop", "field", "yard", "depot")
+        for name in ("peers", "trackers", "office", "laws", "shop", "field", "yard", "depot", "hall")
         for row in LISTS[name][kind]
         if half(row) == "seen"
     ]
@@ -19,7 +19,7 @@ def rows(kind):
         command = row.get("run", row.get("line")).split()[0]
         light = (
             command in ("check", "forces", "cycle", "new")
-            and not any(row in LISTS[late][kind] for late in ("laws", "shop", "field", "yard", "depot"))
+            and not any(row in LISTS[late][kind] for late in ("laws", "shop", "field", "yard", "depot", "hall"))
             and zlib.crc32(name(row).encode()) % _FAST == 0
         )
         marks = [] if light else [pytest.mark.slow, *([pytest.mark.heavy] if row in of_peers else [])]
