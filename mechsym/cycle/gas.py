@@ -95,7 +95,7 @@ def over_travel(gas: Gas, own: ca.Function, other: ca.Function, late: Radian = 0
         return forth(back_again(theta - late)) + late
 
     def back(phi: float) -> float:
-        return root(lambda theta: float(angle(theta)) - phi, phi - 1.0, phi + 1.0, xtol=1e-14)
+        return root(lambda theta: float(angle(np.asarray(theta))) - phi, phi - 1.0, phi + 1.0, xtol=1e-14)
 
     whole = gas.pressure
     pressure = dataclasses.replace(

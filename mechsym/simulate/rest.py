@@ -11,6 +11,7 @@ on. The eigenvalues of the linear motion about a pose judge it.
 import itertools
 import math
 from collections.abc import Callable, Mapping
+from functools import partial
 
 import numpy as np
 import scipy
@@ -145,7 +146,7 @@ def _round(motion: _Motion, start: np.ndarray) -> tuple[list[np.ndarray], list[f
         if p is None or r is None or not a * b <= 0 or a == b == 0 or (b == 0 and r is not rows[-1][0]):
             continue
         try:
-            angle = root(lambda x, p=p: _along(motion, x, p), p[i], r[i], xtol=1e-14)
+            angle = root(partial(_along, motion, near=p), p[i], r[i], xtol=1e-14)
         except ValueError:  # the loop opens in between
             continue
         pose = motion.close(np.array([angle]), p)
