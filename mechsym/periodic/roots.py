@@ -12,13 +12,13 @@ _MOST = 200  # of steps; halves alone need sixty
 def root(
     function: Callable[[float], float], low: float, high: float, xtol: float = 2e-12, rtol: Pure = 4 * _ROUNDING
 ) -> float:
-    r"""Where a continuous function crosses zero, by Chandrupatla's method: inverse quadratic steps where three points
-    are monotonic enough for them, halves elsewhere.
+    r"""Where a continuous function of a number x crosses zero, by Chandrupatla's method [unit of x].
 
     .. math:: |x - x_0| \le x_\mathrm{tol} + r_\mathrm{tol} |x|
 
-    low, high: ends, where the function has different signs or is zero. Raises ValueError: it has not, or is not a
-    number. Source: T. R. Chandrupatla, Adv. Eng. Software 28 (1997) 145-149.
+    Inverse quadratic steps where three points are monotonic enough for them, halves elsewhere. low, high: ends, where
+    the function has different signs or is zero. Raises ValueError: it has not, or is not a number. Source: T. R.
+    Chandrupatla, Adv. Eng. Software 28 (1997) 145-149.
     """
     a, b = float(low), float(high)
     f_a, f_b = float(function(a)), float(function(b))

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 from mechsym.audit.hosts import findings as told
-from mechsym.audit.hosts.findings import counts, findings
+from mechsym.audit.hosts.findings import counts, of_files
 from mechsym.audit.hosts.repository import _vocabularies, audited, programs
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.read.programs.claims import read_program
@@ -24,7 +24,7 @@ def rows_of(tmp_path, files):
         place = tmp_path / name
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return findings(list(audited(tmp_path, NONE, programs(tmp_path))))
+    return of_files(list(audited(tmp_path, NONE, programs(tmp_path))))
 
 
 # a piston's place with a sign under the root, in the manner of each language; {sign} is - where it is right
