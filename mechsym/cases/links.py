@@ -88,11 +88,13 @@ def linked(listing: "Listing", letters: Mapping[str, float]) -> float:
 
 def _carried(listing: "Listing", letters: Mapping[str, float], speeds: Mapping[str, float]) -> Iterator[Doubt]:
     """Speeds of bodies that are no links, as an angle moves them; none of what coordinates hold together."""
-    angles = [q for q in speeds if listing["coordinates"][q] == "rad"]
+    # how far out a body slides nobody knows: lengths are those that it was assembled with
+    start = {q: listing.get("pose", {}).get(q, 0.0) for q in listing["coordinates"]}
+    angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]
     for name, place in listing.get("bodies", {}).items():
         fastest = 0.0
-        for q, at in itertools.product(angles, _PLACES):
-            values = {**letters, **dict.fromkeys(listing["coordinates"], at)}
+        for q, at in itertools.product([q for q in angles if q in speeds], _PLACES):
+            values = {**letters, **start, **dict.fromkeys(angles, at)}
             with contextlib.suppress(ValueError, ZeroDivisionError):  # a root that has no value there
                 moved = math.dist(*(_point(place, {**values, q: at + step}) for step in (-_STEP, _STEP)))
                 fastest = max(fastest, moved / (2 * _STEP) * abs(speeds[q]))

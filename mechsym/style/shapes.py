@@ -13,7 +13,7 @@ from mechsym.style.panels import (
     ROLLER,
     VIOLET,
     WHEEL,
-)  # fmt: skip
+)
 
 # role: colour of the line, line width in points, filled colour; what comes first lies behind
 STYLES: dict[str, tuple[str, float, str]] = {
