@@ -15,10 +15,11 @@ from mechsym.native import compiler
 # Hundreds of files are compiled for the tests; these rooms look at what users get, the others do without the last
 # optimisation
 _AS_USERS = ("generated", "matrix", "native", "proof")
-_QUICK = {}
+_QUICK = "MECHSYM_TESTS_QUICK"  # told to workers, which see the CC that is set here
 if "CC" not in os.environ:
     with contextlib.suppress(compiler.NoCompiler):
-        _QUICK["CC"] = os.environ["CC"] = f"{compiler.find().command[0]} -O1"
+        os.environ["CC"] = f"{compiler.find().command[0]} -O1"
+        os.environ[_QUICK] = "1"
 
 settings.register_profile("mechsym", deadline=None, derandomize=True, max_examples=30)
 settings.load_profile("mechsym")
@@ -30,8 +31,8 @@ def pytest_addoption(parser):
 
 @pytest.fixture(autouse=True)
 def _compiled_as_for_users(request, monkeypatch):
-    for name in _QUICK if request.path.parent.name in _AS_USERS else ():
-        monkeypatch.delenv(name)
+    if _QUICK in os.environ and request.path.parent.name in _AS_USERS:
+        monkeypatch.delenv("CC", raising=False)
 
 
 @pytest.fixture
