@@ -1,4 +1,4 @@
-"""Shared fixtures: seeded random numbers, the built-in parameters, hypothesis settings."""
+"""Shared fixtures: seeded random numbers, the built-in parameters; settings of hypothesis and of the compiler."""
 
 import contextlib
 import os

@@ -30,8 +30,8 @@ TESTS = Path(__file__).parent
 LIMIT = 60  # time of a row by the clock [s]
 EXAMPLES = TESTS.parent / "examples"
 OWN = (EXAMPLES / "mechanisms", EXAMPLES / "space", TESTS / "plausible" / "own")
-_NAMES = ("hand", "peers", "trackers", "office", "laws", "shop", "field", "yard", "depot", "hall")
-LISTS = {name: tomllib.loads((TESTS / "plausible" / f"{name}.toml").read_text()) for name in _NAMES}
+NAMES = ("hand", "peers", "trackers", "office", "laws", "shop", "field", "yard", "depot", "hall")
+LISTS = {name: tomllib.loads((TESTS / "plausible" / f"{name}.toml").read_text()) for name in NAMES}
 
 
 def half(row):

@@ -128,13 +128,9 @@ def of_run(
         # refused before a run, doubted as the outcome of one
         speed = min(abs(fastest), PISTON_SPEED * math.pi / sizes.stroke)
         doubts += piston_speed("highest mean piston speed of the run", sizes.stroke, speed, fired(case.sections))
-    else:
-        letters = asdict(case.need("parameters"))
+    elif run is not None:
         listing = plan_of(case.mechanism).listing(None)
-        first = next(iter(listing["coordinates"]))
-        over_window = run.speeds if run is not None else {}
-        speeds = {q: max(abs(row["min"]), abs(row["max"])) for q, row in over_window.items()}
-        links = by_links(listing, letters, {}, {**speeds, first: max(abs(fastest), speeds.get(first, 0.0))})
+        links = by_links(listing, asdict(case.need("parameters")), {}, _fastest(run))
         doubts += tuple(doubt for doubt in links if doubt.code == "point_speed")
     doubts += _motion(case, run) if run is not None else ()
     if wanted is None or wanted.window is None or not length > 0:
@@ -142,15 +138,19 @@ def of_run(
     return doubts + proportion("window", "simulation.window / length of the run", wanted.window / length)
 
 
+def _fastest(run: RunNumbers) -> dict[str, float]:
+    """Highest speed of each coordinate either way, over the window [its unit]."""
+    return {q: max(abs(speed["min"]), abs(speed["max"])) for q, speed in run.speeds.items()}
+
+
 def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
     """Speeds of what slides, sense of rotation, whether the drive drives, and turns between two results."""
     wanted, work = case.sections.get("simulation"), run.energy.work
     doubts: tuple[Doubt, ...] = ()
-    for number, (name, speed) in enumerate(run.speeds.items()):
-        fastest = max(abs(speed["min"]), abs(speed["max"]))
-        if speed.units["max"] == "m/s":
+    for number, (name, fastest) in enumerate(_fastest(run).items()):
+        if run.speeds[name].units["max"] == "m/s":
             doubts += proportion("point_speed", f"highest speed along {name}", fastest)
-        elif number and speed.units["max"] == "rad/s":  # the first is judged by itself
+        elif number:  # the first is judged by itself
             beyond = results({"speed_max": fastest})
             doubts += tuple(replace(doubt, quantity=f"highest speed of {name}") for doubt in beyond)
     if run.rate != "rad/s":

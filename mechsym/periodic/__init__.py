@@ -10,6 +10,9 @@ breaks at the kinks and halves a piece until its polynomial is right, so pieces 
 
 What it returns is a `scipy.interpolate.PPoly` with ``extrapolate="periodic"``: it takes any real angle, and
 derivative and antiderivative are exact. `scalar` makes the fast function of one float that a time simulation needs.
+
+rises.py   laws by which something rises from 0 to 1: of cams and of driven motions
+roots.py   where a function of one number is zero
 """
 
 import math

@@ -29,7 +29,10 @@ validation = pytest.importorskip("fmpy.validation")
 from mechsym.out.fmi.compare import compare, driven  # noqa: E402
 
 VERSIONS = (2, 3)
-ALL = [pytest.param(name, marks=() if name == "zotov-89" else pytest.mark.slow) for name in cases.names()]
+FIRST, SLOW, HEAVY = "zotov-89", pytest.mark.slow, pytest.mark.heavy
+ALL = [pytest.param(name, marks=() if name == FIRST else SLOW) for name in cases.names()]
+OTHER = {2: [SLOW, HEAVY], 3: SLOW}  # the same C in the older wrapper
+EACH = [pytest.param(n, v, marks=() if n == FIRST else OTHER[v]) for n in cases.names() for v in VERSIONS]
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -56,15 +59,7 @@ def test_fmutool_finds_no_error(unit, name, version):
     assert "seems to be compliant" in said and "No semantic error" in said, said
 
 
-@pytest.mark.parametrize(
-    ("name", "version"),
-    [
-        *(pytest.param("zotov-89", version) for version in VERSIONS),
-        *(pytest.param(name, 3, marks=pytest.mark.slow) for name in cases.names() if name != "zotov-89"),
-        # the same C in the other wrapper
-        *(pytest.param(n, 2, marks=[pytest.mark.slow, pytest.mark.heavy]) for n in cases.names() if n != "zotov-89"),
-    ],
-)
+@pytest.mark.parametrize(("name", "version"), EACH)
 def test_numbers_are_those_of_simulate(unit, exported, name, version):
     for found in compare(unit(name, version), exported(name)[0].problem):
         assert found.points == 201

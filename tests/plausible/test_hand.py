@@ -3,23 +3,18 @@
 import zlib
 
 import pytest
-from hand import LISTS, half, name, told
+from hand import LISTS, NAMES, half, name, told
 
 _FAST = 6  # one light row of so many runs with the fast tests
 
 
 def rows(kind):
-    of_peers = [
-        row
-        for name in ("peers", "trackers", "office", "laws", "shop", "field", "yard", "depot", "hall")
-        for row in LISTS[name][kind]
-        if half(row) == "seen"
-    ]
+    of_peers = [row for name in NAMES[1:] for row in LISTS[name][kind] if half(row) == "seen"]
     for row in (*LISTS["hand"][kind], *of_peers):
         command = row.get("run", row.get("line")).split()[0]
         light = (
             command in ("check", "forces", "cycle", "new")
-            and not any(row in LISTS[late][kind] for late in ("laws", "shop", "field", "yard", "depot", "hall"))
+            and not any(row in LISTS[late][kind] for late in NAMES[NAMES.index("laws") :])
             and zlib.crc32(name(row).encode()) % _FAST == 0
         )
         marks = [] if light else [pytest.mark.slow, *([pytest.mark.heavy] if row in of_peers else [])]
