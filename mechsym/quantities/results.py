@@ -127,11 +127,6 @@ class Columns(Mapping[str, Any]):
         return Columns({name: function(values) for name, values in self.items()}, self.units)
 
 
-def is_result(value: object) -> bool:
-    """Whether something is a result, not an input or a plain value."""
-    return bool(getattr(type(value), "__result__", False))
-
-
 def _listed(kind: type) -> Mapping[str, str | None]:
     """Names that a class tells with their units: fields, then properties; of a class that is no result every field."""
     every = not getattr(kind, "__result__", False)
