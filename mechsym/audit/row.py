@@ -8,9 +8,11 @@ from mechsym.audit.judge import conventions
 from mechsym.audit.judge.asked import Asked, left_note, question_of
 from mechsym.audit.judge.orders import expansions, groups, powers
 from mechsym.audit.judge.question import Question, used_names
+from mechsym.audit.read.letter import WAYS, Ambiguous
 from mechsym.audit.read.mathml import STYLE, corrected, formula
-from mechsym.audit.read.reader import Statement, joined, statement, write
+from mechsym.audit.read.reader import joined, write
 from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.statement import Statement, statement
 from mechsym.audit.read.tree import at
 from mechsym.audit.repair.edits import apply
 from mechsym.audit.repair.examination import Repair
@@ -66,8 +68,30 @@ def _share(within: re.Match[str]) -> float:
 
 
 def answer(asked: Asked, *, one: bool = False) -> Row:
-    """The row of one formula; of a = b = c that of the worst equality. one: repairs of two edits are not looked for."""
-    said, claim = statement(asked.text), asked.claim.strip()
+    """The row of one formula; of a = b = c that of the worst equality. one: repairs of two edits are not looked for.
+
+    What can be read in two ways is read in the one that is right, and asked about where none is.
+    """
+    try:
+        return _row(asked, one)
+    except Ambiguous:
+        rows = [row for r in WAYS for row in _passing(replace(asked, way=r))]
+        if len({row["understood"] for row in rows}) != 1:
+            raise
+        said = f"read as {rows[0]['understood']}; the other way it is not {asked.quantity}"
+        return rows[0] | {"note": joined(rows[0]["note"], said)}
+
+
+def _passing(asked: Asked) -> list[Row]:
+    try:
+        row = _row(asked, one=True)
+    except BadInput:
+        return []
+    return [row] if row["verdict"] in PASSED else []
+
+
+def _row(asked: Asked, one: bool) -> Row:
+    said, claim = statement(asked.text, asked.quantity), asked.claim.strip()
     if claim not in ("", "=", "approx") and not _ORDER.fullmatch(claim) and not _WITHIN.fullmatch(claim):
         raise BadInput(f'--claim {claim!r} is not known; it is "=", "approx", "lam^2" or "within 1 %"')
     within = _WITHIN.fullmatch(claim)

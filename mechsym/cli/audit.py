@@ -20,7 +20,7 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
 @click.command(short_help="Check published hand formulas against the derivations.")
 @click.argument("paper", required=False, type=click.Path(path_type=Path))
 @click.option("--source", help="Only this source: file stem or short name.")
-@click.option("--formula", metavar="TEXT", help="A formula of your own, in Python syntax or LaTeX.")
+@click.option("--formula", metavar="TEXT", help="A formula of your own, in Python syntax, LaTeX or as printed.")
 @click.option("--against", metavar="NAME.QUANTITY", help="What the formula claims to be, e.g. crosshead.inertia.")
 @click.option("--letters", default="", metavar="PAIRS", help='Your letters, e.g. "R=r1+r2, L=l1+l2".')
 @click.option("--case", default="", help="Case whose data the error is measured with.")

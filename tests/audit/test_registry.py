@@ -7,7 +7,7 @@ import pytest
 from mechsym.audit.hosts.sources import Listed, Printed, TextClaim, question_of, row
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.asked import question_of as asked_by_user
-from mechsym.audit.read.reader import statement
+from mechsym.audit.read.statement import statement
 from mechsym.audit.theory.catalogue import names, theory
 from mechsym.errors import BadInput
 from mechsym.papers import sources

@@ -134,24 +134,6 @@ def test_a_derived_name_may_be_told_again_in_data():
     assert row["verdict"] == "truncation"
 
 
-@pytest.mark.parametrize(
-    ("text", "place"),
-    [
-        ("r*2(1-cos(phi))", "behind '2'"),
-        ("2r", "between '2' and 'r'"),
-        ("r(1-cos(phi))", "'r'"),
-        ("2*r sin(phi)", "between '2*r' and 'sin(phi)'"),
-        ("r l", "between 'r' and 'l'"),
-        ("(r+l)(1-cos(phi))", "write (r + l)*(..)"),
-        ("(r) l", "between '(r)' and 'l'"),
-    ],  # fmt: skip
-)
-def test_a_missing_product_sign_is_shown(text, place):
-    with pytest.raises(BadInput, match="missing") as refused:
-        check_formula(text, "slider_crank.x")
-    assert place in str(refused.value)
-
-
 def test_the_spoiler_shares_no_code_with_the_repair_search():
     tree = ast.parse(inspect.getsource(spoiler))
     modules = {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom)}

@@ -22,7 +22,7 @@ _KEYS = (*_TEXTS, "letters", "assume")
 def check_formula(text: str, against: str, letters: str | Mapping[str, str] = "", case: str = "", **more: Any) -> Row:
     """Is this formula that quantity? The keys of an audit row; `understood` is the formula as it was read.
 
-    text: python syntax or LaTeX; `name = expression` or the expression alone; case: case whose data the error is
+    text: python syntax, LaTeX or print; `name = expression` or the expression alone; case: case whose data the error is
     measured with; empty for the source's; **more: name, assume, claim, convention, theory: as in `Asked`. Raises
     BadInput: cannot be read, unknown letters, or no such quantity.
 

@@ -27,9 +27,9 @@ from mechsym.audit.read.reader import (
     joined,
     read,
     read_expression,
-    statement,
 )
 from mechsym.audit.read.spelling import resolve
+from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import Node, letters, substitute
 from mechsym.audit.row import Row, answer, unread_row
 from mechsym.audit.theory.catalogue import named

@@ -15,8 +15,9 @@ from mechsym.audit.judge.question import Question
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import base
 from mechsym.audit.read.programs.statements import OF
-from mechsym.audit.read.reader import Formula, statement
+from mechsym.audit.read.reader import Formula
 from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.repair.examination import Repair
 from mechsym.audit.row import Row, formula_row, unread_row

@@ -14,7 +14,8 @@ from mechsym.audit.judge.asked import question_of as question_asked
 from mechsym.audit.judge.certificate import script
 from mechsym.audit.judge.coq import HEAD
 from mechsym.audit.judge.question import Question, peak, turn, value
-from mechsym.audit.read.reader import read, statement
+from mechsym.audit.read.reader import read
+from mechsym.audit.read.statement import statement
 from mechsym.audit.row import Row, formula_row, plain_row
 from mechsym.audit.theory.catalogue import theory
 from mechsym.audit.theory.record import known

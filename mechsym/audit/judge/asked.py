@@ -8,19 +8,21 @@ from dataclasses import replace
 from fractions import Fraction
 
 from mechsym.audit.judge.question import Question, require_possible
+from mechsym.audit.read.letter import ASKED, WAYS, Way
 from mechsym.audit.read.reader import (
     CONSTANTS,
     RESERVED,
     AnyLetter,
     Formula,
-    Statement,
     joined,
     letter_pairs,
     read,
     read_expression,
 )
 from mechsym.audit.read.spelling import resolve, to_python
-from mechsym.audit.read.tree import Node, letters, value_of
+from mechsym.audit.read.statement import Statement
+from mechsym.audit.read.tree import Node, is_operation, letters, substitute, value_of
+from mechsym.audit.read.tree import name as name_of
 from mechsym.audit.theory.catalogue import named, target
 from mechsym.audit.theory.record import Theory, check_sums, dependencies, known, need_result
 from mechsym.audit.theory.tape import TheoryTape, retaped
@@ -46,6 +48,7 @@ class Asked:
     given: Theory | None = None  #: The theory itself, where it is at hand
     #: What an author's letter that is one of the theory's, too, comes to: a program cannot be told to rename its own
     hidden: str = "refused"
+    way: Way = ASKED
 
     @property
     def pairs(self) -> dict[str, str]:
@@ -65,7 +68,8 @@ def question_of(asked: Asked, said: Statement) -> Question:
         raise BadInput(f"--against {asked.against!r} is not THEORY.QUANTITY, as slider_crank.x, nor ./FILE.py:QUANTITY")
     theory = asked.given or named(name, asked.case, asked.theory)
     need_result(theory, quantity)
-    formula = read(said.right[0], known(theory), asked.pairs, theory.tape)
+    pairs = asked.pairs | _used_beside(said, asked.pairs, known(theory))
+    formula = read(said.right[0], known(theory), pairs, theory.tape, asked.way)
     if asked.hidden == "refused":
         _refuse_letters(theory, formula)
         _refuse_left(theory, quantity, said.left, formula)
@@ -80,6 +84,22 @@ def question_of(asked: Asked, said: Statement) -> Question:
     question = Question(formula=formula, theory=theory, quantity=quantity, hold=hold, where=under.where)
     require_possible(question)
     return question
+
+
+def _used_beside(said: Statement, pairs: Mapping[str, str], letters_known: Sequence[str]) -> dict[str, str]:
+    # of the letters that are told beside a formula those that it needs and that have no meaning yet
+    told = {plain: k for k in said.letters if k not in pairs and (plain := _name_alone(k))}
+    used: dict[str, str] = {}
+    waiting = [said.left, *said.right]
+    while told and waiting:
+        try:
+            tree = read_expression(waiting.pop(), [*told, *pairs, *letters_known], AnyLetter(), WAYS[0])[0]
+        except BadInput:
+            continue
+        needed = [told.pop(plain) for plain in letters(tree) if plain in told]
+        used |= {k: said.letters[k] for k in needed}
+        waiting += [said.letters[k] for k in needed]
+    return used
 
 
 def left_note(question: Question, asked: Asked, left: str) -> str:
@@ -106,9 +126,9 @@ def _with_left(theory: Theory, quantity: str, left: str, formula: Formula) -> tu
     try:
         tree = read_expression(left, [*formula.letters, *known(theory), *CONSTANTS], theory.tape)[0]
     except BadInput:
-        if _name_alone(left):
+        if _name_alone(left) or label(left):
             return theory, quantity
-        raise
+        tree = _of_one_unknown(left, theory, quantity, formula)
     if isinstance(tree, ast.Name) and isinstance(formula.letters.get(tree.id, tree), ast.Name):
         return theory, quantity
     meant = {m for n in letters(tree) for m in letters(formula.letters.get(n, ast.Name(n, ast.Load())))}
@@ -118,6 +138,28 @@ def _with_left(theory: Theory, quantity: str, left: str, formula: Formula) -> tu
     own = {k: t for k, t in formula.letters.items() if k not in theory.letters and k not in tape}
     whole = retaped(theory.tape, {**own, _IDENTITY: tree}, theory.letters, theory.angle)
     return replace(theory, tape=whole), _IDENTITY
+
+
+_LABEL = re.compile(
+    r"\\(?:mathrm|operatorname|text)\s*\{\w{2,}\}.*|(\\(?:delta|partial|mathrm\{d\})|[dδ∂])\s*\w+\s*(/.*)?"
+)
+
+
+def label(left: str) -> bool:
+    """Whether a left side only names what is given: `inv α`, `δQ/dθ`."""
+    bare = re.sub(r"\\[dt]?frac\s*\{(.*?)\}\s*\{(.*)\}", r"\1/\2", left.strip(" $"))
+    word = re.fullmatch(r"([A-Za-z]{3,})\s+\\?\w+", bare)
+    return bool(_LABEL.fullmatch(bare) or word and word[1].lower() not in RESERVED)
+
+
+def _of_one_unknown(left: str, theory: Theory, quantity: str, formula: Formula) -> Node:
+    # tan μ = .. and T/(F r) = ..: the one letter that nothing tells of is the quantity
+    letters_known = [*formula.letters, *known(theory), *CONSTANTS]
+    tree = read_expression(left, letters_known, AnyLetter())[0]
+    unknown = [n for n in letters(tree) if n not in letters_known and n not in theory.tape]
+    if len(unknown) != 1:
+        return read_expression(left, letters_known, theory.tape)[0]
+    return substitute(tree, lambda n: name_of(quantity) if isinstance(n, ast.Name) and n.id == unknown[0] else None)
 
 
 def _name_alone(text: str) -> str:
@@ -130,14 +172,25 @@ def _name_alone(text: str) -> str:
 
 
 def _refuse_letters(theory: Theory, formula: Formula) -> None:
+    printed = letters(formula.tree)
     for letter, meant in formula.letters.items():
-        # an author's F may be the derived total force and r his r1 + r2, but no datum may become another one
-        named_quantity = isinstance(meant, ast.Name) and (meant.id in theory.tape or meant.id == letter)
-        if letter in theory.letters and not named_quantity:
+        # an author's F may be the derived total force and r his r1 + r2, but no datum may become an expression, and no
+        # two letters of his one of the theory's
+        renamed = isinstance(meant, ast.Name) and (
+            meant.id in theory.tape or meant.id == letter or meant.id not in printed or meant.id in formula.letters
+        )
+        if letter in theory.letters and not renamed and not _in_another_unit(letter, meant):
             raise BadInput(
                 f"--letters '{letter}={to_python(meant)}': {letter} is a letter of {theory.name} already; write "
                 f"another letter for it in the formula, for example {letter}_own, and --letters '{letter}_own=..'"
             )
+
+
+def _in_another_unit(letter: str, meant: Node) -> bool:
+    # p = p/1000: the same letter, in kPa
+    if not is_operation(meant, ast.Mult, ast.Div):
+        return False
+    return {letter} == {*letters(meant)} and any(value_of(n) for n in (meant.left, meant.right))
 
 
 def _refuse_left(theory: Theory, quantity: str, left: str, formula: Formula) -> None:

@@ -170,6 +170,7 @@ _FACTORS: dict[Kind, dict[str, float]] = {
     },
     ANGLE: {"degrees": 180 / np.pi},
 }
+_UNITS = {kind_of_unit("Pa"): {"kPa": 1e-3, "bar": 1e-5, "MPa": 1e-6}, kind_of_unit("m"): {"mm": 1e3}}
 _SAME, _TURN = 1e-9, 12
 _ROUND, _ELASTIC = "bBdDrR", "eEG"  # what radii and diameters, what moduli are called
 
@@ -198,6 +199,12 @@ def reading(judged: Judges, tree: Node) -> str:
             for words, other in _others(own, known.get(letter), letter):
                 if _agree(shaped(asked, evaluate(tree, {**known, letter: other}, FLOATS)), expected):
                     return f"{letter} as {words}"
+            for unit, factor in _UNITS.get(own, {}).items():
+                scaled = shaped(asked, evaluate(tree, {**known, letter: factor * known[letter]}, FLOATS))
+                halves = 2 * np.log(np.abs(scaled / printed)) / np.log(factor)
+                # in a fit, whose powers are no whole or half ones: elsewhere a thousand too much is a slip
+                if _agree(scaled, expected) and np.nanmin(np.abs(halves - np.round(halves))) > _SAME:
+                    return f"{letter} as a number of {unit}"
     return ""
 
 

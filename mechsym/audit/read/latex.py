@@ -1,7 +1,7 @@
 r"""A small Pratt reader for the LaTeX of printed formulas, and the way back.
 
 It reads what authors write: fractions, roots, powers, dots for time derivatives, `\sin 2\varphi`, products without a
-sign. What can be read in two ways is refused with the question, never guessed: `a/bc`, `\sin\varphi^2`.
+sign. What can be read in two ways is refused with the question unless it is told which: `a/bc`, `\sin\varphi^2`.
 """
 
 import ast
@@ -9,10 +9,9 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
-from typing import NoReturn
 from zlib import crc32
 
-from mechsym.audit.read.letter import WORDS, Cursor, derivative, letter, place
+from mechsym.audit.read.letter import ASKED, WORDS, Ambiguous, Cursor, Way, derivative, letter, place
 from mechsym.audit.read.tree import MAX_DEPTH, Node, binary, call, letters, meaning, name, negative, number, piecewise
 from mechsym.errors import BadInput
 
@@ -28,6 +27,8 @@ _FUNCTIONS = {
 }  # fmt: skip
 _SEVERAL = ("atan2", "min", "max", "hypot")
 _FUNCTIONS |= {n: n for n in _SEVERAL} | {"sen": "sin"}
+_TYPED = {"²": "^{2}", "³": "^{3}", "ℓ": "\\ell ", "−": "-", "–": "-", "′": "'", "″": "''"}
+_LONGEST = 400  # digits of a number
 _FRACTIONS = {"\\frac", "\\dfrac", "\\tfrac"}
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
 # {\sin}^2 and {\sin^2}, \mathrm around signs: braces of editors, which say nothing
@@ -43,17 +44,27 @@ _STOP = {")", "]", "}", "\\}", "|", "\\over", "", ",", *_SUMS}
 _SPELLED = (*sorted({*_FUNCTIONS, "asin", "acos", "atan", "sqrt"}, key=len, reverse=True),)
 
 
-def read_latex(text: str, whole: bool = False) -> tuple[Node, dict[str, str]]:
+def read_latex(text: str, whole: bool = False, way: Way = ASKED) -> tuple[Node, dict[str, str]]:
     """Read LaTeX without an equals sign: the tree, and plain names to the LaTeX that was written for them."""
-    text = text.replace("²", "^{2}").replace("³", "^{3}").replace("ℓ", r"\ell ")
+    for sign, instead in _TYPED.items():
+        text = text.replace(sign, instead)
     for pattern, instead in _BRACED:
         text = pattern.sub(instead, text)
     silent = _SILENT if r"\begin" in text else {*_SILENT, "&"}
-    cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent], whole=whole)
+    cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent], whole=whole, way=way)
+    return _whole(cursor), cursor.spelled
+
+
+def read_tokens(tokens: list[str], way: Way, names: frozenset[str]) -> Node:
+    """Read tokens of the same grammar; `names` are those of several characters that are one letter each."""
+    return _whole(Cursor(tokens, way=way, names=names))
+
+
+def _whole(cursor: Cursor) -> Node:
     tree = _sum(cursor)
     if cursor.peek():
         raise BadInput(f"LaTeX: {cursor.peek()!r} does not fit {place(cursor)}; take it away or open its bracket")
-    return tree, cursor.spelled
+    return tree
 
 
 @contextmanager
@@ -93,12 +104,15 @@ def _product(cursor: Cursor) -> Node:
             cursor.take()
             below, after = _power(cursor), cursor.peek()
             # lambda/2 \sin 2\varphi leaves no doubt
-            clear = isinstance(below, ast.Constant) and after[1:] in _FUNCTIONS
+            clear = isinstance(below, ast.Constant) and _is_function(after)
             if after not in _STOP | _TIMES | _OVER and not clear:
-                raise BadInput(
-                    f"LaTeX: after the slash it is not clear where the divisor ends {place(cursor)}; "
-                    "write \\frac{}{}"
-                )
+                if cursor.way.divisor is None:
+                    raise Ambiguous(
+                        f"LaTeX: after the slash it is not clear where the divisor ends {place(cursor)}; "
+                        "write \\frac{}{}"
+                    )
+                while cursor.way.divisor and cursor.peek() not in _STOP | _TIMES | _OVER:
+                    below = binary(ast.Mult, below, _power(cursor))
             tree = binary(ast.Div, tree, below)
         else:
             if cursor.peek() in _TIMES:
@@ -157,6 +171,8 @@ def _factor(cursor: Cursor, bare: bool = False) -> Node:
         if token in _CLOSING:
             return _group(cursor)
         if token[:1].isdecimal():
+            if len(token) > _LONGEST:
+                raise BadInput(f"LaTeX: a number of {len(token)} digits {place(cursor)}; round it")
             return number(Fraction(cursor.take().replace("{,}", ".").replace(",", ".")), decimal=True)
         if token in _FRACTIONS:
             cursor.take()
@@ -260,6 +276,10 @@ def _inner(cursor: Cursor, text: str) -> Node:
     return tree
 
 
+def _is_function(token: str) -> bool:
+    return token.startswith("\\") and token[1:] in _FUNCTIONS
+
+
 def _function_name(cursor: Cursor) -> str | None:
     token = cursor.peek()
     if token in WORDS and cursor.peek(1) == "{":
@@ -267,7 +287,7 @@ def _function_name(cursor: Cursor) -> str | None:
         if word in _FUNCTIONS:
             cursor.position += 3 + len(word)
             return _FUNCTIONS[word]
-    if token.startswith("\\") and token[1:] in _FUNCTIONS:
+    if _is_function(token):
         cursor.take()
         return _FUNCTIONS[token[1:]]
     # sin(x) without its backslash
@@ -313,25 +333,35 @@ def _function(cursor: Cursor, function: str) -> Node:
 
 
 def _run(cursor: Cursor, function: str) -> Node:
-    # \sin 2\varphi: a number and one letter or fraction; what follows without a sign would leave a doubt
+    # \sin 2\varphi: a number and one letter, bracket or fraction; what follows without a sign leaves a doubt
     tree: Node | None = None
-    stops = _STOP | _TIMES | _OVER | set(_CLOSING) | {"\\sqrt", "\\sum"} | WORDS
-    while cursor.peek() not in stops and cursor.peek()[1:] not in _FUNCTIONS:
-        if tree is not None and not isinstance(tree, ast.Constant):
-            _ask(cursor, function, cursor.peek())
+    stops = _STOP | _TIMES | _OVER | {"\\sqrt", "\\sum"} | WORDS
+    while cursor.peek() not in stops and not _is_function(cursor.peek()):
+        number_alone = isinstance(tree, ast.Constant)
+        if cursor.peek() in _CLOSING and not (number_alone and cursor.peek() in ("(", "[")):
+            break
+        if tree is not None and not number_alone and not _goes_on(cursor, function, cursor.peek()):
+            return tree
         factor = _factor(cursor)
         if cursor.peek() == "^":
-            _ask(cursor, function, "the power")
+            if not _goes_on(cursor, function, "the power"):
+                return factor if tree is None else binary(ast.Mult, tree, factor)
+            cursor.take()
+            factor = binary(ast.Pow, factor, _argument(cursor))
         tree = factor if tree is None else binary(ast.Mult, tree, factor)
     if tree is None:
         raise BadInput(f"LaTeX: \\{function} has no argument {place(cursor)}; write it as in \\sin\\varphi")
-    if cursor.peek() in _OVER and cursor.peek(1)[:1].isdecimal():
-        _ask(cursor, function, f"{cursor.peek()}{cursor.peek(1)}")
+    divides = cursor.peek() in _OVER and cursor.peek(1)[:1].isdecimal()
+    if divides and _goes_on(cursor, function, f"{cursor.peek()}{cursor.peek(1)}"):
+        cursor.take()
+        tree = binary(ast.Div, tree, _factor(cursor))
     return tree
 
 
-def _ask(cursor: Cursor, function: str, what: str) -> NoReturn:
-    raise BadInput(
+def _goes_on(cursor: Cursor, function: str, what: str) -> bool:
+    if cursor.way.argument is not None:
+        return cursor.way.argument
+    raise Ambiguous(
         f"LaTeX: does {what} belong to the argument of \\{function} or to the whole, {place(cursor)}? "
         f"Write brackets, \\{function}(..), or a sign, \\{function} x \\cdot .."
     )

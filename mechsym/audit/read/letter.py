@@ -17,6 +17,23 @@ _PAIRS = {")": "(r + l)", "}": "{r + l}", "]": "\\sqrt[3]{r}"}
 WORDS = {"\\mathrm", "\\text", "\\mbox", "\\mathit", "\\mathbf", "\\operatorname", "\\textrm", "\\mathsf"}
 
 
+class Ambiguous(BadInput):
+    """A text that can be read in two ways, with the question."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """Which of two ways a doubtful text is read in; None where it is asked."""
+
+    #: Whether a divisor goes on behind its first factor, and the argument of a function behind its first letter
+    divisor: bool | None = None
+    argument: bool | None = None
+
+
+ASKED = Way()
+WAYS = tuple(Way(divisor=d, argument=a) for d in (False, True) for a in (False, True))
+
+
 @dataclass
 class Cursor:
     """Where the reader is; the one thing that changes while reading."""
@@ -27,6 +44,8 @@ class Cursor:
     depth: int = 0
     spelled: dict[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX
     whole: bool = False  #: Whether a whole text is read: dV is a letter, x' a derivative, an integral one symbol
+    way: Way = ASKED
+    names: frozenset[str] = frozenset()  #: Tokens of several characters that are one letter each
 
     def peek(self, ahead: int = 0) -> str:
         """A token that is not taken yet."""
@@ -124,7 +143,7 @@ def _base(cursor: Cursor) -> str:
         return f"{token.strip(chr(92))}{_base(cursor)}"
     if token[1:] in _GREEK and token.startswith("\\"):
         return token[1:]
-    if len(token) == 1 and token.isalpha():
+    if len(token) == 1 and token.isalpha() or token in cursor.names:
         return token
     cursor.position -= 1
     if not token:

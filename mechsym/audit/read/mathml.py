@@ -9,8 +9,9 @@ import difflib
 import html
 from collections.abc import Sequence
 
-from mechsym.audit.read.reader import AnyLetter, read_expression, statement
+from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.spelling import ATOM, NAME, POWER, PRODUCT, SIDES, SUM, SYMBOLS
+from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import Node, children, digest, function_of
 from mechsym.errors import BadInput
 

@@ -3,73 +3,19 @@
 import ast
 import re
 import warnings
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import field
+from functools import partial
 
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.latex import read_latex
+from mechsym.audit.read.letter import ASKED, Ambiguous, Way
+from mechsym.audit.read.printed import differential, is_printed, read_printed
 from mechsym.audit.read.spelling import bracketed, from_greek, resolve, to_latex, to_python, unprogrammed
+from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import FUNCTIONS, MEANINGS, MODULES, Node, check, check_size, meaning
 from mechsym.errors import BadInput
 from mechsym.quantities import record
-
-_NUMBER = (
-    re.compile(r"\\(?:tag|eqno|leqno)\*?\s*\{?\s*\(?([0-9A-Za-z][\w.\-']*)\)?\s*\}?"),
-    re.compile(r"(?:\\qquad|\\quad|\\hfill|\s{2,}|[.,;]\s+)\s*\(([0-9]+(?:[.\-][0-9]+)*[a-z]?)\)\s*\.?\s*\$*\s*$"),
-)
-_LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
-_SILENT = re.compile(r"\\(?:nonumber|notag|displaystyle|textstyle|centering)\b")
-_ALMOST = re.compile(r"\\approx|\\simeq|\\cong|\\sim\b|\\doteq|≈|≃|≅|~=")
-_EQUALS = re.compile(r"\\equiv|≡|(?<=\w) *:=|\\coloneqq|\\triangleq")
-_ORDER = re.compile(
-    r"[+-]\s*(?:\\mathcal\s*\{\s*O\s*\}|\\mathcal\s+O|O|o)\s*(?:\\left)?\s*\(\s*(?:\\lambda|λ|lam(?:bda)?)"
-    r"\s*(?:\^|\*\*)?\s*\{?\s*(\d*)\s*\}?\s*(?:\\right)?\s*\)"
-)
-_AND_SO_ON = re.compile(r"[+-]\s*(?:\\l?dots[cb]?\b|\\cdots\b|\.\.\.|…)(?!\s*\w)")
-_ZERO = re.compile(r"\$*\s*0\s*\.?\s*\$*")
-
-
-@record
-class Statement:
-    """What an equation says."""
-
-    left: str  #: Empty where the text is an expression alone
-    right: tuple[str, ...]  #: Several where it says a = b = c
-    claim: str = ""  #: `approx` or `lam^k` where the print says so
-    number: str = ""
-    label: str = ""
-    note: str = ""
-
-
-def statement(text: str) -> Statement:
-    """Take an equation apart; number, label and what only says that it goes on are set aside."""
-    label = _LABEL.search(text)
-    text, number, claim = _SILENT.sub(" ", _LABEL.sub(" ", text)), "", ""
-    for pattern in _NUMBER:
-        margin = pattern.search(text)
-        if margin is not None and text[: margin.start()].strip(" $"):
-            text, number = text[: margin.start()] + text[margin.end() :], margin[1]
-            break
-    if _ALMOST.search(text):
-        text, claim = _ALMOST.sub("=", text), "approx"
-    if order := _ORDER.search(text):
-        text, claim = _ORDER.sub("", text), f"lam^{int(order[1] or 1) - 1}"
-    if _AND_SO_ON.search(text):
-        text, claim = _AND_SO_ON.sub("", text), claim or "approx"
-    text = text if re.search(r"\([^()]*:=", text) else _EQUALS.sub("=", text)
-    parts = [p.strip() for p in re.split(r"(?<![=<>!])=(?!=)(?![^{]*\})", text)]
-    note = ""
-    if len(parts) > 2 and _ZERO.fullmatch(parts[-1]):
-        parts.pop()
-        note = 'the trailing "= 0" was left out: with it the equation would say that the quantity vanishes'
-    if len(parts) == 2 and _ZERO.fullmatch(parts[1]):
-        raise BadInput("the right side is 0; solve the equation for the quantity: 'name = expression'")
-    if len(parts) > 1 and not all(parts):
-        raise BadInput("one side of the equals sign is empty; write 'name = expression'")
-    left = parts[0] if len(parts) > 1 else ""
-    right = tuple(p.rstrip(" .,;") for p in (parts[1:] if left else parts))
-    return Statement(left=left, right=right, claim=claim, number=number, label=label[1] if label else "", note=note)
-
 
 MAX_TEXT = 6000
 CONSTANTS = ("pi",)
@@ -124,17 +70,23 @@ class AnyLetter:
 
 
 def read(
-    text: str, known: Iterable[str], letters: Mapping[str, str] | None = None, more: Container[str] = ()
+    text: str,
+    known: Iterable[str],
+    letters: Mapping[str, str] | None = None,
+    more: Container[str] = (),
+    way: Way = ASKED,
 ) -> Formula:
-    """Read a formula, in Python or LaTeX, an expression or `name = expression`; `letters` are its author's."""
+    """Read a formula, in Python, LaTeX or print, an expression or `name = expression`; `letters` are its author's."""
     known = [*known, *CONSTANTS]
-    own = {key: read_expression(value, known, more)[0] for key, value in _author_letters(letters or {}).items()}
+    own = _meanings(_author_letters(letters or {}), known, more, way)
     said = statement(text)
     if len(said.right) > 1:
         raise BadInput("more than one equals sign; check one equality at a time, as 'name = expression'")
     body = said.right[0]
-    own |= _rates(read_expression(body, (), AnyLetter())[0], own, known)
-    tree, spelled = read_expression(body, [*own, *(k for k in known if k not in own)], more)
+    letters_now = [*own, *(k for k in known if k not in own)]
+    rates = _rates(read_expression(body, letters_now, AnyLetter(), way)[0], own, known)
+    own |= rates
+    tree, spelled = read_expression(body, [*rates, *letters_now], more, way)
     hidden = [k for k, meant in own.items() if k in known and not (isinstance(meant, ast.Name) and meant.id == k)]
     crossed = "x between spaces is a times sign here; write * for a product with the letter x"
     ambiguous = "x" in (*known, *own) and not is_latex(body) and _CROSS.search(body)
@@ -144,6 +96,25 @@ def read(
         *(f"{k} means {to_python(own[k])} here, not the theory's {k}" for k in hidden),
     )
     return Formula(tree=tree, letters=own, latex=is_latex(body), spelled=spelled, note=note)
+
+
+def _meanings(texts: Mapping[str, str], known: Sequence[str], more: Container[str], way: Way) -> dict[str, Node]:
+    # in the theory's letters; a meaning may hold other letters of the author
+    others = [k for k in texts if k not in known and k not in more]
+    own = {
+        key: read_expression(text, [*known, *(k for k in others if k != key)], more, way)[0]
+        for key, text in texts.items()
+    }
+    for _ in others:
+        own = {key: trees.substitute(tree, partial(_mine, own, others)) for key, tree in own.items()}
+    for key, tree in own.items():
+        if key in others and {*trees.letters(tree)} & {*others}:
+            raise BadInput(f"--letters: the meaning of {key} comes back to {key} itself; give it by other letters")
+    return own
+
+
+def _mine(own: Mapping[str, Node], others: Container[str], node: Node) -> Node | None:
+    return own[node.id] if isinstance(node, ast.Name) and node.id in others else None
 
 
 def _rates(tree: Node, own: Mapping[str, Node], known: Container[str]) -> dict[str, Node]:
@@ -163,7 +134,9 @@ _KEPT = 16
 _LONG_NUMBER = re.compile(r"\d*\.\d{17,}")
 
 
-def read_expression(text: str, known: Iterable[str], more: Container[str] = ()) -> tuple[Node, dict[str, str]]:
+def read_expression(
+    text: str, known: Iterable[str], more: Container[str] = (), way: Way = ASKED
+) -> tuple[Node, dict[str, str]]:
     """Read an expression: the tree, and known letters to the LaTeX that was written for them."""
     known = list(known)
     if len(text) > MAX_TEXT:
@@ -173,7 +146,7 @@ def read_expression(text: str, known: Iterable[str], more: Container[str] = ()) 
     for number in _LONG_NUMBER.findall(text):
         if len(repr(float(number))) < _KEPT:  # 0.99999999999999999999 would be 1
             raise BadInput(f"the number {number[:40]} has more digits than the {_KEPT} that are kept; round it")
-    tree, spelled = read_latex(text) if is_latex(text) else (_read_python(text), {})
+    tree, spelled = _read_either(text, known, more, way)
     check(tree)
     meant = {}
     for written in trees.letters(tree):
@@ -182,7 +155,7 @@ def read_expression(text: str, known: Iterable[str], more: Container[str] = ()) 
             way = "name others with --letters 'R=r1+r2'"
             if written.endswith("prime"):
                 way = f"a prime makes another letter: {way}, or write \\frac{{dx}}{{d\\varphi}} for a derivative"
-            there = f"; letters are {', '.join(known)}; {way}"
+            there = f"; letters are {', '.join(known)}; {hint}"
             raise UnknownLetter(f"unknown letter {written[:40]!r}", there)
         meant[written] = letter or written
     tree = trees.substitute(tree, lambda n: trees.name(meant[n.id]) if isinstance(n, ast.Name) else None)
@@ -222,7 +195,11 @@ def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
         # \\text{stroke length} is one letter, and so is E^*
         if re.fullmatch(r"[^\W\d_]+(?: +[^\W\d_]+)+", written):
             tree: Node = trees.name(written.replace(" ", ""))
-        elif is_latex(written) or written.endswith(("^*", "'")):
+        elif rate := differential(written):
+            tree = trees.name(rate)
+        elif re.fullmatch(r"[^\W\d]\w*\*", written):
+            tree = trees.name(from_greek(written[:-1]).replace("_", "") + "star")
+        elif is_latex(written) or written.endswith(("^*", "'", "′", "″")):
             tree = read_latex(written)[0]
         else:
             tree = _read_python(written)
@@ -238,6 +215,44 @@ _PRIME, _QUOTED = re.compile(r"(?<=\w)'"), re.compile(r"(?<![\w'])'")
 _CROSS = re.compile(r"(?<=[\w)])\s+x\s+(?=[\w(])")  # 2 x a, which no formula of letters and signs is
 
 
+class _NoProgram(BadInput):
+    """What no program holds and a page may print; `function` is what is called and is none."""
+
+    def __init__(self, why: str, function: str = "") -> None:
+        super().__init__(why)
+        self.function = function
+
+
+def _read_either(text: str, known: Sequence[str], more: Container[str], way: Way) -> tuple[Node, dict[str, str]]:
+    if re.search(r"[\\$]", text):
+        return read_latex(text, way=way)
+    braces = is_latex(text)
+    try:
+        tree, spelled = read_latex(text, way=way) if braces else (_read_python(text), {})
+        if not braces or all(resolve(letter, known) or letter in more for letter in trees.letters(tree)):
+            return tree, spelled
+    except BadInput as error:
+        printed = _printed(text, known, way) if braces or isinstance(error, _NoProgram) else None
+        called = error.function if isinstance(error, _NoProgram) else ""
+        strange = called and resolve(called, known) is None and called not in more
+        if printed is None or strange and called in trees.letters(printed):
+            raise
+        return printed, {}
+    printed = _printed(text, known, way)
+    return (tree, spelled) if printed is None else (printed, {})
+
+
+def _printed(text: str, known: Sequence[str], way: Way) -> Node | None:
+    if not is_printed(text):
+        return None
+    try:
+        return read_printed(text, known, way)
+    except Ambiguous:
+        raise
+    except BadInput:
+        return None
+
+
 def _read_python(text: str) -> Node:
     source = from_greek(bracketed(unprogrammed(text))).replace("^", "**")
     source = source if _QUOTED.search(source) else _PRIME.sub("prime", source)
@@ -248,7 +263,8 @@ def _read_python(text: str) -> Node:
     except (SyntaxError, ValueError) as error:
         reason = getattr(error, "msg", None) or "not an expression"
         message = f"the formula {text.strip()[:60]!r} cannot be read: {reason}{_near(source.strip(), error)}"
-        raise BadInput(f"{message}; {_hint(source)}") from None
+        kind = _NoProgram if isinstance(error, SyntaxError) else BadInput
+        raise kind(f"{message}; {_hint(source)}") from None
     except (RecursionError, MemoryError):
         raise BadInput("the formula is nested too deep to be read; split it and check the parts") from None
     check_size(tree)
@@ -271,6 +287,10 @@ def _hint(source: str) -> str:
 
 
 def _tidy(node: Node) -> Node | None:
+    if isinstance(node, ast.List | ast.Tuple | ast.Subscript):
+        raise _NoProgram(
+            f"{ast.unparse(node)[:40]!r} is not arithmetic; round brackets group, a point is that of a number"
+        )
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.UAdd):
         return trees.substitute(node.operand, _tidy)
     if isinstance(node, ast.Attribute) and node.attr.lower() == "pi" and ast.unparse(node.value) in MODULES:
@@ -290,9 +310,10 @@ def _tidy(node: Node) -> Node | None:
     plain = plain if plain in FUNCTIONS else plain.lower()
     if plain not in FUNCTIONS:
         there = ", ".join([*FUNCTIONS, *MEANINGS])
-        raise BadInput(
+        why = (
             f"{function[:40]!r} is not a known function; a * is missing behind it if it is a letter; there are {there}"
         )
+        raise _NoProgram(why, function)
     return trees.call(plain, arguments[0])
 
 
@@ -306,4 +327,4 @@ def _function(node: ast.Call) -> str:
         raise BadInput(f"{ast.unparse(node.func)[:40]!r} is not a known function; write sin, np.sin or math.sin")
     after = ast.unparse(node.func)[:40]
     after = after if isinstance(node.func, ast.Call | ast.Constant) else f"({after})"
-    raise BadInput(f"a * is missing behind {after!r}: write {after}*(..)")
+    raise _NoProgram(f"a * is missing behind {after!r}: write {after}*(..)")

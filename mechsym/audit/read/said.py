@@ -12,8 +12,8 @@ from itertools import islice
 
 from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.latex import read_latex
-from mechsym.audit.read.reader import statement
 from mechsym.audit.read.spelling import SYMBOLS
+from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import Node, check
 from mechsym.audit.read.units import Named, nomenclature
 from mechsym.errors import BadInput

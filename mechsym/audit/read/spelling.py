@@ -90,8 +90,9 @@ def from_greek(text: str) -> str:
 
 
 def plain(base: str, subscript: str = "", dots: int = 0) -> str:
-    """A letter's plain name from what LaTeX spells out."""
-    return _ALIASES.get(base, base) + re.sub(r"[\W_]", "", subscript) + "d" * dots
+    """A letter's plain name from what LaTeX spells out; p_i is not the constant."""
+    index = re.sub(r"[\W_]", "", subscript)
+    return _ALIASES.get(base, base) + ("_i" if (base, index) == ("p", "i") else index) + "d" * dots
 
 
 def resolve(written: str, known: Iterable[str]) -> str | None:
@@ -99,7 +100,7 @@ def resolve(written: str, known: Iterable[str]) -> str | None:
     known = list(known)
     if written in known:
         return written
-    alike = [k for k in known if k.replace("_", "") == written.replace("_", "")]
+    alike = [k for k in known if k.replace("_", "") == written.replace("_", "") and k != "pi"]
     if len(alike) > 1:
         raise BadInput(f"the letter {written!r} may mean {' or '.join(alike)}; write the one you mean")
     return alike[0] if alike else None

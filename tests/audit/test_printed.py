@@ -1,0 +1,109 @@
+"""Formulas as a page prints them: products without a sign, letters told beside them, laws, doubtful slashes."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from mechsym.audit.hosts.formula import check_formula
+from mechsym.audit.read.reader import read
+from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.statement import statement
+from mechsym.errors import BadInput
+
+KNOWN = "r l lam phi phid m p_0 p_i I_1 I_2 k T_s E_star theta_2 a d pi dV_dphi".split()
+FORMULAS = tomllib.loads((Path(__file__).parent / "printed.toml").read_text())["formula"]
+
+READ = [
+    ("2r", "2*r"),
+    ("r l", "r*l"),
+    ("(r) l", "r*l"),
+    ("[r]", "r"),
+    ("r(1 − cosφ)", "r*(1 - cos(phi))"),
+    ("r*2(1-cos(phi))", "r*2*(1 - cos(phi))"),
+    ("½ m r²", "1/2*m*r**2"),
+    ("2ad cos θ2", "2*a*d*cos(theta_2)"),
+    ("√(k(I₁+I₂)/(I₁I₂))", "sqrt(k*(I_1 + I_2)/(I_1*I_2))"),
+    ("r φ̇² sin²φ", "r*phid**2*sin(phi)**2"),
+    ("λ/4 cos 2φ", "lam/4*cos(2*phi)"),
+    ("0,5 r", "0.5*r"),
+    ("3.2e-3 r", "3.2*10**(-3)*r"),
+    ("p_i r + π", "p_i*r + pi"),
+    ("m e^(−λ φ)", "m*exp(-lam*phi)"),
+    ("r/(l E*)", "r/(l*E_star)"),
+    ("cos 2(φ + λ)", "cos(2*(phi + lam))"),
+    (r"\cos 2(\varphi + \lambda)", "cos(2*(phi + lam))"),
+    (r"\frac{p_i}{\pi} r", "p_i/pi*r"),
+    ("p_0 dV/dφ", "p_0*dV_dphi"),
+]
+
+
+@pytest.mark.parametrize(("text", "meaning"), READ, ids=[t for t, _ in READ])
+def test_reads_what_a_page_prints(text, meaning):
+    assert to_python(read(text, KNOWN).tree) == meaning
+
+
+@pytest.mark.parametrize("text", ["p_i*r", r"p_i r", r"p_{i} r", "p_i r"])
+def test_an_inner_pressure_is_not_the_constant(text):
+    with pytest.raises(BadInput, match="unknown letter 'p_i'"):
+        read(text, ["r", "pi"])
+
+
+@pytest.mark.parametrize(
+    ("text", "doubt"),
+    [("16T_s/πd³", "divisor"), ("1/2 π r", ""), (r"r_1/g m_{2}", "divisor"), ("sin φ r", "argument")],
+)
+def test_a_doubt_is_asked_about(text, doubt):
+    known = [*KNOWN, "r_1", "g", "m_2"]
+    if not doubt:
+        assert read(text, known)
+        return
+    with pytest.raises(BadInput, match=doubt):
+        read(text, known)
+
+
+def test_a_doubt_is_settled_by_what_is_right_and_said():
+    row = check_formula("16T/πd³", "strength.shear")
+    assert row["verdict"] == "exact" and "read as 16*T/(pi*d**3)" in row["note"]
+    with pytest.raises(BadInput, match="where the divisor ends"):
+        check_formula("15T/πd³", "strength.shear")
+
+
+@pytest.mark.parametrize("formula", FORMULAS, ids=[f["text"] for f in FORMULAS])
+def test_a_printed_formula_has_its_verdict(formula):
+    asked = {k: formula[k] for k in ("text", "against", "letters") if k in formula}
+    assert check_formula(**asked)["verdict"] == formula["verdict"]
+
+
+def test_letters_are_told_beside_a_formula():
+    text = "C = D/d; τ = 8 K F D/(π d³), K = (4C − 1)/(4C − 4) + 0,615/C"
+    said = statement(text, "stress")
+    assert said.left == "τ" and set(said.letters) == {"C", "K"}
+    assert check_formula(text, "helical_spring.stress")["verdict"] == "exact"
+    wrong = check_formula(text.replace("0,615", "0,651"), "helical_spring.stress")
+    assert wrong["verdict"] != "exact"
+
+
+def test_letters_that_come_back_to_themselves_are_refused():
+    with pytest.raises(BadInput, match="comes back"):
+        read("u*r", ["r"], {"u": "2*w", "w": "u/2"})
+
+
+def test_a_letter_in_another_unit_is_said():
+    row = check_formula("3.26 B^(−0.2) p^0.8 T^(−0.55) w^0.8", "heat_transfer.woschni")
+    assert row["verdict"] == "untestable" and "p as a number of kPa" in row["note"]
+
+
+def test_a_datum_may_be_renamed_and_not_become_another():
+    assert check_formula("φ = M L/(G Ip)", "strength.twist", "M=T, Ip=J")["verdict"] == "exact"
+    with pytest.raises(BadInput, match="write another letter"):
+        check_formula("φ = M T L/(G Ip)", "strength.twist", "M=T, Ip=J")
+
+
+def test_what_is_zero_is_a_law():
+    law = r"n_s + \frac{z_r}{z_s} n_r - \left(1+\frac{z_r}{z_s}\right) n_c = 0"
+    letters = "n_s=w_s, n_r=w_r, n_c=w_c"
+    assert check_formula(law, "epicyclic.w_r", letters)["verdict"] == "exact"
+    assert check_formula(law.replace("1+", "2+"), "epicyclic.w_r", letters)["verdict"] != "exact"
+    with pytest.raises(BadInput, match="right side is 0"):
+        statement("n_s = 0")
