@@ -152,9 +152,9 @@ def read_expression(
     for written in trees.letters(tree):
         letter = resolve(written, known)
         if letter is None and written not in more:
-            way = "name others with --letters 'R=r1+r2'"
+            hint = "name others with --letters 'R=r1+r2'"
             if written.endswith("prime"):
-                way = f"a prime makes another letter: {way}, or write \\frac{{dx}}{{d\\varphi}} for a derivative"
+                hint = f"a prime makes another letter: {hint}, or write \\frac{{dx}}{{d\\varphi}} for a derivative"
             there = f"; letters are {', '.join(known)}; {hint}"
             raise UnknownLetter(f"unknown letter {written[:40]!r}", there)
         meant[written] = letter or written
