@@ -17,7 +17,7 @@ from mechsym.audit.read.tree import at
 from mechsym.audit.repair.edits import apply
 from mechsym.audit.repair.examination import Repair
 from mechsym.audit.theory.record import dependencies
-from mechsym.audit.verdict import PASSED, RIGHT_WITH, WORST, Decision, decide
+from mechsym.audit.verdict import FINDINGS, PASSED, RIGHT_WITH, WORST, Decision, decide
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.page import page
@@ -75,19 +75,28 @@ def answer(asked: Asked, *, one: bool = False) -> Row:
     try:
         return _row(asked, one)
     except Ambiguous:
-        rows = [row for r in WAYS for row in _passing(replace(asked, way=r))]
-        if len({row["understood"] for row in rows}) != 1:
+        rows = _read_each_way(asked, one)
+        right = [row for row in rows if row["verdict"] in PASSED]
+        if len(right) != 1 and (right or not rows or any(row["verdict"] not in FINDINGS for row in rows)):
             raise
-        said = f"read as {rows[0]['understood']}; the other way it is not {asked.quantity}"
-        return rows[0] | {"note": joined(rows[0]["note"], said)}
+        row = right[0] if right else min(rows, key=_how_far)
+        other = f"the other way it is not {asked.quantity}" if right else "it is not right in any way"
+        return row | {"note": joined(row["note"], f"read as {row['understood']}; {other}")}
 
 
-def _passing(asked: Asked) -> list[Row]:
-    try:
-        row = _row(asked, one=True)
-    except BadInput:
-        return []
-    return [row] if row["verdict"] in PASSED else []
+def _read_each_way(asked: Asked, one: bool) -> list[Row]:
+    rows: dict[tuple[str, str], Row] = {}
+    for way in WAYS:
+        try:
+            row = _row(replace(asked, way=way), one)
+        except BadInput:
+            continue
+        rows.setdefault((row["understood"], row["verdict"]), row)
+    return list(rows.values())
+
+
+def _how_far(row: Row) -> tuple[bool, int]:
+    return row["correction"] is None, len(row["note"])
 
 
 def _row(asked: Asked, one: bool) -> Row:

@@ -65,8 +65,22 @@ def test_a_doubt_is_asked_about(text, doubt):
 def test_a_doubt_is_settled_by_what_is_right_and_said():
     row = check_formula("16T/πd³", "strength.shear")
     assert row["verdict"] == "exact" and "read as 16*T/(pi*d**3)" in row["note"]
-    with pytest.raises(BadInput, match="where the divisor ends"):
-        check_formula("15T/πd³", "strength.shear")
+    row = check_formula("15T/πd³", "strength.shear")
+    assert row["verdict"] in ("misprint", "wrong") and "it is not right in any way" in row["note"]
+    row = check_formula("σe = √(σ² + 3τ²), σ = 32M/πd³, τ = 16T/πd³", "strength.equivalent")
+    assert row["verdict"] == "exact"
+
+
+@pytest.mark.parametrize(("text", "against"), [("dβ/dφ = λ cos φ/cos β", "beta"), ("ẋ = r φ̇ sin(φ + β)/cos β", "x")])
+def test_a_derivative_is_not_compared_with_its_quantity(text, against):
+    with pytest.raises(BadInput, match=f"a derivative of {against}"):
+        check_formula(text, f"slider_crank.{against}", "λ=r/l")
+
+
+def test_the_authors_name_may_be_a_datum_that_the_formula_does_not_read():
+    assert check_formula("F = m r ω² (cos θ + cos 2θ/n)", "slider_forces.inertia_force", "ω=phid, θ=phi, n=l/r")
+    with pytest.raises(BadInput, match="cannot be redefined"):
+        check_formula("F = 2 F", "slider_forces.inertia_force")
 
 
 @pytest.mark.parametrize("formula", FORMULAS, ids=[f["text"] for f in FORMULAS])

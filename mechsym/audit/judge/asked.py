@@ -7,8 +7,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
+from mechsym.audit.judge.dimensions import kind_of, kind_of_unit
 from mechsym.audit.judge.question import Question, require_possible
 from mechsym.audit.read.letter import ASKED, WAYS, Way
+from mechsym.audit.read.printed import differential
 from mechsym.audit.read.reader import (
     CONSTANTS,
     RESERVED,
@@ -195,13 +197,22 @@ def _in_another_unit(letter: str, meant: Node) -> bool:
 
 def _refuse_left(theory: Theory, quantity: str, left: str, formula: Formula) -> None:
     # a datum or a function gets no other meaning; a law between both sides may stand
-    written = _name_alone(left)
+    written = differential(left) or _name_alone(left)
     if not written or written == quantity:
         return
     way_out = f"write '{quantity} = ..', or the right side alone"
     meant = formula.letters.get(written)
+    if re.fullmatch(rf"d2?{quantity}_d\w+|{quantity}(?:d|prime)+", written):
+        raise BadInput(
+            f"'{left} = ..' is a derivative of {quantity}, and it is to be compared with {quantity}; {way_out}"
+        )
     if meant is None:
         datum = resolve(written, theory.letters) if written not in theory.tape else None
+        # F = .. of an inertia force, where the theory's F is a force too
+        read_there = {n for k in letters(formula.tree) for n in (k, *letters(formula.letters.get(k, name_of(k))))}
+        if datum and read_there and datum not in read_there:
+            if kind_of_unit(theory.letters[datum].unit) == kind_of(theory, name_of(quantity)):
+                return
         if datum or written in RESERVED:
             kind = f"a letter of {theory.name}" if datum else "a constant or a function"
             raise BadInput(f"'{left} = ..': {datum or written} is {kind} already and cannot be redefined; {way_out}")

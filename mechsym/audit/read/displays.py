@@ -42,7 +42,7 @@ _LIMIT = re.compile(r"(?<![\\{]),[^=,]*(?:<|>|\\leq?\b|\\geq?\b|\\ll\b|\\gg\b)[^
 _PROSE = re.compile(r"(?:^|\s)[A-Za-z]{3,}(?=[\s,.:;]|$)")  # a word, which no formula has
 _MARK = re.compile(r"[$\\]")
 _NUMBER = re.compile(r"\(?(\d{1,3}(?:\.\d+)*)\)?")
-_BRACKET = re.compile(rf"{_SPACE}*(?:\\left)?\[([^\[\]]{{1,60}}?)(?:\\right)?\]{_SPACE}*[.,;]?\s*$")
+BRACKET = re.compile(rf"{_SPACE}*(?:\\left)?\[([^\[\]]{{1,60}}?)(?:\\right)?\]{_SPACE}*[.,;]?\s*$")
 
 
 @record
@@ -156,7 +156,7 @@ def _parts(equation: Displayed) -> Iterator[Displayed]:
         limit = _LIMIT.search(part)
         if limit and "=" in part[: limit.start()]:
             part, aside = part[: limit.start()], limit[0].strip(" ,")
-        unit = _BRACKET.search(part)
+        unit = BRACKET.search(part)
         known = unit_of(unit[1]) if unit and "=" in part[: unit.start()] else None
         if unit and known:
             part = part[: unit.start()]

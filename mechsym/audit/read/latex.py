@@ -112,6 +112,8 @@ def _product(cursor: Cursor) -> Node:
                         "write \\frac{}{}"
                     )
                 while cursor.way.divisor and cursor.peek() not in _STOP | _TIMES | _OVER:
+                    if cursor.way.divisor == 1 and _is_function(cursor.peek()):
+                        break
                     below = binary(ast.Mult, below, _power(cursor))
             tree = binary(ast.Div, tree, below)
         else:

@@ -25,13 +25,13 @@ class Ambiguous(BadInput):
 class Way:
     """Which of two ways a doubtful text is read in; None where it is asked."""
 
-    #: Whether a divisor goes on behind its first factor, and the argument of a function behind its first letter
-    divisor: bool | None = None
-    argument: bool | None = None
+    #: Where a divisor ends: 0 behind its first factor, 1 before a function, 2 with the product
+    divisor: int | None = None
+    argument: bool | None = None  #: Whether the argument of a function goes on behind its first letter
 
 
 ASKED = Way()
-WAYS = tuple(Way(divisor=d, argument=a) for d in (False, True) for a in (False, True))
+WAYS = tuple(Way(divisor=d, argument=a) for d in range(3) for a in (False, True))
 
 
 @dataclass

@@ -11,7 +11,7 @@ from functools import cache
 
 from mechsym.audit.read.latex import read_tokens
 from mechsym.audit.read.letter import ASKED, Way
-from mechsym.audit.read.spelling import SYMBOLS
+from mechsym.audit.read.spelling import SYMBOLS, undotted
 from mechsym.audit.read.tree import Node
 from mechsym.errors import BadInput
 
@@ -19,13 +19,14 @@ _GREEK = {sign: name for name, sign in SYMBOLS.items()} | {"ϕ": "phi", "ϑ": "t
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 _SIGNS = {
     "−": "-", "–": "-", "·": "*", "∙": "*", "⋅": "*", "×": "*", "∗": "*", "•": "*", "\N{INVISIBLE TIMES}": "*",
-    "÷": "/", "∕": "/", "⁄": "/", "**": "^", "\N{FUNCTION APPLICATION}": " ", "√": " sqrt ", "∛": "\\sqrt[3]",
+    "÷": "/", "∕": "/", "⁄": "/", "**": "^", "\N{FUNCTION APPLICATION}": " ", "√": " sqrt ", "∛": " cbrt ",
     "½": "(1/2)", "¼": "(1/4)", "¾": "(3/4)", "⅓": "(1/3)", "⅔": "(2/3)", "⅛": "(1/8)",
     "′": "'", "’": "'", "″": "''", **{chr(0x2080 + digit): str(digit) for digit in range(10)},
 }  # fmt: skip
-_DOTS = {"\N{COMBINING DOT ABOVE}": "d", "\N{COMBINING DIAERESIS}": "dd"}
 _FUNCTIONS = {
-    **{name: name for name in ("sin", "cos", "tan", "cot", "exp", "log", "ln", "tg", "ctg", "arctg", "sqrt")},
+    **{name: name for name in ("sin", "cos", "tan", "cot", "exp", "log", "ln", "tg", "ctg", "arctg", "sqrt", "cbrt")},
+    **{name.capitalize(): name for name in ("sin", "cos", "tan", "cot", "exp", "log", "sqrt")},
+    **{f"Arc{name}": f"arc{name.lower()}" for name in ("Sin", "Cos", "Tan")},
     **{f"{arc}{name}": f"arc{name}" for arc in ("a", "arc") for name in ("sin", "cos", "tan")},
 }
 _DIFFERENTIAL = re.compile(r"\bd(\^\{?2\}?)?([^\W\d]\w*)\s*/\s*d([^\W\d][^\W_]*)(\^\{?2\}?)?(?!\w)")
@@ -34,7 +35,9 @@ _DIVISOR = re.compile(r"(?<=\S/)(\d+(?:\.\d+)?|\([^()]*\))\s+(?=[\w(\[])")
 _STARRED = re.compile(r"([^\W\d]\w*)\*(?=(\s*(?:[)\]}/+\-^]|$))?)")  # E*
 _EXPONENT = re.compile(r"\^\s*(-?\s*(?:\d+(?:[.,]\d+)?|[^\W\d]\w*))")
 _TOKEN = re.compile(r"\\[a-z]+|\d+(?:[.,]\d+)?(?:[eE][+-]?\d+(?!\w))?|[^\W\d]\w*|\S")
-_PLAIN = re.compile(r"[\w\s.,+\-*/^()\[\]|'{}" + "".join(map(re.escape, (*_SIGNS, *_RAISED, *_DOTS))) + "]*")
+_PLAIN = re.compile(
+    r"[\w\s.,+\-*/^()\[\]|'{}" + "".join(map(re.escape, (*_SIGNS, *_RAISED, "\u0307", "\u0308"))) + "]*"
+)
 _PROGRAM = re.compile(r"\b(?:if|else|for|in|and|or|not|is|lambda\s\w+\s*:|True|False|None)\b|\.[^\W\d]|__|//")
 _MOST_PIECES = 5  # letters without a function that one word may be set together of
 
@@ -49,12 +52,26 @@ def read_printed(text: str, known: Iterable[str], way: Way = ASKED) -> Node:
     forms = _forms(frozenset(known))
     text = _STARRED.sub(lambda m: f"{m[1]}star " if _starred(m, forms) else m[0], _signs(text))
     tokens = [piece for token in _TOKEN.findall(text) for piece in _pieces(token, forms)]
+    for at, token in enumerate(tokens):
+        if token == r"\sqrt" and tokens[at + 1 : at + 2] == ["["]:
+            _round(tokens, at + 1)  # no degree
+        elif token == r"\cbrt":
+            tokens[at : at + 1] = [r"\sqrt", "[", "3", "]"]
     names = frozenset(t for t in tokens if re.fullmatch(r"[^\W\d]\w+", t))
     try:
         return read_tokens(tokens, way, names)
     except BadInput as error:
         error.args = (str(error).replace("LaTeX: ", "as printed: "),)
         raise
+
+
+def _round(tokens: list[str], opening: int) -> None:
+    depth = 0
+    for at in range(opening, len(tokens)):
+        depth += {"[": 1, "]": -1}.get(tokens[at], 0)
+        if depth == 0:
+            tokens[opening], tokens[at] = "(", ")"
+            return
 
 
 def _starred(match: re.Match[str], forms: dict[str, str]) -> bool:
@@ -69,8 +86,7 @@ def differential(text: str) -> str:
 
 
 def _signs(text: str) -> str:
-    text = unicodedata.normalize("NFD", text)
-    text = re.sub(rf"([^\W\d_])([{''.join(_DOTS)}])", lambda m: f" {_GREEK.get(m[1], m[1])}{_DOTS[m[2]]} ", text)
+    text = undotted(text)
     text = re.sub(rf"[{''.join(_RAISED)}]+", lambda m: f"^{{{''.join(_RAISED[c] for c in m[0])}}}", text)
     for sign, instead in _SIGNS.items():
         text = text.replace(sign, instead)

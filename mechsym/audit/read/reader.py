@@ -11,9 +11,10 @@ from mechsym.audit.read import tree as trees
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.letter import ASKED, Ambiguous, Way
 from mechsym.audit.read.printed import differential, is_printed, read_printed
-from mechsym.audit.read.spelling import bracketed, from_greek, resolve, to_latex, to_python, unprogrammed
+from mechsym.audit.read.spelling import bracketed, from_greek, resolve, to_latex, to_python, undotted, unprogrammed
 from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import FUNCTIONS, MEANINGS, MODULES, Node, check, check_size, meaning
+from mechsym.audit.read.typed import fields
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -79,6 +80,8 @@ def read(
     """Read a formula, in Python, LaTeX or print, an expression or `name = expression`; `letters` are its author's."""
     known = [*known, *CONSTANTS]
     own = _meanings(_author_letters(letters or {}), known, more, way)
+    for words in (k for k in letters or {} if re.fullmatch(r"\w+(?: +\w+)+", k)):
+        text = text.replace(words, words.replace(" ", ""))
     said = statement(text)
     if len(said.right) > 1:
         raise BadInput("more than one equals sign; check one equality at a time, as 'name = expression'")
@@ -191,7 +194,8 @@ def letter_pairs(text: str) -> dict[str, str]:
 
 def _author_letters(letters: Mapping[str, str]) -> dict[str, str]:
     meanings = {}
-    for written, value in letters.items():
+    for key, value in letters.items():
+        written = fields(undotted(key)).strip()
         # \\text{stroke length} is one letter, and so is E^*
         if re.fullmatch(r"[^\W\d_]+(?: +[^\W\d_]+)+", written):
             tree: Node = trees.name(written.replace(" ", ""))
@@ -229,7 +233,7 @@ def _read_either(text: str, known: Sequence[str], more: Container[str], way: Way
     braces = is_latex(text)
     try:
         tree, spelled = read_latex(text, way=way) if braces else (_read_python(text), {})
-        if not braces or all(resolve(letter, known) or letter in more for letter in trees.letters(tree)):
+        if all(resolve(letter, known) or letter in more for letter in trees.letters(tree)):
             return tree, spelled
     except BadInput as error:
         printed = _printed(text, known, way) if braces or isinstance(error, _NoProgram) else None
@@ -238,8 +242,10 @@ def _read_either(text: str, known: Sequence[str], more: Container[str], way: Way
         if printed is None or strange and called in trees.letters(printed):
             raise
         return printed, {}
+    # e^{..} in a text of signs, and mz for m z
     printed = _printed(text, known, way)
-    return (tree, spelled) if printed is None else (printed, {})
+    better = printed is not None and (braces or all(resolve(n, known) or n in more for n in trees.letters(printed)))
+    return (printed, {}) if printed is not None and better else (tree, spelled)
 
 
 def _printed(text: str, known: Sequence[str], way: Way) -> Node | None:
@@ -297,7 +303,7 @@ def _tidy(node: Node) -> Node | None:
         return trees.name("pi")
     if not isinstance(node, ast.Call):
         return None
-    function = _function(node)
+    function = _spelled(_function(node))
     if node.keywords:
         raise BadInput(f"{function}() takes no named arguments here")
     arguments = [trees.substitute(a, _tidy) for a in node.args]
@@ -307,7 +313,6 @@ def _tidy(node: Node) -> Node | None:
     if len(arguments) != 1:
         raise BadInput(f"{function} takes one argument, not {len(arguments)}; write {function}(a)")
     plain = _ALIASES.get(function, function)
-    plain = plain if plain in FUNCTIONS else plain.lower()
     if plain not in FUNCTIONS:
         there = ", ".join([*FUNCTIONS, *MEANINGS])
         why = (
@@ -315,6 +320,12 @@ def _tidy(node: Node) -> Node | None:
         )
         raise _NoProgram(why, function)
     return trees.call(plain, arguments[0])
+
+
+def _spelled(function: str) -> str:
+    # SIN, DSIN and Sin
+    words = (*FUNCTIONS, *_ALIASES, *MEANINGS)
+    return next((w for w in (function, function.lower(), function.lower().removeprefix("d")) if w in words), function)
 
 
 def _function(node: ast.Call) -> str:

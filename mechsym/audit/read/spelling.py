@@ -2,6 +2,7 @@ r"""Letters as authors spell them (`\varphi_0`, `φ0` and `phi_0` are all `phi0`
 
 import ast
 import re
+import unicodedata
 from collections.abc import Iterable, Mapping
 
 from mechsym.audit.read.tree import Node, function_of
@@ -87,6 +88,16 @@ def from_greek(text: str) -> str:
     """Greek letters and typographic signs as Python reads them: `phi` for φ, `lam` for λ and `lambda`."""
     text = "".join(f"{_GREEK[c]}" if c in _GREEK else c for c in text)
     return _WORD.sub(lambda m: _ALIASES.get(m[0], m[0]), text)
+
+
+_DOTTED = re.compile("([^\\W\\d_])(\u0307|\u0308)")
+
+
+def undotted(text: str) -> str:
+    """Rates that are typed with dots above: `ẋ` is xd."""
+    spread = unicodedata.normalize("NFD", text)
+    dots = {"\u0307": "d", "\u0308": "dd"}
+    return _DOTTED.sub(lambda m: f" {from_greek(m[1])}{dots[m[2]]} ", spread) if _DOTTED.search(spread) else text
 
 
 def plain(base: str, subscript: str = "", dots: int = 0) -> str:

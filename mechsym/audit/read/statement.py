@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import field
 
+from mechsym.audit.read.typed import typed
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -22,7 +23,8 @@ _ORDER = re.compile(
 _AND_SO_ON = re.compile(r"[+-]\s*(?:\\l?dots[cb]?\b|\\cdots\b|\.\.\.|…)(?!\s*\w)")
 # V(\\theta) to the left of an equals sign, which is V
 _APPLIED = re.compile(
-    r"(?<!sin)(?<!cos)(?<!tan)(?<!cot)(?<!exp)(?<!log)(?<!ln)(?<!sqrt)(?<=[\w}'])\s*(?:\\left)?\(\s*\\?[^\W\d]\w*\s*(?:\\right)?\)"
+    r"(?<!sin)(?<!cos)(?<!tan)(?<!cot)(?<!exp)(?<!log)(?<!ln)(?<!sqrt)(?<=[\w}'])"
+    r"\s*(?:\\left)?\(\s*\\?[^\W\d]\w*\s*(?:\\right)?\)"
 )
 _ZERO = re.compile(r"\$*\s*0\s*\.?\s*\$*")
 
@@ -45,6 +47,7 @@ def statement(text: str, of: str = "") -> Statement:
 
     of: the quantity that it tells, where letters may be told beside it.
     """
+    text = typed(text) if of else text
     label = _LABEL.search(text)
     text, number, claim = _SILENT.sub(" ", _LABEL.sub(" ", text)), "", ""
     for pattern in _NUMBER:
