@@ -1,7 +1,9 @@
 """Files: written together or not at all, nothing older read or left in their place."""
 
+import csv
 import errno
 import hashlib
+import io
 import json
 import os
 import shutil
@@ -13,6 +15,7 @@ from pathlib import Path
 
 import fault_shim
 import faults
+import numpy as np
 import pytest
 
 from mechsym import files, transaction
@@ -290,3 +293,24 @@ def test_what_a_killed_process_left_is_swept_up(tmp_path):
     other.write_text("half")
     written(tmp_path, 1)
     assert other.exists()
+
+
+def test_a_table_in_pieces_is_that_of_csv(tmp_path, monkeypatch):
+    monkeypatch.setattr(files, "_ROWS", 3)
+    rng = np.random.default_rng(3)
+    numbers = rng.standard_normal(11) * 10.0 ** rng.integers(-20, 20, 11)
+    gaps = np.where(np.arange(11) % 4 == 1, np.nan, numbers)
+    words = ["", "plain", "a, b", 'a "b"', "two\nlines", "é", "", "", "", "", "last"]
+    table = {"x [m]": numbers, "y, as told": gaps, "whole": np.arange(11), "words": words, "never": np.full(11, np.nan)}
+    written = files.write_csv(tmp_path / "table.csv", table).read_text(encoding="utf-8")
+    expected = io.StringIO()
+    rows = zip(numbers, gaps, np.arange(11), words, strict=True)
+    csv.writer(expected, lineterminator="\n").writerows(
+        [[*table], *([f"{x:.12g}", "" if y != y else f"{y:.12g}", k, w, ""] for x, y, k, w in rows)]
+    )
+    assert written == expected.getvalue()
+    for count in (0, 1):
+        alone = files.write_csv(tmp_path / "one.csv", {"words": [""] * count}).read_text(encoding="utf-8")
+        assert alone == "words\n" + '""\n' * count
+    with pytest.raises(ValueError, match="rows"):
+        files.write_csv(tmp_path / "two.csv", {"a": [1.0], "b": [1.0, 2.0]})

@@ -14,11 +14,12 @@ import io
 import json
 import math
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -222,9 +223,31 @@ def write_csv(path: Path, columns: Mapping[str, Sequence[object] | np.ndarray]) 
         with part.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(columns)
-            writer.writerows(zip(*map(_cells, columns.values()), strict=True))
+            rows = {len(values) for values in columns.values()}
+            if len(rows) > 1:
+                raise ValueError(f"{path}: columns of {sorted(rows)} rows")
+            for start in range(0, max(rows, default=0), _ROWS):
+                _write_rows(file, writer, [values[start : start + _ROWS] for values in columns.values()])
 
     return write_with(path, write)
+
+
+_ROWS = 10_000  # of a table that are text at a time
+
+
+def _write_rows(file: IO[str], writer: Any, columns: Sequence[Sequence[object] | np.ndarray]) -> None:
+    cells, formats, words = [], [], set()
+    for values in columns:
+        whole = isinstance(values, np.ndarray) and values.dtype.kind == "f" and bool(np.isfinite(values).all())
+        cells.append(np.asarray(values).tolist() if whole else _cells(values))
+        formats.append("%.12g" if whole else "%s")
+        words |= set() if whole else {*cells[-1]}
+    if len(columns) > 1 and all(isinstance(word, str) and not _QUOTED.search(word) for word in words):
+        # what csv writes, a row at a time
+        row = ",".join(formats) + "\n"
+        file.writelines(row % values for values in zip(*cells, strict=True))
+    else:
+        writer.writerows(zip(*map(_cells, columns), strict=True))
 
 
 def write_quantities(
@@ -259,6 +282,7 @@ def without_netcdf(error: ImportError) -> MissingExtra:
 
 
 _FLOATS = (float, np.floating)
+_QUOTED = re.compile(r'[,"\r\n]')  # what csv sets between quotes
 
 
 def _cells(values: Sequence[object] | np.ndarray) -> list[object]:
