@@ -279,7 +279,9 @@ def judged(command, answer, sets, old_points, usual):
         if not whole and certified:
             return "a mixture that its summary certifies"
     else:
-        if not whole:
+        # what a sweep had finished is a set of its own, which says so
+        stopped = what == "interrupt" and status == 130 and b'"interrupted": true' in now.get("run/summary.json", b"")
+        if not whole and not stopped:
             return f"a mixture: {', '.join(strangers) or 'parts of both sets'} (exit {status})"
         if wrong := mixed(place.folder):
             return f"a mixture: the summary tells of other {', '.join(wrong)}"
