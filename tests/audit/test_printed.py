@@ -121,3 +121,14 @@ def test_what_is_zero_is_a_law():
     assert check_formula(law.replace("1+", "2+"), "epicyclic.w_r", letters)["verdict"] != "exact"
     with pytest.raises(BadInput, match="right side is 0"):
         statement("n_s = 0")
+
+
+@pytest.mark.parametrize("text", ["x = x", "x − x = 0", "x = r/2 - 0.5 r + x", "x = A, A = x", "2 x = x + x"])
+def test_what_holds_of_anything_is_refused(text):
+    with pytest.raises(BadInput, match="whatever it is"):
+        check_formula(text, "slider_crank.x")
+
+
+def test_fields_of_records_are_letters_and_points_between_letters_times():
+    assert check_formula("F = m.r.ω².cos φ", "slider_forces.primary_force", "ω=phid")["verdict"] == "exact"
+    assert check_formula("self.R*np.sin(c.th)", "scotch_yoke.dx_dphi", "R=r, c.th=phi")["verdict"] == "exact"

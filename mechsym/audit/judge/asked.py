@@ -7,8 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
+import numpy as np
+
 from mechsym.audit.judge.dimensions import kind_of, kind_of_unit
 from mechsym.audit.judge.question import Question, require_possible
+from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.letter import ASKED, WAYS, Way
 from mechsym.audit.read.printed import differential
 from mechsym.audit.read.reader import (
@@ -76,6 +79,7 @@ def question_of(asked: Asked, said: Statement) -> Question:
         _refuse_letters(theory, formula)
         _refuse_left(theory, quantity, said.left, formula)
     check_sums(theory, formula.tree)
+    _refuse_sameness(theory, quantity, said.left, formula)
     under = assumed(theory, asked.assume, formula.letters)
     theory, quantity = _with_left(under.theory, quantity, said.left, formula)
     used = {n for tree in (formula.tree, *formula.letters.values()) for n in letters(tree)}
@@ -218,6 +222,23 @@ def _refuse_left(theory: Theory, quantity: str, left: str, formula: Formula) -> 
             raise BadInput(f"'{left} = ..': {datum or written} is {kind} already and cannot be redefined; {way_out}")
     elif all(name in theory.letters for name in letters(meant)):
         raise BadInput(f"'{left} = ..': {left} is {to_python(meant)} already, by --letters; {way_out}")
+
+
+def _refuse_sameness(theory: Theory, quantity: str, left: str, formula: Formula) -> None:
+    # x = x and x = r - r + x hold of anything: what the letters stand for is not asked
+    right = substitute(formula.tree, lambda n: formula.letters.get(n.id) if isinstance(n, ast.Name) else None)
+    if quantity not in letters(right):
+        return
+    whole, said = _with_left(theory, quantity, left, formula)
+    meant = whole.tape[said] if said == _IDENTITY else name_of(quantity)
+    lead = meant if isinstance(meant, ast.expr) else name_of(quantity)
+    lead = substitute(lead, lambda n: formula.letters.get(n.id) if isinstance(n, ast.Name) else None)
+    rng = np.random.default_rng(1)
+    values = {k: rng.uniform(-6, 6, 8) for k in sorted({*letters(lead), *letters(right)} - {"pi"})} | {"pi": np.pi}
+    with np.errstate(all="ignore"):
+        sides = evaluate(lead, values, FLOATS), evaluate(right, values, FLOATS)
+    if np.allclose(sides[0], sides[1], rtol=1e-12, atol=0):
+        raise BadInput(f"both sides say {quantity}, whatever it is; write one of them in other letters")
 
 
 _RELATION = re.compile(r"(<=|>=|<|>|=|\\leq?|\\geq?|\\ll|\\gg|≤|≥)")

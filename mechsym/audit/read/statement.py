@@ -68,6 +68,8 @@ def statement(text: str, of: str = "") -> Statement:
     if len(parts) > 2 and _ZERO.fullmatch(parts[-1]):
         parts.pop()
         note = 'the trailing "= 0" was left out: with it the equation would say that the quantity vanishes'
+    if len(parts) == 2 and _ZERO.fullmatch(parts[0]):
+        parts.reverse()
     if len(parts) == 2 and _ZERO.fullmatch(parts[1]):
         terms, last = _last_term(parts[0])
         if terms:

@@ -5,7 +5,7 @@ import unicodedata
 
 from mechsym.audit.read.displays import BRACKET
 from mechsym.audit.read.spelling import undotted
-from mechsym.audit.read.tree import MODULES
+from mechsym.audit.read.tree import FUNCTIONS, MODULES
 from mechsym.audit.read.units import unit_of
 
 _SPACES = re.compile(r"[\u00a0\u2000-\u200a\u202f\u205f]|&nbsp;")
@@ -15,19 +15,20 @@ _DISPLAYS = "equation|align|aligned|gather|gathered|multline|eqnarray|split|math
 _ABOUT = (
     (re.compile(rf"\\(?:begin|end)\s*\{{(?:{_DISPLAYS})\*?\}}"), " "),
     (re.compile(r"\\\[|\\\]|\\\(|\\\)"), " "),
-    (re.compile(r"(?<=\s)(?:%|//|#|!|;|/\*)\s*[A-Za-zÀ-ž][^=]*$"), ""),
+    (re.compile(r"(?<=\s)(?:(?:%|//|#|/\*)\s*[A-Za-zÀ-ž]|[!;]\s*[A-Za-zÀ-ž]{3,}\b(?!\s*[(\[]))[^=]*$"), ""),
     (re.compile(r"^\s*(?:return|double|float|const|let|var|real|auto)\s+(?=\w)"), ""),
     (re.compile(r"^\s*[A-Za-z][A-Za-z ,\-]{3,60}:\s+(?=\S+[^=]*=)"), ""),
     (re.compile(r"^\s*=(?!=)"), ""),
     (re.compile(r"^(\s*[\w.()\[\]]+\s*)<-"), r"\1="),
     (re.compile(r"^\s*(\w+)\[\w+_\]\s*:?="), r"\1 ="),
+    (re.compile(r"(?<=[²³⁴)\]])\.(?=[^\W\d])"), "*"),
     (re.compile(r"(?<=\d)[dD](?=[+-]?\d)"), "e"),
     (re.compile(r"(\d+(?:[.,]\d+)?)\s*°"), r"(\1*pi/180)"),
 )  # fmt: skip
 _LAST_WORDS = re.compile(r"(?:\\q?quad\b|\\[,;:! ]|\s|,)+\\text\s*\{[^{}]*\}\s*[.,;]?\s*$")
 _UNIT = re.compile(r",\s*([^\W\d_][\w.·⋅/^²³]{0,11})\s*$")
 _INDEX = re.compile(r"^\s*[\w.]+\s*[\[(]\s*(i|j|k|n|ii|idx)\s*[\])]\s*=")
-_FIELD = re.compile(rf"(?<![\w.])(?!(?:{'|'.join(MODULES)})\.)([^\W\d]\w*)\.([^\W\d]\w*)(?![\w(])")
+_FIELD = re.compile(r"(?<![\w.])[^\W\d]\w*(?:\.[^\W\d]\w*)+(?![\w(])")
 
 
 def typed(text: str) -> str:
@@ -53,5 +54,14 @@ def typed(text: str) -> str:
 
 
 def fields(text: str) -> str:
-    """Fields of records as letters: `self.r` is r and `engine.CR` is engine_CR."""
-    return _FIELD.sub(lambda m: m[2] if m[1] in ("self", "this") else f"{m[1]}_{m[2]}", text)
+    """Fields of records as letters: `self.r` is r and `engine.CR` is engine_CR; `m.r` is a product."""
+    return _FIELD.sub(_field, text)
+
+
+def _field(match: re.Match[str]) -> str:
+    parts = match[0].split(".")
+    if parts[0] in MODULES:
+        return match[0]
+    parts = parts[1:] if parts[0] in ("self", "this") else parts
+    single = all(len(p.rstrip("⁰¹²³⁴⁵⁶⁷⁸⁹₀₁₂₃₄₅₆₇₈₉")) == 1 or p in FUNCTIONS for p in parts)
+    return ("*" if single else "_").join(parts)
