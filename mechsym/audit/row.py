@@ -8,7 +8,7 @@ from mechsym.audit.judge import conventions
 from mechsym.audit.judge.asked import Asked, left_note, question_of
 from mechsym.audit.judge.orders import expansions, groups, powers
 from mechsym.audit.judge.question import Question, used_names
-from mechsym.audit.read.letter import WAYS, Ambiguous
+from mechsym.audit.read.letter import WAYS, Ambiguous, Way
 from mechsym.audit.read.mathml import STYLE, corrected, formula
 from mechsym.audit.read.reader import joined, write
 from mechsym.audit.read.spelling import to_python
@@ -75,28 +75,29 @@ def answer(asked: Asked, *, one: bool = False) -> Row:
     try:
         return _row(asked, one)
     except Ambiguous:
-        rows = _read_each_way(asked, one)
-        right = [row for row in rows if row["verdict"] in PASSED]
-        if len(right) != 1 and (right or not rows or any(row["verdict"] not in FINDINGS for row in rows)):
+        rows = _read_each_way(asked)
+        right = [(way, row) for way, row in rows if row["verdict"] in PASSED]
+        if len(right) != 1 and (right or not rows or any(row["verdict"] not in FINDINGS for _, row in rows)):
             raise
-        row = right[0] if right else min(rows, key=_how_far)
+        way, row = right[0] if right else min(rows, key=_how_far)
+        row = row if right or one else _row(replace(asked, way=way), one)
         other = f"the other way it is not {asked.quantity}" if right else "it is not right in any way"
         return row | {"note": joined(row["note"], f"read as {row['understood']}; {other}")}
 
 
-def _read_each_way(asked: Asked, one: bool) -> list[Row]:
-    rows: dict[tuple[str, str], Row] = {}
+def _read_each_way(asked: Asked) -> list[tuple[Way, Row]]:
+    rows: dict[tuple[str, str], tuple[Way, Row]] = {}
     for way in WAYS:
         try:
-            row = _row(replace(asked, way=way), one)
+            row = _row(replace(asked, way=way), one=True)
         except BadInput:
             continue
-        rows.setdefault((row["understood"], row["verdict"]), row)
+        rows.setdefault((row["understood"], row["verdict"]), (way, row))
     return list(rows.values())
 
 
-def _how_far(row: Row) -> tuple[bool, int]:
-    return row["correction"] is None, len(row["note"])
+def _how_far(read: tuple[Way, Row]) -> tuple[bool, int]:
+    return read[1]["correction"] is None, len(read[1]["note"])
 
 
 def _row(asked: Asked, one: bool) -> Row:

@@ -83,7 +83,12 @@ def test_the_authors_name_may_be_a_datum_that_the_formula_does_not_read():
         check_formula("F = 2 F", "slider_forces.inertia_force")
 
 
-@pytest.mark.parametrize("formula", FORMULAS, ids=[f["text"] for f in FORMULAS])
+def _marked(number, formula):
+    # each third in the fast suite
+    return pytest.param(formula, id=formula["text"], marks=[pytest.mark.slow, pytest.mark.heavy] if number % 3 else [])
+
+
+@pytest.mark.parametrize("formula", [_marked(i, f) for i, f in enumerate(FORMULAS)])
 def test_a_printed_formula_has_its_verdict(formula):
     asked = {k: formula[k] for k in ("text", "against", "letters") if k in formula}
     assert check_formula(**asked)["verdict"] == formula["verdict"]
@@ -132,3 +137,13 @@ def test_what_holds_of_anything_is_refused(text):
 def test_fields_of_records_are_letters_and_points_between_letters_times():
     assert check_formula("F = m.r.ω².cos φ", "slider_forces.primary_force", "ω=phid")["verdict"] == "exact"
     assert check_formula("self.R*np.sin(c.th)", "scotch_yoke.dx_dphi", "R=r, c.th=phi")["verdict"] == "exact"
+
+
+def test_an_argument_without_brackets_is_read_as_it_is_right():
+    row = check_formula("s = h(θ/β − sin 2πθ/β / 2π)", "cam_motion.cycloidal")
+    assert row["verdict"] == "exact" and "sin(2*pi*theta/beta)" in row["understood"]
+
+
+def test_a_ratio_of_strange_letters_is_a_name():
+    text = "Sp/S̄p = (π/2) sin θ [1 + cos θ/√(R² − sin²θ)]"
+    assert check_formula(text, "cylinder_volume.speed_ratio", "R=l/r, θ=phi")["verdict"] == "exact"

@@ -159,10 +159,16 @@ def label(left: str) -> bool:
 
 
 def _of_one_unknown(left: str, theory: Theory, quantity: str, formula: Formula) -> Node:
-    # tan μ = .. and T/(F r) = ..: the one letter that nothing tells of is the quantity
+    # tan μ = .. and T/(F r) = ..: the one letter that nothing tells of is the quantity; Sp/Sm of none is its name
     letters_known = [*formula.letters, *known(theory), *CONSTANTS]
     tree = read_expression(left, letters_known, AnyLetter())[0]
     unknown = [n for n in letters(tree) if n not in letters_known and n not in theory.tape]
+    if (
+        len(unknown) == 2
+        and is_operation(tree, ast.Div)
+        and all(isinstance(n, ast.Name) for n in (tree.left, tree.right))
+    ):
+        return name_of(quantity)
     if len(unknown) != 1:
         return read_expression(left, letters_known, theory.tape)[0]
     return substitute(tree, lambda n: name_of(quantity) if isinstance(n, ast.Name) and n.id == unknown[0] else None)

@@ -353,7 +353,9 @@ def _run(cursor: Cursor, function: str) -> Node:
         tree = factor if tree is None else binary(ast.Mult, tree, factor)
     if tree is None:
         raise BadInput(f"LaTeX: \\{function} has no argument {place(cursor)}; write it as in \\sin\\varphi")
-    divides = cursor.peek() in _OVER and cursor.peek(1)[:1].isdecimal()
+    # sin 2\pi\theta/\beta, where what is to be read is told
+    plain = cursor.way.argument and not _is_function(cursor.peek(1)) and cursor.peek(1) not in _CLOSING
+    divides = cursor.peek() in _OVER and (plain or cursor.peek(1)[:1].isdecimal())
     if divides and _goes_on(cursor, function, f"{cursor.peek()}{cursor.peek(1)}"):
         cursor.take()
         tree = binary(ast.Div, tree, _factor(cursor))
