@@ -35,6 +35,7 @@ READ = [
     (r"\cos 2(\varphi + \lambda)", "cos(2*(phi + lam))"),
     (r"\frac{p_i}{\pi} r", "p_i/pi*r"),
     ("p_0 dV/dφ", "p_0*dV_dphi"),
+    ("1/2 π r", "1/2*pi*r"),
 ]
 
 
@@ -49,17 +50,17 @@ def test_an_inner_pressure_is_not_the_constant(text):
         read(text, ["r", "pi"])
 
 
+def test_a_length_with_an_index_is_no_logarithm():
+    assert to_python(read(r"r + l_{n}", ["r"], {"l_{n}": "2*r"}).tree) == "r + l_n"
+
+
 @pytest.mark.parametrize(
     ("text", "doubt"),
-    [("16T_s/πd³", "divisor"), ("1/2 π r", ""), (r"r_1/g m_{2}", "divisor"), ("sin φ r", "argument")],
+    [("16T_s/πd³", "divisor"), (r"r_1/g m_{2}", "divisor"), ("sin φ r", "argument")],
 )
 def test_a_doubt_is_asked_about(text, doubt):
-    known = [*KNOWN, "r_1", "g", "m_2"]
-    if not doubt:
-        assert read(text, known)
-        return
     with pytest.raises(BadInput, match=doubt):
-        read(text, known)
+        read(text, [*KNOWN, "r_1", "g", "m_2"])
 
 
 def test_a_doubt_is_settled_by_what_is_right_and_said():
@@ -78,7 +79,8 @@ def test_a_derivative_is_not_compared_with_its_quantity(text, against):
 
 
 def test_the_authors_name_may_be_a_datum_that_the_formula_does_not_read():
-    assert check_formula("F = m r ω² (cos θ + cos 2θ/n)", "slider_forces.inertia_force", "ω=phid, θ=phi, n=l/r")
+    row = check_formula("F = m r ω² (cos θ + cos 2θ/n)", "slider_forces.inertia_force", "ω=phid, θ=phi, n=l/r")
+    assert row["verdict"] == "exact"
     with pytest.raises(BadInput, match="cannot be redefined"):
         check_formula("F = 2 F", "slider_forces.inertia_force")
 

@@ -79,9 +79,9 @@ def question_of(asked: Asked, said: Statement) -> Question:
         _refuse_letters(theory, formula)
         _refuse_left(theory, quantity, said.left, formula)
     check_sums(theory, formula.tree)
-    _refuse_sameness(theory, quantity, said.left, formula)
     under = assumed(theory, asked.assume, formula.letters)
     theory, quantity = _with_left(under.theory, quantity, said.left, formula)
+    _refuse_sameness(theory, quantity, asked.quantity, formula)
     used = {n for tree in (formula.tree, *formula.letters.values()) for n in letters(tree)}
     needed = dependencies(theory, [quantity])
     zero = [k for k, letter in theory.letters.items() if letter.value == 0 and k in needed and k != theory.angle]
@@ -132,7 +132,7 @@ def _with_left(theory: Theory, quantity: str, left: str, formula: Formula) -> tu
     try:
         tree = read_expression(left, [*formula.letters, *known(theory), *CONSTANTS], theory.tape)[0]
     except BadInput:
-        if _name_alone(left) or label(left):
+        if _name_alone(left) or _is_name(left):
             return theory, quantity
         tree = _of_one_unknown(left, theory, quantity, formula)
     if isinstance(tree, ast.Name) and isinstance(formula.letters.get(tree.id, tree), ast.Name):
@@ -146,16 +146,16 @@ def _with_left(theory: Theory, quantity: str, left: str, formula: Formula) -> tu
     return replace(theory, tape=whole), _IDENTITY
 
 
-_LABEL = re.compile(
+_NAMES = re.compile(
     r"\\(?:mathrm|operatorname|text)\s*\{\w{2,}\}.*|(\\(?:delta|partial|mathrm\{d\})|[dδ∂])\s*\w+\s*(/.*)?"
 )
 
 
-def label(left: str) -> bool:
-    """Whether a left side only names what is given: `inv α`, `δQ/dθ`."""
+def _is_name(left: str) -> bool:
+    # inv α and δQ/dθ only name what is given
     bare = re.sub(r"\\[dt]?frac\s*\{(.*?)\}\s*\{(.*)\}", r"\1/\2", left.strip(" $"))
     word = re.fullmatch(r"([A-Za-z]{3,})\s+\\?\w+", bare)
-    return bool(_LABEL.fullmatch(bare) or word and word[1].lower() not in RESERVED)
+    return bool(_NAMES.fullmatch(bare) or word and word[1].lower() not in RESERVED)
 
 
 def _of_one_unknown(left: str, theory: Theory, quantity: str, formula: Formula) -> Node:
@@ -230,14 +230,13 @@ def _refuse_left(theory: Theory, quantity: str, left: str, formula: Formula) -> 
         raise BadInput(f"'{left} = ..': {left} is {to_python(meant)} already, by --letters; {way_out}")
 
 
-def _refuse_sameness(theory: Theory, quantity: str, left: str, formula: Formula) -> None:
+def _refuse_sameness(theory: Theory, side: str, quantity: str, formula: Formula) -> None:
     # x = x and x = r - r + x hold of anything: what the letters stand for is not asked
     right = substitute(formula.tree, lambda n: formula.letters.get(n.id) if isinstance(n, ast.Name) else None)
     if quantity not in letters(right):
         return
-    whole, said = _with_left(theory, quantity, left, formula)
-    meant = whole.tape[said] if said == _IDENTITY else name_of(quantity)
-    lead = meant if isinstance(meant, ast.expr) else name_of(quantity)
+    law = theory.tape[side] if side == _IDENTITY else None
+    lead = law if isinstance(law, ast.expr) else name_of(quantity)
     lead = substitute(lead, lambda n: formula.letters.get(n.id) if isinstance(n, ast.Name) else None)
     rng = np.random.default_rng(1)
     values = {k: rng.uniform(-6, 6, 8) for k in sorted({*letters(lead), *letters(right)} - {"pi"})} | {"pi": np.pi}

@@ -12,6 +12,7 @@ from fractions import Fraction
 from zlib import crc32
 
 from mechsym.audit.read.letter import ASKED, WORDS, Ambiguous, Cursor, Way, derivative, letter, place
+from mechsym.audit.read.spelling import typeset
 from mechsym.audit.read.tree import MAX_DEPTH, Node, binary, call, letters, meaning, name, negative, number, piecewise
 from mechsym.errors import BadInput
 
@@ -27,12 +28,12 @@ _FUNCTIONS = {
 }  # fmt: skip
 _SEVERAL = ("atan2", "min", "max", "hypot")
 _FUNCTIONS |= {n: n for n in _SEVERAL} | {"sen": "sin"}
-_TYPED = {"²": "^{2}", "³": "^{3}", "ℓ": "\\ell ", "−": "-", "–": "-", "′": "'", "″": "''"}
+SINGLE = (*(n for n in _FUNCTIONS if n not in _SEVERAL),)  #: Functions of one argument, as they are written
 _LONGEST = 400  # digits of a number
 _FRACTIONS = {"\\frac", "\\dfrac", "\\tfrac"}
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
 # {\sin}^2 and {\sin^2}, \mathrm around signs: braces of editors, which say nothing
-_ONE = rf"\\(?:{'|'.join(sorted({*_FUNCTIONS} - {*_SEVERAL}, key=len, reverse=True))})"
+_ONE = rf"\\(?:{'|'.join(sorted(SINGLE, key=len, reverse=True))})"
 _BRACED = (
     (re.compile(rf"\{{\s*({_ONE})\s*\}}"), r"\1 "),
     (re.compile(rf"\{{\s*({_ONE})\s*(\^\s*(?:\{{[^{{}}]*\}}|\w))\s*\}}"), r"\1\2 "),
@@ -46,8 +47,7 @@ _SPELLED = (*sorted({*_FUNCTIONS, "asin", "acos", "atan", "sqrt"}, key=len, reve
 
 def read_latex(text: str, whole: bool = False, way: Way = ASKED) -> tuple[Node, dict[str, str]]:
     """Read LaTeX without an equals sign: the tree, and plain names to the LaTeX that was written for them."""
-    for sign, instead in _TYPED.items():
-        text = text.replace(sign, instead)
+    text = typeset(text).replace("ℓ", r"\ell ")
     for pattern, instead in _BRACED:
         text = pattern.sub(instead, text)
     silent = _SILENT if r"\begin" in text else {*_SILENT, "&"}

@@ -9,26 +9,23 @@ import unicodedata
 from collections.abc import Iterable, Iterator
 from functools import cache
 
-from mechsym.audit.read.latex import read_tokens
+from mechsym.audit.read.latex import SINGLE, read_tokens
 from mechsym.audit.read.letter import ASKED, Way
-from mechsym.audit.read.spelling import SYMBOLS, undotted
+from mechsym.audit.read.spelling import LOWERED, RAISED, SYMBOLS, typeset, undotted
 from mechsym.audit.read.tree import Node
 from mechsym.errors import BadInput
 
 _GREEK = {sign: name for name, sign in SYMBOLS.items()} | {"ϕ": "phi", "ϑ": "theta", "ϵ": "epsilon", "µ": "mu"}
-_RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 _SIGNS = {
-    "−": "-", "–": "-", "·": "*", "∙": "*", "⋅": "*", "×": "*", "∗": "*", "•": "*", "\N{INVISIBLE TIMES}": "*",
+    "·": "*", "∙": "*", "⋅": "*", "×": "*", "∗": "*", "•": "*", "\N{INVISIBLE TIMES}": "*",
     "÷": "/", "∕": "/", "⁄": "/", "**": "^", "\N{FUNCTION APPLICATION}": " ", "√": " sqrt ", "∛": " cbrt ",
     "½": "(1/2)", "¼": "(1/4)", "¾": "(3/4)", "⅓": "(1/3)", "⅔": "(2/3)", "⅛": "(1/8)",
-    "′": "'", "’": "'", "″": "''", **{chr(0x2080 + digit): str(digit) for digit in range(10)},
+    **{sign: str(digit) for digit, sign in enumerate(LOWERED)},
 }  # fmt: skip
-_FUNCTIONS = {
-    **{name: name for name in ("sin", "cos", "tan", "cot", "exp", "log", "ln", "tg", "ctg", "arctg", "sqrt", "cbrt")},
-    **{name.capitalize(): name for name in ("sin", "cos", "tan", "cot", "exp", "log", "sqrt")},
-    **{f"Arc{name}": f"arc{name.lower()}" for name in ("Sin", "Cos", "Tan")},
-    **{f"{arc}{name}": f"arc{name}" for arc in ("a", "arc") for name in ("sin", "cos", "tan")},
-}
+_ARCS = {f"a{name}": f"arc{name}" for name in ("sin", "cos", "tan")}
+_FUNCTIONS = {name: name for name in (*SINGLE, "sqrt", "cbrt")} | _ARCS
+_FUNCTIONS |= {name.capitalize(): meant for name, meant in _FUNCTIONS.items()}
+_FUNCTIONS |= {f"Arc{name}": f"arc{name.lower()}" for name in ("Sin", "Cos", "Tan")}
 _DIFFERENTIAL = re.compile(r"\bd(\^\{?2\}?)?([^\W\d]\w*)\s*/\s*d([^\W\d][^\W_]*)(\^\{?2\}?)?(?!\w)")
 # what a divisor without spaces before it ends with: a bracket or a number, and then a space
 _DIVISOR = re.compile(r"(?<=\S/)(\d+(?:\.\d+)?|\([^()]*\))\s+(?=[\w(\[])")
@@ -36,7 +33,7 @@ _STARRED = re.compile(r"([^\W\d]\w*)\*(?=(\s*(?:[)\]}/+\-^]|$))?)")  # E*
 _EXPONENT = re.compile(r"\^\s*(-?\s*(?:\d+(?:[.,]\d+)?|[^\W\d]\w*))")
 _TOKEN = re.compile(r"\\[a-z]+|\d+(?:[.,]\d+)?(?:[eE][+-]?\d+(?!\w))?|[^\W\d]\w*|\S")
 _PLAIN = re.compile(
-    r"[\w\s.,+\-*/^()\[\]|'{}" + "".join(map(re.escape, (*_SIGNS, *_RAISED, "\u0307", "\u0308"))) + "]*"
+    r"[\w\s.,+\-*/^()\[\]|'{}" + "".join(map(re.escape, (*_SIGNS, *RAISED, *"⁻−–′’″\u0307\u0308"))) + "]*"
 )
 _PROGRAM = re.compile(r"\b(?:if|else|for|in|and|or|not|is|lambda\s\w+\s*:|True|False|None)\b|\.[^\W\d]|__|//")
 _MOST_PIECES = 5  # letters without a function that one word may be set together of
@@ -86,8 +83,7 @@ def differential(text: str) -> str:
 
 
 def _signs(text: str) -> str:
-    text = undotted(text)
-    text = re.sub(rf"[{''.join(_RAISED)}]+", lambda m: f"^{{{''.join(_RAISED[c] for c in m[0])}}}", text)
+    text = typeset(undotted(text))
     for sign, instead in _SIGNS.items():
         text = text.replace(sign, instead)
     text = re.sub(r"_\{(\w+)\}", r"_\1", text)

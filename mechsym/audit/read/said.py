@@ -13,7 +13,7 @@ from itertools import islice
 from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.spelling import SYMBOLS
-from mechsym.audit.read.statement import statement
+from mechsym.audit.read.statement import statement, unapplied
 from mechsym.audit.read.tree import Node, check
 from mechsym.audit.read.units import Named, nomenclature
 from mechsym.errors import BadInput
@@ -23,7 +23,6 @@ _ANGLES = r"\\(?:theta|vartheta|varphi|phi|alpha|psi)"
 _APPLIED = re.compile(
     rf"(?P<of>[A-Za-z}}'])\s*(?:\\left)?\(\s*(?:{_ANGLES}(?:_\{{?\w+\}}?)?|t)\s*(?:\\right)?\)(?!\s*\^)"
 )
-_CALLED = re.compile(r"(?:\\?(?:sin|cos|tan|tg|cot|ctg|exp|ln|log|sqrt|arc\w+)\s*|\^\s*\{[^{}]*\}|[\s\d]d\s*)$")
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{3,200}?)\$(?!\$)")
 _INDEXED = re.compile(r"([A-Z])_(\d|\{\d\})\^(\d|\{\d\})")
@@ -35,7 +34,6 @@ _TIDY = (
     (re.compile(r"\\(?:mathbf|mathsf|mathit|boldsymbol|bm|vec|mathrm|rm)\s*(?=[A-Za-z\\])"), " "),
     (re.compile(r"(?<![A-Za-z\\])const(?:ant)?\b\.?"), r"\\text{constant}"),
     (re.compile(r"(?<![\\A-Za-z])f\s*\([^()=]*,[^()=]*\)|(?<==)\s*f\s*\([^()=]*\)\s*$"), r"\\text{function}"),
-    (re.compile(r"[−–]"), "-"),
     (re.compile(r"\\(?:bar|overline)\s*\{\s*([A-Za-z])\s*\}\s*([a-z])(?![A-Za-z_])"), r"\\bar{\\text{\1\2}}"),
 )
 
@@ -137,7 +135,7 @@ def _prepared(text: str, words: Sequence[str], indexed: frozenset[str]) -> str:
     for word in words:
         inside = r"\s*".join(word)
         text = re.sub(rf"(?<![A-Za-z\\])(?<!_\{{)(?<!text\{{){inside}(?![A-Za-z])", rf"\\text{{{word}}}", text)
-    return _APPLIED.sub(lambda m: m[0] if _CALLED.search(text[: m.start() + 1]) else m["of"], text)
+    return unapplied(text, _APPLIED)
 
 
 _COMMANDS = {sign: "lambda" if name == "lam" else name for name, sign in SYMBOLS.items()} | {"ϕ": "varphi"}

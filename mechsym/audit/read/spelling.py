@@ -8,13 +8,14 @@ from collections.abc import Iterable, Mapping
 from mechsym.audit.read.tree import Node, function_of
 from mechsym.errors import BadInput
 
+#: Digits above and below the line
+RAISED, LOWERED = "⁰¹²³⁴⁵⁶⁷⁸⁹", "₀₁₂₃₄₅₆₇₈₉"
 _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "epsilon", "ζ": "zeta", "η": "eta", "θ": "theta",
     "κ": "kappa", "λ": "lam", "μ": "mu", "ν": "nu", "ξ": "xi", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau",
     "φ": "phi", "ϕ": "phi", "χ": "chi", "ψ": "psi", "ω": "omega", "Δ": "Delta", "Σ": "Sigma", "Φ": "Phi",
-    "Ψ": "Psi", "Ω": "Omega", "Γ": "Gamma", "Θ": "Theta", "Λ": "Lambda", "ℓ": "ell", "²": "**2", "³": "**3", "·": "*",
-    "×": "*", "−": "-", "√": "sqrt", "⁰": "**0", "¹": "**1", **{c: f"**{n}" for n, c in enumerate("⁴⁵⁶⁷⁸⁹", 4)},
-    **{c: f"_{n}" for n, c in enumerate("₀₁₂₃₄₅₆₇₈₉")},
+    "Ψ": "Psi", "Ω": "Omega", "Γ": "Gamma", "Θ": "Theta", "Λ": "Lambda", "ℓ": "ell", "·": "*", "×": "*", "−": "-",
+    "√": "sqrt", **{c: f"**{n}" for n, c in enumerate(RAISED)}, **{c: f"_{n}" for n, c in enumerate(LOWERED)},
 }  # fmt: skip
 _ALIASES = {"lambda": "lam", "varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho"}
 _LATEX = {
@@ -90,6 +91,16 @@ def from_greek(text: str) -> str:
     return _WORD.sub(lambda m: _ALIASES.get(m[0], m[0]), text)
 
 
+_MARKS = {"−": "-", "–": "-", "′": "'", "’": "'", "″": "''"}
+
+
+def typeset(text: str) -> str:
+    """Dashes, primes and raised digits as LaTeX has them: s″, x² and t⁻¹ are s'', x^{2} and t^{-1}."""
+    raised = {**{sign: str(n) for n, sign in enumerate(RAISED)}, "⁻": "-"}
+    text = re.sub(f"[{RAISED}⁻]+", lambda m: f"^{{{''.join(raised[c] for c in m[0])}}}", text)
+    return re.sub("|".join(_MARKS), lambda m: _MARKS[m[0]], text)
+
+
 _DOTTED = re.compile("([^\\W\\d_])(\u0307|\u0308)")
 
 
@@ -101,9 +112,10 @@ def undotted(text: str) -> str:
 
 
 def plain(base: str, subscript: str = "", dots: int = 0) -> str:
-    """A letter's plain name from what LaTeX spells out; p_i is not the constant."""
-    index = re.sub(r"[\W_]", "", subscript)
-    return _ALIASES.get(base, base) + ("_i" if (base, index) == ("p", "i") else index) + "d" * dots
+    """A letter's plain name from what LaTeX spells out; p_i is not the constant, and l_n no logarithm."""
+    stem, index = _ALIASES.get(base, base), re.sub(r"[\W_]", "", subscript)
+    apart = "_" if index and re.fullmatch(rf"pi|{_CALLS}", stem + index) else ""
+    return f"{stem}{apart}{index}{'d' * dots}"
 
 
 def resolve(written: str, known: Iterable[str]) -> str | None:

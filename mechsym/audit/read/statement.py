@@ -21,11 +21,8 @@ _ORDER = re.compile(
     r"\s*(?:\^|\*\*)?\s*\{?\s*(\d*)\s*\}?\s*(?:\\right)?\s*\)"
 )
 _AND_SO_ON = re.compile(r"[+-]\s*(?:\\l?dots[cb]?\b|\\cdots\b|\.\.\.|…)(?!\s*\w)")
-# V(\\theta) to the left of an equals sign, which is V
-_APPLIED = re.compile(
-    r"(?<!sin)(?<!cos)(?<!tan)(?<!cot)(?<!exp)(?<!log)(?<!ln)(?<!sqrt)(?<=[\w}'])"
-    r"\s*(?:\\left)?\(\s*\\?[^\W\d]\w*\s*(?:\\right)?\)"
-)
+_APPLIED = re.compile(r"(?P<of>[\w}'])\s*(?:\\left)?\(\s*\\?[^\W\d]\w*\s*(?:\\right)?\)")
+_CALLED = re.compile(r"(?:\\?(?:sin|cos|tan|tg|cot|ctg|exp|ln|log|sqrt|arc\w+)\s*|\^\s*\{[^{}]*\}|[\s\d]d\s*)$")
 _ZERO = re.compile(r"\$*\s*0\s*\.?\s*\$*")
 
 
@@ -77,11 +74,16 @@ def statement(text: str, of: str = "") -> Statement:
         raise BadInput("the right side is 0; solve the equation for the quantity: 'name = expression'")
     if len(parts) > 1 and not all(parts):
         raise BadInput("one side of the equals sign is empty; write 'name = expression'")
-    left = _APPLIED.sub("", parts[0]) if len(parts) > 1 else ""
+    left = unapplied(parts[0], _APPLIED) if len(parts) > 1 else ""
     right = tuple(p.rstrip(" .,;") for p in (parts[1:] if left else parts))
     return Statement(
         left=left, right=right, claim=claim, number=number, label=label[1] if label else "", note=note, letters=letters
     )
+
+
+def unapplied(text: str, applied: re.Pattern[str]) -> str:
+    """V(\\theta) as V; `applied` is what stands so, with the end of its name as group `of`, and a sine stays one."""
+    return applied.sub(lambda m: m[0] if _CALLED.search(text[: m.start() + 1]) else m["of"], text)
 
 
 def _last_term(text: str) -> tuple[str, str]:

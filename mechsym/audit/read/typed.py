@@ -4,7 +4,7 @@ import re
 import unicodedata
 
 from mechsym.audit.read.displays import BRACKET
-from mechsym.audit.read.spelling import undotted
+from mechsym.audit.read.spelling import LOWERED, RAISED, undotted
 from mechsym.audit.read.tree import FUNCTIONS, MODULES
 from mechsym.audit.read.units import unit_of
 
@@ -24,7 +24,7 @@ _ABOUT = (
     (re.compile(r"(?<=[²³⁴)\]])\.(?=[^\W\d])"), "*"),
     (re.compile(r"(?<=\d)[dD](?=[+-]?\d)"), "e"),
     (re.compile(r"(\d+(?:[.,]\d+)?)\s*°"), r"(\1*pi/180)"),
-)  # fmt: skip
+)
 _LAST_WORDS = re.compile(r"(?:\\q?quad\b|\\[,;:! ]|\s|,)+\\text\s*\{[^{}]*\}\s*[.,;]?\s*$")
 _UNIT = re.compile(r",\s*([^\W\d_][\w.·⋅/^²³]{0,11})\s*$")
 _INDEX = re.compile(r"^\s*[\w.]+\s*[\[(]\s*(i|j|k|n|ii|idx)\s*[\])]\s*=")
@@ -38,7 +38,7 @@ def typed(text: str) -> str:
     text = _LETTERS.sub(lambda m: unicodedata.normalize("NFKC", m[0]), text)
     for pattern, instead in _ABOUT:
         text = pattern.sub(instead, text)
-    text = re.sub(r"(?<=O\(λ)[²³⁴⁵⁶]", lambda m: f"^{unicodedata.digit(m[0])}", text)
+    text = re.sub(rf"(?<=O\(λ)[{RAISED}]", lambda m: f"^{unicodedata.digit(m[0])}", text)
     if r"\begin{cases}" not in text:
         text = re.sub(r"\\\\(?:\s*\[[^\]]*\])?|&", " ", text)
     if "=" in text:
@@ -63,5 +63,5 @@ def _field(match: re.Match[str]) -> str:
     if parts[0] in MODULES:
         return match[0]
     parts = parts[1:] if parts[0] in ("self", "this") else parts
-    single = all(len(p.rstrip("⁰¹²³⁴⁵⁶⁷⁸⁹₀₁₂₃₄₅₆₇₈₉")) == 1 or p in FUNCTIONS for p in parts)
+    single = all(len(p.rstrip(RAISED + LOWERED)) == 1 or p in FUNCTIONS for p in parts)
     return ("*" if single else "_").join(parts)
