@@ -58,7 +58,10 @@ def by_links(
     pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
     forces = max(pushes, default=0.0), max(turns, default=0.0)
     slides = "m" in listing["coordinates"].values()
+    long = [length for link in links if len(link["points"]) > 1 and (length := _length(link, letters)) > 0]
+    spread = proportion("link_spread", "longest link / shortest", max(long) / min(long)) if long else ()
     together = (
+        *spread,
         *_masses(links, letters, units, slides),
         *_stress(links, letters, *forces),
         *_carried(listing, letters, speeds),

@@ -54,6 +54,7 @@ class Listing(TypedDict):
     bodies: NotRequired[dict[str, list[str]]]  #: Centres of what is no link, by coordinates and parameters
     springs: NotRequired[list[str]]
     dampers: NotRequired[list[str]]
+    stretches: NotRequired[list[list[str]]]  #: Stiffness and stretch of springs, by coordinates and parameters
     watched: NotRequired[list[str]]  #: Points that `m.watch` names
     undetermined: NotRequired[list[str]]  #: Reactions that joints hold against one another, in space
     redundant: NotRequired[list[str]]  #: Which joints these are, in words
@@ -101,6 +102,7 @@ def _own(m: Declaration) -> Json:
         "bodies": _bodies(m),
         "springs": _constants(m, m.springs),
         "dampers": _constants(m, m.dampers),
+        "stretches": [[str(s.value), *short] for s in m.springs if (short := _short(m, [s.along]))],
         "watched": [*m.watched],
         "undetermined": m.undetermined,
         "redundant": m.redundant,
@@ -117,16 +119,21 @@ def _constants(m: Declaration, elements: Sequence[Element]) -> list[str]:
 
 def _bodies(m: Declaration) -> dict[str, list[str]]:
     """Centres that move as a short formula of coordinates says; links are told by themselves."""
-    links, moves = {link.name for link in m.links}, {*m.q} - {*m.dependent_list}
-    centres = {}
+    links, centres = {link.name for link in m.links}, {}
     for body in (b for b in m.bodies if b.name not in links and b.mass != 0):
-        if len(m.tape.needed(body.at)) <= _FEW:
-            place = [m.tape.flat(x) for x in body.at]
-            letters = {s for x in place for s in x.free_symbols}
-            plain = all(isinstance(f, (sin, cos)) for x in place for f in x.atoms(Function))
-            if plain and letters & moves and letters <= moves | {*m.parameter_list}:
-                centres[body.name] = [str(x) for x in place]
+        if place := _short(m, body.at):
+            centres[body.name] = place
     return centres
+
+
+def _short(m: Declaration, formulas: Sequence[Expr]) -> list[str]:
+    """Formulas of what moves by coordinates and parameters; none where they are long, or hang on anything else."""
+    if len(m.tape.needed(formulas)) > _FEW:
+        return []
+    flat, moves = [m.tape.flat(formula) for formula in formulas], {*m.q} - {*m.dependent_list}
+    letters = {s for one in flat for s in one.free_symbols}
+    plain = all(isinstance(f, (sin, cos)) for one in flat for f in one.atoms(Function))
+    return [str(one) for one in flat] if plain and letters & moves and letters <= moves | {*m.parameter_list} else []
 
 
 def _link(m: Declaration, link: Link) -> Json:

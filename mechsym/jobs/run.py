@@ -11,6 +11,7 @@ import scipy
 
 from mechsym import mechanisms
 from mechsym.cases import Case
+from mechsym.cases.at_start import of_start
 from mechsym.cases.facts import facts_of
 from mechsym.cases.needs import require
 from mechsym.cases.outcomes import of_run
@@ -166,6 +167,7 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         )
     lines += _lifted(case, result)
     doubted = of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
+    doubted += tuple(of_start(case, mechanism_of(case), result.columns))
     return FinishedRun(
         case=case.name, backend=settings.backend, tolerance=settings.tolerance, result=result, summary=numbers,
         final_state=final_state(result, numbers.speeds),

@@ -1,0 +1,103 @@
+r"""Doubts of a run of a user's own mechanism by its equations at the start: its vibrations, its push, what turns in it.
+
+.. math:: \ddot q = M^{-1}(Q - b), \qquad \lambda\left(\begin{smallmatrix} 0 & 1 \\ \partial\ddot q/\partial q &
+    \partial\ddot q/\partial\dot q \end{smallmatrix}\right) = -\delta \pm \mathrm{i}\omega, \qquad
+    \frac{M_{qq} - M_{qq}|_{I=0}}{M_{qq}|_{I=0}}
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import casadi as ca
+import numpy as np
+
+from mechsym.cases import Case
+from mechsym.mechanisms import own
+from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.record import Mechanism, form_of
+from mechsym.plausible import Doubt, proportion
+
+_ANGLES = np.linspace(0.0, math.tau, 13)[None, :-1]  # at which masses that an angle moves are looked at [rad]
+_STEP = 1e-4  # of a slope
+_SEEN = 0.2  # of a period: five results show a vibration
+
+
+def of_start(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
+    """columns: of the run, by coordinate and velocity; what is not there is 0 [SI]."""
+    if not own.is_file(case.mechanism) or mechanism.dependents:
+        return
+    at = {name: float(column[0]) for name, column in columns.items()}
+    listing = plan_of(case.mechanism).listing(None)
+    if listing.get("springs"):
+        yield from _swinging(case, mechanism, at)
+    for spring in listing.get("stretches", ()):
+        yield from _stretched(spring, listing["parameters"], mechanism, columns)
+    yield from _turning(case, mechanism, at)
+
+
+def _stretched(
+    spring: Sequence[str], units: Mapping[str, str], mechanism: Mechanism, columns: Mapping[str, np.ndarray]
+) -> Iterator[Doubt]:
+    """How far a run stretches a spring, and whether its two ends start at one speed where both move."""
+    stiffness, stretch = spring
+    turns, words = units.get(stiffness) == "N*m/rad", {"__builtins__": {}, "sin": np.sin, "cos": np.cos, "pi": np.pi}
+    values = {**mechanism.parameters, **{q: columns[q] for q in mechanism.coordinates}}
+    code = "spring_wound" if turns else "spring_stretch"
+    yield from proportion(code, f"stretch of spring {stiffness} in the run", _largest(eval(stretch, words, values)))
+    rates = []
+    for q in mechanism.coordinates:
+        beside = [{**values, q: columns[q][0] + step} for step in (-_STEP, _STEP)]
+        before, behind = (float(np.ravel(eval(stretch, words, one))[0]) for one in beside)
+        rates.append((behind - before) / (2 * _STEP) * float(columns[f"{q}d"][0]))
+    if np.count_nonzero(rates) > 1:
+        what = f"speed at which spring {stiffness} is stretched at the start / that of its faster end"
+        yield from proportion("start_speeds", what, abs(sum(rates)) / _largest(rates))
+
+
+def _largest(values: Sequence[float] | np.ndarray) -> float:
+    return float(np.abs(values).max())
+
+
+def _swinging(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iterator[Doubt]:
+    """Accelerations along what slides, and the fastest vibration by the time between two results."""
+    dynamics, n = mechanism.functions["dynamics"], len(mechanism.coordinates)
+    given = [ca.SX.sym(name) for name in dynamics.name_in()]
+    mass, bias, force = dynamics(*given)
+    pushed = ca.solve(mass, force - bias)
+    local = ca.Function("local", given, [pushed, ca.jacobian(pushed, ca.vertcat(*given[: 2 * n]))])
+    first, slope = (np.asarray(v) for v in local(*(at.get(name, 0.0) for name in dynamics.name_in())))
+    for q, acceleration in zip(mechanism.coordinates, first.ravel(), strict=True):
+        if mechanism.units.get(q) == "m":
+            yield from proportion("start_push", f"acceleration along {q} at the start", abs(float(acceleration)))
+    step = case.need("simulation").output_step
+    if not step or not np.isfinite(slope).all():
+        return
+    rates = np.linalg.eigvals(np.vstack([np.eye(n, 2 * n, n), slope]))
+    # what dies away within a turn of it is no vibration
+    fastest = max((abs(rate.imag) for rate in rates if abs(rate.imag) > abs(rate.real)), default=0.0)
+    what = "simulation.output_step in periods of the fastest vibration"
+    yield from proportion("aliasing", what, step * fastest / math.tau, _SEEN)
+
+
+def _turning(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iterator[Doubt]:
+    """What turns with an angle by the masses that the angle moves on, at the angle where these are most."""
+    form, units = form_of(mechanism), plan_of(case.mechanism).listing(None)["parameters"]
+    massless = {name: 0.0 for name, unit in units.items() if unit == "kg*m^2"}
+    if form is None or not massless:
+        return
+    bare = form.bound({**mechanism.parameters, **massless})
+    for place, q in enumerate(mechanism.coordinates):
+        if mechanism.units.get(q, "rad") != "rad":
+            continue
+        all_, moved = (_inertia(one, place, {**at, q: _ANGLES}) for one in (mechanism, bare))
+        if (most := float(moved.max())) > 0:
+            what = f"inertia that turns with {q} / mass that it moves * its lever^2"
+            yield from proportion("turning_share", what, float((all_ - moved).max()) / most)
+
+
+def _inertia(mechanism: Mechanism, place: int, at: Mapping[str, Any]) -> np.ndarray:
+    """A diagonal entry of the mass matrix at each of `_ANGLES`; what `at` does not name is 0 [kg*m^2]."""
+    dynamics, n = mechanism.functions["dynamics"], len(mechanism.coordinates)
+    matrices = np.asarray(dynamics(*(at.get(name, 0.0) for name in dynamics.name_in()))[0])
+    return matrices.reshape(n, -1, n)[place, :, place]

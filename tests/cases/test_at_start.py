@@ -1,0 +1,59 @@
+"""What a run of a user's own mechanism is doubted for at its start, by closed forms."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mechsym import cases
+from mechsym.cases.at_start import of_start
+from mechsym.jobs.machine import mechanism_of
+
+OWN = Path(__file__).parents[1] / "plausible" / "own"
+
+
+def doubts(machine, set_=None, **start):
+    """Value of each doubt of a run that stays as it starts."""
+    case = cases.load(str(OWN / f"{machine}.toml"), set_)
+    mechanism = mechanism_of(case)
+    names = [*mechanism.coordinates, *(f"{q}d" for q in mechanism.coordinates)]
+    columns = {name: np.full(2, start.get(name, 0.0)) for name in names}
+    return {d.code: d.value for d in of_start(case, mechanism, columns)}
+
+
+def test_a_mass_on_a_spring_that_is_let_go_far_out_jolts():
+    """The tub, 38 kg with 1.5 kg of laundry below its axis, 2 m sideways on 100 kN/m: k x / m beside its drum."""
+    far = doubts("washer", {"parameters.k": "100 kN/m"}, x=2.0, phi=math.pi / 2)
+    # the laundry turns with the drum: of the push along x it takes its share through m e^2 / (I + m e^2)
+    m, k, e, drum = 1.5, 1e5, 0.2, 0.9
+    mass = 38.0 + m - (m * e) ** 2 / (drum + m * e**2)
+    assert far["start_push"] == pytest.approx(k * 2.0 / mass, rel=1e-9)
+    assert "start_push" not in doubts("washer", {"parameters.k": "100 kN/m"}, x=0.02)
+
+
+def test_results_are_too_far_apart_for_a_vibration_of_two_masses():
+    """Locomotive and wagon on their coupling: omega^2 = k (1/(m_1 + I/R^2) + 1/m_2), hardly damped."""
+    omega = math.sqrt(3e6 * (1 / (32e3 + 180 / 0.25) + 1 / 40e3))
+    step = 0.3 * math.tau / omega
+    free = {"parameters.c": 0, "parameters.d": 0}
+    seen = doubts("wagon", {**free, "simulation.output_step": step})
+    assert seen["aliasing"] == pytest.approx(0.3, rel=1e-9)
+    assert "aliasing" not in doubts("wagon", {**free, "simulation.output_step": step / 2})
+    assert "aliasing" not in doubts("wagon", {"parameters.c": "1 MN*s/m", "simulation.output_step": step})
+
+
+def test_both_ends_of_a_spring_start_together():
+    """The belt of the press: psi/i - phi."""
+    together = {"phid": 10.0, "psid": 95.0}
+    assert not doubts("punch", **together).keys() & {"start_speeds", "spring_wound"}
+    assert doubts("punch", phid=10.0, psid=10.0)["start_speeds"] == pytest.approx(1 - 1 / 9.5, rel=1e-6)
+    assert "start_speeds" not in doubts("punch", psid=10.0)
+    assert doubts("punch", psi=95.0, **together)["spring_wound"] == pytest.approx(10.0)
+
+
+def test_an_inertia_is_held_against_what_its_angle_moves_on():
+    """The axle of the locomotive: I / (m R^2)."""
+    share = doubts("wagon", {"parameters.R": "0.5 mm"})["turning_share"]
+    assert share == pytest.approx(180.0 / (32e3 * 0.0005**2))
+    assert not doubts("wagon")
