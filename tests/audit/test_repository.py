@@ -139,7 +139,7 @@ def test_the_size_of_a_cams_pressure_angle_by_the_steps_of_its_program(tmp_path)
         "    phi = np.abs(np.arctan((rate - offset)/(y + foot)))\n    return phi\n"
     )
     assert rows_of(tmp_path / "right", {"a.py": text.format(sign="-")}) == []
-    rows = rows_of(tmp_path / "wrong", {"a.py": text.format(sign="+")})
+    rows = rows_of(tmp_path / "wrong", {"a.py": text})
     assert [row["claim"] for row in rows] == ["roller_cam.d0", "roller_cam.pressure_angle"]
     assert all("by sign" in row["note"] for row in rows)
 
@@ -373,6 +373,20 @@ def test_a_slip_is_told_beside_one_neighbour_that_agrees(tmp_path):
     (row,) = rows_of(tmp_path / "b", {"b.py": right.replace("(gamma - 1)", "(gamma + 1)")})
     assert (row["verdict"], row["claim"]) == ("misprint", "otto_cycle.T_2")
     assert rows_of(tmp_path / "c", {"c.py": right.replace("(gamma - 1)", "(gamma + 1)").replace("p2 =", "q =")}) == []
+
+
+def test_each_function_has_names_of_its_own(tmp_path):
+    """Pressure and radii under one name here and another there: what agrees in both is no slip in either."""
+    text = (
+        "def s_hoop(r, ri, ro, pin, pout):\n"
+        '    """r: [m] radius; ri: [m] inner radius; ro: [m] outer radius; pin: [Pa] inside pressure"""\n'
+        "    s_hoop = (pin*ri**2 - pout*ro**2)/(ro**2 - ri**2) - ri**2*ro**2*(pout - pin)/(r**2*(ro**2 - ri**2))\n"
+        "    return s_hoop\n"
+        "def stress_in_wall(P_internal, r_inner, r_outer):\n"
+        "    return P_internal*(r_outer**2 + r_inner**2)/(r_outer**2 - r_inner**2)\n"
+    )
+    assert not rows_of(tmp_path, {"right.py": text})
+    assert counts(list(audited(tmp_path, NONE, programs(tmp_path))))["judged"] == 2
 
 
 def test_a_comment_is_read_without_its_unit():

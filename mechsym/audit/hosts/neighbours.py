@@ -85,7 +85,9 @@ class Neighbours:
         for other in self.witnesses:
             if other.fitted.theory is near.fitted.theory:
                 meant = {base(k): m for k, m in other.fitted.meanings.items()}
-                taken = {m: k for k, m in meant.items()}
+                # each function has names of its own for what is given to it
+                here = other.fitted.claim.scope == near.fitted.claim.scope
+                taken = {m: k for k, m in meant.items()} if here else {}
                 if any(meant.get(k, m) != m or taken.get(m, k) != k for k, m in own.items()):
                     return True
         return False
