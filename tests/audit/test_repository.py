@@ -139,7 +139,7 @@ def test_the_size_of_a_cams_pressure_angle_by_the_steps_of_its_program(tmp_path)
         "    phi = np.abs(np.arctan((rate - offset)/(y + foot)))\n    return phi\n"
     )
     assert rows_of(tmp_path / "right", {"a.py": text.format(sign="-")}) == []
-    rows = rows_of(tmp_path / "wrong", {"a.py": text})
+    rows = rows_of(tmp_path / "wrong", {"a.py": text.format(sign="+")})
     assert [row["claim"] for row in rows] == ["roller_cam.d0", "roller_cam.pressure_angle"]
     assert all("by sign" in row["note"] for row in rows)
 

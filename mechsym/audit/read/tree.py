@@ -146,6 +146,24 @@ def substitute(tree: Node, change: Callable[[Node], Node | None]) -> Node:
     return tree
 
 
+def without_double_signs(tree: Node) -> Node:
+    """A tree with a + b in the place of a - -b, and a - b in that of a + -b."""
+
+    def turned(node: Node) -> Node | None:
+        if not is_operation(node, ast.Add, ast.Sub):
+            return None
+        path: list[str] = []
+        while is_operation(first := at(node.right, tuple(path)), ast.Mult, ast.Div):
+            path.append("left")
+        if not isinstance(first, ast.UnaryOp) or not isinstance(first.op, ast.USub):
+            return None
+        right = replace(node.right, tuple(path), first.operand)
+        sign = ast.Add if isinstance(node.op, ast.Sub) else ast.Sub
+        return binary(sign, without_double_signs(node.left), without_double_signs(right))
+
+    return substitute(tree, turned)
+
+
 def letters(tree: Node) -> tuple[str, ...]:
     """Letters of an expression in the order of their first use."""
     known: tuple[str, ...] | None = tree.__dict__.get(_LETTERS)

@@ -13,6 +13,7 @@ from mechsym.audit.judge.orders import EXACT, Powers, changed_powers, expansions
 from mechsym.audit.judge.question import part_values, peak, value
 from mechsym.audit.read.tree import (
     Node,
+    argument_of,
     at,
     function_of,
     is_operation,
@@ -99,25 +100,36 @@ def search(exam: Examination, start: Repair, one: bool = False) -> Found:
     if single is not None and (not mixed or _of_number(start.tree) or _is_slip(exam, start.tree, single.edits)):
         return Found(repairs=(single,))
     raised, mended = _raising(exam, start) if start.orders else ([], [])
-    if mended and mended[0].edits[-1].kind in _PLAIN:
+    emptied = bool(mended) and _emptied(mended[0].tree)
+    if mended and not emptied and mended[0].edits[-1].kind in _PLAIN:
         return Found(repairs=tuple(mended))
     lost = exact_repair(exam, start, insert=True)
     if lost is not None:
         added = is_operation(lost.edits[-1].new, ast.Add, ast.Sub)
         if not mixed or added or _of_number(start.tree) or _is_slip(exam, start.tree, lost.edits):
             return Found(repairs=(lost,))
-    evident = _of_number(start.tree) or _in_degrees(start.tree)
-    if mended or mixed and (one or not evident):
+    evident = emptied or _of_number(start.tree) or _in_degrees(start.tree)
+    if mended and (one or not emptied) or mixed and (one or not evident):
         return Found(repairs=() if mixed else tuple(mended), mixed=mixed, note=mixed)
     pair, cut = (None, "") if one else paired_repair(exam, start)
     if pair or mixed:
         return Found(repairs=(pair,)) if pair else Found(mixed=mixed, note=mixed)
+    if mended:
+        return Found(repairs=tuple(mended))
     return Found(nearer=raised[0] if raised else None, note=cut)
 
 
 def _of_number(tree: Node) -> bool:
     # nobody writes sqrt(1) - x: what the function is of has lost something
     return any(isinstance(n, ast.Call) and value_of(n.args[0]) is not None for _, n in walk(tree))
+
+
+def _emptied(tree: Node) -> bool:
+    """Whether a root has lost what stood beside its square: sqrt(l**2), sqrt(l)**2, sqrt(1)."""
+    inside = [n for _, node in walk(tree) if (n := argument_of(node, "sqrt")) is not None]
+    squared = [node.left for _, node in walk(tree) if is_operation(node, ast.Pow) and value_of(node.right) == 2]
+    alone = any(value_of(n) is not None or is_operation(n, ast.Pow) and value_of(n.right) == 2 for n in inside)
+    return alone or any(argument_of(n, "sqrt") is not None for n in squared)
 
 
 def _in_degrees(tree: Node) -> bool:
