@@ -93,7 +93,7 @@ class Place:
                 contextlib.closing(sqlite3.connect(store)) as connection,
                 contextlib.suppress(sqlite3.OperationalError),
             ):
-                rows |= set(connection.execute("select i, row from point").fetchall())
+                rows |= set(connection.execute("select first, told, numbers from chunk").fetchall())
         return rows
 
     def hidden(self):

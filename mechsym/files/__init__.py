@@ -269,11 +269,32 @@ def write_netcdf(path: Path, data: "xarray.Dataset") -> Path:
         from xarray.backends import H5NetCDFStore
     except ImportError as error:
         raise without_netcdf(error) from None
-    # not to the disk at once: where that fails HDF5 goes on without a word, or takes the process with it
-    content = io.BytesIO()
-    with h5netcdf.File(content, "w") as file:
-        data.dump_to_store(H5NetCDFStore(file))
-    return write_bytes(path, content.getbuffer())
+
+    def write(part: Path) -> None:
+        with _Patient(part, "r+b") as disk:
+            with h5netcdf.File(disk, "w") as file:
+                data.dump_to_store(H5NetCDFStore(file))
+            if disk.error:
+                raise disk.error
+
+    return write_with(path, write)
+
+
+class _Patient(io.FileIO):
+    """A file that never fails while it is written: HDF5 would go on without a word, or take the process with it."""
+
+    error: OSError | None = None  #: What the disk said first
+
+    def write(self, data: Any) -> int:
+        """Write all of it, or keep the error."""
+        left = memoryview(data).cast("B")
+        size = len(left)
+        try:
+            while len(left) and not self.error:
+                left = left[super().write(left) :]
+        except OSError as error:
+            self.error = error
+        return size
 
 
 def without_netcdf(error: ImportError) -> MissingExtra:

@@ -69,6 +69,9 @@ def parse_axis(text: str, place: Place) -> Axis:
     return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=written.kind, values=written.values)
 
 
+_MOST_OF_GRID = 100_000_000  # points that are made when they are asked for
+
+
 class GridPoints(Sequence[tuple[Value, ...]]):
     """Points of a grid, the last axis fastest, each made when it is asked for."""
 
@@ -121,8 +124,9 @@ def points(
         if axis.kind != "grid" and samples is None:
             raise BadInput(f"--over {axis.key}: say how many values, a..b:n, or ask for --samples N")
     count = math.prod(len(a.values) for a in axes) if samples is None else samples
-    if not 1 <= count <= MOST:
-        raise BadInput(f"the sweep has {count} points; allowed are 1 to {MOST}")
+    most = MOST if samples else _MOST_OF_GRID
+    if not 1 <= count <= most:
+        raise BadInput(f"the sweep has {count} points; allowed are 1 to {most}")
     if samples is None:
         return {a.key: len(a.values) for a in axes}, GridPoints(a.values for a in axes)
     return {"sample": samples}, drawn(axes, samples, seed)

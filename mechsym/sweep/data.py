@@ -105,7 +105,9 @@ def write_table(result: Sweep, folder: Path) -> Path:
     reasons = failures(result)
     table |= {name: column for name, column in columns(result).items()
               if result.units[name] or column.dtype.kind != "f" or not np.isnan(column).all()}  # fmt: skip
-    table["failure"] = [reasons.get(i, "") for i in range(len(result.points))]
+    count = len(result.points)
+    # the same empty word at every point takes no memory
+    table["failure"] = [reasons.get(i, "") for i in range(count)] if reasons else np.broadcast_to(np.array(""), count)
     return files.write_quantities(
         folder / "sweep.csv", table, {n: result.units.get(n, "") for n in table if " [" not in n}
     )

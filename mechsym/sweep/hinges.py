@@ -19,7 +19,7 @@ from mechsym.files import Json
 from mechsym.quantities import parse, record
 from mechsym.quantities.results import Columns, names_of, some
 from mechsym.sweep.axes import Value
-from mechsym.sweep.outcomes import ARITHMETIC, Gap, Outcome, guarded, known
+from mechsym.sweep.outcomes import ARITHMETIC, Gap, Outcome, Outcomes, guarded, known
 
 if TYPE_CHECKING:
     from mechsym.hinge.balance import Balance
@@ -132,7 +132,7 @@ _OF_A_GUIDE = ("spring", "guide", "rollers", "limits")
 _KERNEL = 1e-3  # margins of the kernel differ from those of `judge` by less; nearer to a limit than this is not decided
 
 
-def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[str, Value]]) -> list[Outcome]:
+def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[str, Value]]) -> Outcomes:
     """Margins of the guide at each point, by limit.
 
     case: name of a built-in case or path of a file; overrides: values that hold at all points; heres: sequence of
@@ -148,19 +148,18 @@ def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[s
     groups: dict[tuple[tuple[str, Value], ...], list[int]] = {}
     for i, here in enumerate(heres):
         groups.setdefault(tuple((k, v) for k, v in here.items() if k not in numbers), []).append(i)
-    outcomes: dict[int, Outcome] = {}
+    outcomes = Outcomes(len(heres), Gap(reason="not reached"))
     for rest, members in groups.items():
         at = {**overrides, **dict(rest)}
         free = [{key: heres[i][key] for key in numbers} for i in members]
         try:
-            rows = _margins(cases.load(case, at), numbers, free)
+            outcomes.merge(members, _margins(cases.load(case, at), numbers, free))
         except (BadInput, ArithmeticError, ValueError, RuntimeError) as error:
-            rows = [known(error)] * len(members)
-        outcomes |= dict(zip(members, rows, strict=True))
-    return [outcomes[i] for i in range(len(heres))]
+            outcomes.put(members, [known(error)] * len(members))
+    return outcomes
 
 
-def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[str, Value]]) -> list[Outcome]:
+def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[str, Value]]) -> Outcomes:
     from mechsym.hinge.balance import balance
     from mechsym.hinge.kernel import design_kernel
     from mechsym.hinge.torque import torque
@@ -172,20 +171,22 @@ def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[st
     names = [f"{p.section}.{p.field}" for p in places.values()] or ["limits.closing_share"]
     columns = [_column(case, given, key, place, [here[key] for here in heres]) for key, place in places.items()]
     columns = columns or [[given["limits"].closing_share] * len(heres)]
-    outcomes: dict[int, Outcome] = {}
+    gaps: dict[int, Gap] = {}
     for column in reversed(columns):  # the first value that is impossible gives the reason
-        outcomes |= {i: value for i, value in enumerate(column) if isinstance(value, Gap)}
-    good = [i for i in range(len(heres)) if i not in outcomes] if outcomes else range(len(heres))
+        gaps |= {i: value for i, value in enumerate(column) if isinstance(value, Gap)}
+    good = [i for i in range(len(heres)) if i not in gaps] if gaps else range(len(heres))
     values = np.array([[column[i] for i in good] for column in columns]).reshape(len(names), len(good)).T
     spring, choices, rollers, limits = given.values()
     kernel = design_kernel(wanted, spring, choices, rollers, limits, names)
     margins = kernel.margins(values)
     least = margins.min(axis=1, initial=np.inf)
     again = np.flatnonzero((np.abs(least) < _KERNEL) | (least == least.max(initial=-1.0)))
-    outcomes |= dict(zip(good, _told(margins, least, kernel.limits), strict=True))
-    for k in again.tolist():
-        outcomes[good[k]] = _one(wanted, _design(given, names, values[k].tolist()), kernel.limits)
-    return [outcomes[i] for i in range(len(heres))]
+    outcomes = Outcomes(len(heres), Gap(reason="not reached"))
+    outcomes.put(list(gaps), list(gaps.values()))
+    outcomes.merge(good, _told(margins, least, kernel.limits))
+    nearer = [_one(wanted, _design(given, names, values[k].tolist()), kernel.limits) for k in again.tolist()]
+    outcomes.put([good[k] for k in again.tolist()], nearer)
+    return outcomes
 
 
 def _column(case: Case, given: Json, key: str, place: Place, texts: Sequence[Value]) -> list[float | Gap]:
@@ -223,9 +224,8 @@ def _one(wanted: "Balance", design: Json, limits: Sequence[str]) -> Outcome:
     return {f"{name} [-]": value for name, value in known.items()}
 
 
-def _told(margins: np.ndarray, least: np.ndarray, limits: Sequence[str]) -> list[Outcome]:
+def _told(margins: np.ndarray, least: np.ndarray, limits: Sequence[str]) -> Outcomes:
     """What the kernel says, a limit that asks nothing as not a number; -1 throughout where there is no guide."""
     names = [f"{name} [-]" for name in ("feasible", "margin", "judged", *(f"margins.{name}" for name in limits))]
     finite = np.where(np.isfinite(margins), margins, math.nan)
-    table = np.column_stack([least >= 0, least, np.zeros_like(least), finite]).tolist()
-    return [dict(zip(names, row, strict=True)) for row in table]
+    return Outcomes.table(names, np.column_stack([least >= 0, least, np.zeros_like(least), finite]))

@@ -1,7 +1,9 @@
 """What comes out at a point of a sweep: results by name, or a gap with a reason."""
 
+import json
 import math
 import operator
+import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +22,8 @@ from mechsym.torsion.twist import ShaftSection, sections
 
 if TYPE_CHECKING:
     from mechsym.forces.summary import ForceNumbers
+
+_IN_MEMORY = 100_000  # numbers of a column
 
 # results that are words worth keeping
 WORDS = ("status", "end", "guide.reason")
@@ -57,24 +61,93 @@ class Outcomes(Sequence[Any]):
         whole.put(range(len(outcomes)), outcomes)
         return whole
 
+    @classmethod
+    def table(cls, names: Sequence[str], values: np.ndarray) -> "Outcomes":
+        """Outcomes of points that have the same names. values: shape (n, k) for n points and k names [by name]."""
+        whole = cls(len(values), Gap(reason="not reached"))
+        whole._enter(tuple(names), np.arange(len(values)), list(values.T))
+        return whole
+
     def put(self, members: Sequence[int], outcomes: Sequence[Outcome]) -> None:
         """Outcomes of points by their numbers, in place of what stood there."""
         by_names: dict[tuple[str, ...], tuple[list[int], list[Sequence[object]]]] = {}
         for i, outcome in zip(members, outcomes, strict=True):
             if isinstance(outcome, Gap):
-                self._gaps[i], self._kind[i] = outcome, -1
+                self._gaps[i] = outcome
+                self._leave([i])
             else:
                 places, rows = by_names.setdefault(tuple(outcome), ([], []))
                 places.append(i)
                 rows.append(tuple(outcome.values()))
         for names, (places, rows) in by_names.items():
-            if names not in self._names:
-                self._names.append(names)
-            self._kind[places] = self._names.index(names)
-            for name, values in zip(names, zip(*rows, strict=True), strict=True):
-                if name not in self._columns:
-                    self._columns[name] = np.full(len(self), *(("", object) if name in WORDS else (math.nan, float)))
-                self._columns[name][places] = values
+            self._enter(names, np.array(places), list(zip(*rows, strict=True)))
+
+    def merge(self, members: Sequence[int], other: "Outcomes") -> None:
+        """As `put`, of outcomes that are a table already."""
+        places = np.asarray(members)
+        for number, names in enumerate(other._names):
+            there = other._kind == number
+            self._enter(names, places[there], [other._columns[name][there] for name in names])
+        self._leave(places[other._kind < 0])
+        self._gaps |= {int(places[i]): gap for i, gap in other.gaps.items()}
+
+    def _enter(self, names: tuple[str, ...], places: np.ndarray, columns: Sequence[Any]) -> None:
+        if names not in self._names:
+            self._names.append(names)
+        self._kind[places] = self._names.index(names)
+        for name, values in zip(names, columns, strict=True):
+            if name not in self._columns:
+                self._columns[name] = _column(len(self), name)
+            self._columns[name][places] = values
+        self._clear(places, names)
+
+    def _leave(self, places: Sequence[int] | np.ndarray) -> None:
+        """Points become gaps."""
+        self._kind[places] = -1
+        self._clear(places, ())
+
+    def _clear(self, places: Sequence[int] | np.ndarray, names: tuple[str, ...]) -> None:
+        """Columns have nothing where a point does not have their name."""
+        for name, column in self._columns.items():
+            if name not in names:
+                column[places] = "" if name in WORDS else math.nan
+
+    def shown(self, show: Sequence[str]) -> "Outcomes":
+        """The results that are shown; all where none is named.
+
+        show: names, groups (`guide` for `guide.z_max` and its like), or `all`.
+        """
+        if not show or "all" in show:
+            return self
+        few = Outcomes(len(self), self._unreached)
+        few._kind, few._gaps = self._kind, self._gaps
+        few._names = [tuple(name for name in names if any(asked(name, s) for s in show)) for names in self._names]
+        few._columns = {name: self._columns[name] for names in few._names for name in names}
+        return few
+
+    def packed(self) -> tuple[str, bytes]:
+        """Names, words and gaps as JSON, and the numbers as they are, each column as long as there are points."""
+        numbers = [name for name in self._columns if name not in WORDS]
+        told = {
+            "names": self._names,
+            "numbers": numbers,
+            "words": {name: self._columns[name].tolist() for name in self._columns if name in WORDS},
+            "gaps": {i: [gap.reason, gap.of_input] for i, gap in self.gaps.items()},
+        }
+        parts = [self._kind.astype("<i4"), *(self._columns[name].astype("<f8") for name in numbers)]
+        return json.dumps(told), b"".join(part.tobytes() for part in parts)
+
+    @classmethod
+    def unpacked(cls, count: int, text: str, numbers: bytes) -> "Outcomes":
+        """What `packed` has packed of `count` points."""
+        told, whole = json.loads(text), cls(count, Gap(reason="not reached"))
+        whole._kind = np.frombuffer(numbers, "<i4", count)
+        whole._names = [tuple(names) for names in told["names"]]
+        columns = np.frombuffer(numbers, "<f8", offset=4 * count).reshape(-1, count)
+        whole._columns = dict(zip(told["numbers"], columns, strict=True))
+        whole._columns |= {name: np.array(words, dtype=object) for name, words in told["words"].items()}
+        whole._gaps = {int(i): Gap(reason=reason, of_input=bad) for i, (reason, bad) in told["gaps"].items()}
+        return whole
 
     def __len__(self) -> int:
         return len(self._kind)
@@ -109,13 +182,23 @@ class Outcomes(Sequence[Any]):
         name: without its unit.
         """
         named = [full for full in self._columns if full.partition(" [")[0] == name]
-        if len(named) == 1 and name not in WORDS and not self._gaps and all(named[0] in n for n in self._names):
+        if len(named) == 1 and name not in WORDS:
             return self._columns[named[0]]
         values = np.full(len(self), "" if name in WORDS else math.nan, dtype=object if name in WORDS else float)
-        for full in named:
+        for full in named:  # of two units, in which a name may be told at different points
             there = np.isin(self._kind, [number for number, names in enumerate(self._names) if full in names])
             values[there] = self._columns[full][there]
         return values.astype(str) if name in WORDS else values
+
+
+def _column(count: int, name: str) -> np.ndarray:
+    """A column without results; many numbers lie in a file that is nowhere to be seen, not in memory."""
+    if name in WORDS or count <= _IN_MEMORY:
+        return np.full(count, *(("", object) if name in WORDS else (math.nan, float)))
+    with tempfile.TemporaryFile() as file:
+        column = np.memmap(file, dtype=float, mode="w+", shape=(count,))
+    column[:] = math.nan
+    return column
 
 
 def known(error: Exception) -> Gap:
@@ -151,17 +234,6 @@ def flat(result: object) -> dict[str, float | str]:
         elif (numbers := np.asarray(value)).size == 1 and numbers.dtype.kind in "bif":
             values[name] = float(numbers.ravel()[0])
     return values
-
-
-def kept(row: Mapping[str, float | str], show: Sequence[str]) -> dict[str, float | str]:
-    """The results of a point that are shown; all where none is named.
-
-    row: results by dotted name [SI, or as the name says]; show: names, groups (`guide` for `guide.z_max` and its like),
-    or `all`. Returns row: in the same order [SI, or as the name says].
-    """
-    if not show or "all" in show:
-        return dict(row)
-    return {name: value for name, value in row.items() if any(asked(name, s) for s in show)}
 
 
 def asked(name: str, show: str) -> bool:

@@ -149,7 +149,7 @@ class Route:
     seconds: float  #: What one takes, roughly [s]
     #: In place of `run`, where cases need not be read one by one: case, overrides and values of the axes to outcomes,
     #: each of numbers by dotted names already
-    at: Callable[[str, Mapping[str, object], Sequence[Mapping[str, Value]]], list[Outcome]] | None = None
+    at: Callable[[str, Mapping[str, object], Sequence[Mapping[str, Value]]], outcomes.Outcomes] | None = None
 
 
 def route(case: Case, analysis: str | None, show: tuple[str, ...] = ()) -> Route:

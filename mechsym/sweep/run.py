@@ -26,7 +26,7 @@ from mechsym.quantities.ranges import MOST
 from mechsym.quantities.units import Second
 from mechsym.sweep import store, work
 from mechsym.sweep.axes import Axis, Ties, Value, along, override, parse_axis, points, saltelli, split, ties
-from mechsym.sweep.outcomes import Gap, Outcome, Outcomes, asked, kept
+from mechsym.sweep.outcomes import Gap, Outcomes, asked
 from mechsym.sweep.points import ANALYSES, Route, route
 
 if TYPE_CHECKING:
@@ -146,7 +146,7 @@ def ends(laid: Layout) -> list[dict[str, str | float]]:
     """Overrides that set one value to its smallest or largest, for doubts about the case there."""
     overrides = []
     for i, axis in enumerate(laid.axes):
-        values = along(laid.points, i).tolist()
+        values = along(laid.points, i).tolist() if "sample" in laid.dims else axis.values
         overrides += [{axis.key: override(axis, value)} for value in (min(values), max(values))]
     return overrides
 
@@ -206,7 +206,7 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
     before = np.zeros(len(place.points), dtype=bool)
     with inputs.reads() as read_there, _stored(plan, read, means) as kept_in, asked_to_stop() as asked_to:
         for members, rows in store.known(kept_in) if kept_in else ():
-            outcomes.put(members, rows)
+            outcomes.merge(members, rows)
             before[list(members)] = True
             progress(len(members))
         inputs.tell(store.files_read(kept_in) if kept_in else {})
@@ -218,11 +218,10 @@ def sweep(plan: Plan, progress: Progress = lambda done: None, means: Means | Non
                     if (read | read_there).get(name, content) != content:
                         way = "the same command computes all points as it is now"
                         raise BadInput(f"{name} has changed while the sweep ran; {way}")
-                _check_shown(plan.show, done.outcomes)
-                kept_outcomes = [o if isinstance(o, Gap) else kept(o, plan.show) for o in done.outcomes]
-                outcomes.put(done.members, kept_outcomes)
+                _check_shown(plan.show, done.outcomes.names)
+                outcomes.merge(done.members, shown := done.outcomes.shown(plan.show))
                 if kept_in:
-                    store.keep(kept_in, done, kept_outcomes)
+                    store.keep(kept_in, done, shown)
                 progress(len(done.members))
     interrupted = asked_to.is_set()  # in its last points too: a study would go on with the next sweep
     refused = [gap for gap in outcomes.gaps.values() if gap.of_input]
@@ -267,10 +266,9 @@ def _computed(
     return work.here(order, chunks, asked_to)
 
 
-def _check_shown(show: tuple[str, ...], outcomes: Sequence[Outcome]) -> None:
+def _check_shown(show: tuple[str, ...], found: Sequence[str]) -> None:
     """Refuse a name that no result has, before the time of the whole sweep is spent."""
-    shown = (name for outcome in outcomes if not isinstance(outcome, Gap) for name in outcome)
-    names = {name.partition(" [")[0] for name in shown} if show else ()
+    names = {name.partition(" [")[0] for name in found} if show else ()
     for name in show if names else ():
         if name != "all" and not any(asked(n, name) for n in names):
             raise BadInput(f"--show {name} is no result here; {suggest(name, sorted(names))}")
@@ -358,5 +356,5 @@ def _result(future: "Future", chunk: work.Chunk) -> work.Done:
     except KilledWorker:
         # the scheduler has tried it elsewhere before it gave up
         gap = Gap(reason="the workers of the cluster that computed it died")
-        return work.Done(members=chunk.members, outcomes=(gap,) * len(chunk.members), seconds=0.0, host="")
+        return work.Done(members=chunk.members, outcomes=Outcomes.of([gap] * len(chunk.members)), seconds=0.0, host="")
     return done

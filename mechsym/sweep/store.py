@@ -1,6 +1,7 @@
 """Finished points of a sweep in a file beside its results, so that the same command goes on where it stopped.
 
-    OUT/sweep.db    SQLite    point: i, row (JSON), seconds, host    input: path, digest
+    OUT/sweep.db    SQLite    chunk: first point, count, names and gaps (JSON), numbers, seconds of a point, host
+                              point: a view of it, i, seconds, host    input: path, digest
                               about: what was swept, and who is writing
 
 A store belongs to one sweep: values, axes, columns, program, and what was in the files that were read, for the sweep
@@ -19,18 +20,24 @@ import socket
 import sqlite3
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from mechsym.errors import BadInput
 from mechsym.files import inputs
 from mechsym.quantities import record
-from mechsym.sweep.outcomes import Gap, Outcome
+from mechsym.sweep.outcomes import Outcomes
 from mechsym.sweep.work import Done
 
 NAME = "sweep.db"
 _TABLES = """
 create table if not exists about (name text primary key, value text not null);
-create table if not exists point (i integer primary key, row text not null, seconds real, host text);
+create table if not exists chunk (
+    first integer primary key, count integer not null, told text not null, numbers blob not null,
+    seconds real, host text
+);
+create view if not exists point as with recursive every (i, stop, seconds, host) as (
+    select first, first + count, seconds, host from chunk
+    union all select i + 1, stop, seconds, host from every where i + 1 < stop
+) select i, seconds, host from every;
 create table if not exists input (path text primary key, digest text not null);
 """
 
@@ -61,7 +68,7 @@ def opened(folder: Path, key: str, fresh: bool = False) -> Iterator[Store]:
                 connection = _connected(_brought_back(path, key))
             with connection:
                 if fresh:
-                    connection.executescript("delete from point; delete from input;")
+                    connection.executescript("delete from chunk; delete from input;")
                 _note(connection, "key", key)
             yield Store(path=path, connection=connection, aside=moved)
             connection.execute("delete from about where name = 'writer'")
@@ -85,7 +92,7 @@ def _connected(path: Path) -> sqlite3.Connection:
 
 def _set_aside(connection: sqlite3.Connection, path: Path) -> Path | None:
     """Close the store of another sweep and give it a name of its own; nothing is lost of hours of work."""
-    (count,) = connection.execute("select count(*) from point").fetchone()
+    (count,) = connection.execute("select count(*) from chunk").fetchone()
     belongs_to = repr((_about(connection, "key"), _read(connection)))
     aside = path.with_stem(f"{path.stem}-{hashlib.sha256(belongs_to.encode()).hexdigest()[:8]}")
     connection.execute("delete from about where name = 'writer'")
@@ -122,19 +129,13 @@ def _read(connection: sqlite3.Connection) -> dict[str, str]:
     return dict(connection.execute("select path, digest from input order by path").fetchall())
 
 
-_MANY = 10_000  # points that are read in one go
-
-
-def known(store: Store) -> Iterator[tuple[list[int], list[Outcome]]]:
-    """Points that are finished, many at a time: their numbers, and what came out."""
+def known(store: Store) -> Iterator[tuple[Sequence[int], Outcomes]]:
+    """Points that are finished, a chunk at a time: their numbers, and what came out."""
     with _told(store.path):
-        cursor = store.connection.execute("select i, row from point order by i")
-        while rows := cursor.fetchmany(_MANY):
-            yield [i for i, _ in rows], [_outcome(json.loads(text)) for _, text in rows]
-
-
-def _outcome(stored: Mapping[str, Any]) -> Outcome:
-    return Gap(reason=stored["gap"], of_input=stored["of_input"]) if "gap" in stored else dict(stored["row"])
+        for first, count, text, numbers in store.connection.execute(
+            "select first, count, told, numbers from chunk order by first"
+        ):
+            yield range(first, first + count), Outcomes.unpacked(count, text, numbers)
 
 
 def files_read(store: Store) -> dict[str, str]:
@@ -143,16 +144,15 @@ def files_read(store: Store) -> dict[str, str]:
         return _read(store.connection)
 
 
-def keep(store: Store, done: Done, outcomes: Sequence[Outcome]) -> None:
+def keep(store: Store, done: Done, outcomes: Outcomes) -> None:
     """Write what is kept of the points of a chunk in one go, and the files that they read."""
-    rows = []
-    for i, outcome in zip(done.members, outcomes, strict=True):
-        gap = isinstance(outcome, Gap)
-        text = json.dumps({"gap": outcome.reason, "of_input": outcome.of_input} if gap else {"row": outcome})
-        rows.append((i, text, done.seconds, done.host))
+    first, count = done.members[0], len(done.members)
+    row = (first, count, *outcomes.packed(), done.seconds, done.host)
     with _told(store.path), store.connection:
         store.connection.execute("begin immediate")
-        store.connection.executemany("insert or replace into point values (?, ?, ?, ?)", rows)
+        # points of a chunk that were given up one by one are computed once more with all of it
+        store.connection.execute("delete from chunk where first >= ? and first < ?", (first, first + count))
+        store.connection.execute("insert into chunk values (?, ?, ?, ?, ?, ?)", row)
         store.connection.executemany("insert or ignore into input values (?, ?)", done.reads.items())
 
 

@@ -26,7 +26,7 @@ from mechsym.errors import BadInput
 from mechsym.files import inputs
 from mechsym.quantities import record
 from mechsym.sweep.axes import Value, ties
-from mechsym.sweep.outcomes import Gap, Outcome, flat, known
+from mechsym.sweep.outcomes import Gap, Outcome, Outcomes, flat, known
 from mechsym.sweep.points import READS, Route, route
 
 Here = Mapping[str, Value]  # values of the axes at a point, as `--set` takes them
@@ -50,7 +50,7 @@ class Done:
     """A finished chunk."""
 
     members: Sequence[int]
-    outcomes: tuple[Outcome, ...]
+    outcomes: Outcomes
     seconds: float  #: Of a processor for one point [s]
     host: str
     reads: Mapping[str, str] = dataclasses.field(default_factory=dict)  #: Files that were read, see `inputs.reads`
@@ -73,13 +73,14 @@ def prepared(order: SweepOrder) -> Callable[[Chunk], Done]:
         start = time.process_time()  # a clock would count what else the machine does
         with inputs.reads() as read:
             outcomes = tied(order, chosen, chunk.heres)
+            outcomes = outcomes if isinstance(outcomes, Outcomes) else Outcomes.of(outcomes)
         seconds, host = (time.process_time() - start) / len(chunk.members), socket.gethostname()
-        return Done(members=chunk.members, outcomes=tuple(outcomes), seconds=seconds, host=host, reads=read)
+        return Done(members=chunk.members, outcomes=outcomes, seconds=seconds, host=host, reads=read)
 
     return work
 
 
-def tied(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcome]:
+def tied(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> Sequence[Outcome]:
     """Results of points whose tied values are worked out first; a formula without a value leaves a gap."""
     if not order.tied or not heres:
         return computed(order, chosen, heres)
@@ -96,7 +97,7 @@ def tied(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcom
     return [outcomes[i] for i in range(len(heres))]
 
 
-def computed(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> list[Outcome]:
+def computed(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> Sequence[Outcome]:
     """Results of points by name, or why there are none."""
     if chosen.at is not None:
         return chosen.at(order.case, order.overrides, heres)
@@ -205,7 +206,7 @@ def _after_death(chunk: Chunk, worker: _Worker) -> tuple[list[Chunk], list[Done]
     status = worker.process.exitcode
     cause = f"signal {signal.Signals(-status).name}" if status is not None and status < 0 else f"exit status {status}"
     gap = Gap(reason=f"the process that computed it died twice ({cause})")
-    return [], [Done(members=chunk.members, outcomes=(gap,), seconds=0.0, host=socket.gethostname())]
+    return [], [Done(members=chunk.members, outcomes=Outcomes.of([gap]), seconds=0.0, host=socket.gethostname())]
 
 
 def _ended(worker: _Worker) -> None:

@@ -26,7 +26,11 @@ def test_what_was_put_comes_back(seed):
     for _ in range(6):  # chunks in any order; a point may come again
         members = generator.permutation(count)[: int(generator.integers(1, count + 1))].tolist()
         rows = [outcome(generator) for _ in members]
-        table.put(members, rows)
+        if generator.integers(2):
+            table.put(members, rows)
+        else:  # a table of its own, as a worker sends it and a store keeps it
+            own = Outcomes.of(rows)
+            table.merge(members, Outcomes.unpacked(len(own), *own.packed()))
         for i, row in zip(members, rows, strict=True):
             plain[i] = row
     assert list(table) == plain and table[-1] == plain[-1] and table[1:4] == plain[1:4]
@@ -38,3 +42,11 @@ def test_what_was_put_comes_back(seed):
         np.testing.assert_equal(table.column(stem), wanted)
     words = ["" if isinstance(o, Gap) else o.get("status", "") for o in plain]
     assert table.column("status").tolist() == words
+
+
+def test_what_is_shown_is_a_table_again():
+    rows = [{"a.x [m]": 1.0, "a.y [m]": 2.0, "b [-]": 3.0}, Gap(reason="none"), {"b [-]": 4.0, "status": "ok"}]
+    table = Outcomes.of(rows)
+    assert list(table.shown(())) == list(table.shown(("all",))) == rows
+    assert list(table.shown(("a", "status"))) == [{"a.x [m]": 1.0, "a.y [m]": 2.0}, rows[1], {"status": "ok"}]
+    assert list(Outcomes.unpacked(3, *table.shown(("b",)).packed())) == [{"b [-]": 3.0}, rows[1], {"b [-]": 4.0}]

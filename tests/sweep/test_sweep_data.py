@@ -2,6 +2,7 @@
 
 import contextlib
 import csv
+import io
 import json
 import signal
 import sqlite3
@@ -15,7 +16,7 @@ import pytest
 from click.testing import CliRunner
 from pictures import faults
 
-from mechsym import interrupts
+from mechsym import files, interrupts
 from mechsym.cli import main
 from mechsym.cli.sweep import sweep as command
 from mechsym.cycle.columns import WORDS
@@ -121,11 +122,16 @@ def test_netcdf_is_whole_or_not_there(found, tmp_path, monkeypatch):
     file = write_netcdf(found, tmp_path)
     before = file.read_bytes()
 
-    def breaks(path, data):
-        path.write_text("half")
-        raise OSError("disk full")
+    class Disk(io.FileIO):  # takes the first page
+        def write(self, data):
+            if self.tell() > 4096:
+                raise OSError(28, "disk full")
+            return super().write(data)
 
-    monkeypatch.setattr(Path, "write_bytes", breaks)
+    class Full(files._Patient, Disk):
+        pass
+
+    monkeypatch.setattr(files, "_Patient", Full)
     with pytest.raises(OSError, match="disk full"):
         write_netcdf(found, tmp_path)
     assert file.read_bytes() == before
