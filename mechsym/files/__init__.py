@@ -272,8 +272,12 @@ def write_netcdf(path: Path, data: "xarray.Dataset") -> Path:
 
     def write(part: Path) -> None:
         with _Patient(part, "r+b") as disk:
-            with h5netcdf.File(disk, "w") as file:
-                data.dump_to_store(H5NetCDFStore(file))
+            try:
+                with h5netcdf.File(disk, "w") as file:
+                    data.dump_to_store(H5NetCDFStore(file))
+            except Exception:
+                if disk.error is None:  # else HDF5 has met what is not there
+                    raise
             if disk.error:
                 raise disk.error
 

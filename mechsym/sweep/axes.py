@@ -69,7 +69,7 @@ def parse_axis(text: str, place: Place) -> Axis:
     return Axis(key=key, place=place, unit=unit, suffix=suffix, kind=written.kind, values=written.values)
 
 
-_MOST_OF_GRID = 100_000_000  # points that are made when they are asked for
+_MOST_OF_GRID = 20_000_000  # points that are made when they are asked for
 
 
 class GridPoints(Sequence[tuple[Value, ...]]):

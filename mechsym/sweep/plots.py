@@ -25,6 +25,7 @@ _WIDE = 32  # letters of a line beside an axis
 _FEW = 4  # values of an axis that are drawn as lines of their own
 _COUNTS = 12  # steps of a count that is drawn with whole numbers
 _TRUTHS = ("feasible", "met", "kept", "holds", "converged", "proven")  # 1 is yes
+_DRAWN = 1000  # values of an axis of a map that a picture shows
 _CLOUD = 8  # samples below which points are no scatter
 _ROUND_OFF = 1e-9  # results are sized in SI, none that matters is as small
 
@@ -202,9 +203,11 @@ def _maps(result: Sweep, shown: Mapping[str, np.ndarray], over: tuple[int, int])
     figure, axes = _panels(result, shown)
     figure.suptitle(_title(result, list(over)), fontsize=10)
     (x, across), (y, upwards) = (_scaled(a.key, np.array(a.values), a.unit) for a in (right, up))
+    few = tuple(slice(None, None, -(-len(along) // _DRAWN)) for along in (y, x))
+    y, x = y[few[0]], x[few[1]]
     for axis, (name, column) in zip(axes, shown.items(), strict=False):
         drawn, label = _scaled(name, column, result.units[name])
-        values = _slice(result, list(over), drawn).T
+        values = _slice(result, list(over), drawn).T[few]
         axis.set_facecolor(NOTHING)
         axis.grid(False)
         if np.isfinite(values).any():

@@ -144,7 +144,7 @@ def test_samples_have_the_wanted_distribution():
         ((), None, "at least one key"),
         (("c1=1..2",), 0, "allowed are 1"),
         (("c1=1..2",), 2_000_000, "allowed are 1"),
-        (("c1=0..1:2000", "m0=0..1:2000"), None, "4000000 points"),
+        (("c1=0..1:5000", "m0=0..1:5000"), None, "25000000 points"),
     ],
 )
 def test_what_cannot_be_run_over_is_refused(over, samples, words):
