@@ -6,7 +6,7 @@ read/      text to tree and back: Python, LaTeX, what programs write (reader.py)
            all equations of a text with its nomenclature (said.py), all claims of a program (programs/claims.py)
 theory/    the derived quantities that formulas are compared with; theories/ are those that are data
 judge/     states at which formula and quantity are compared (question.py), exact? (prover.py), powers of lambda
-           (orders.py, expansion.py), dimensions, assumptions, conventions, Coq scripts; of a whole text its
+           (orders.py), dimensions, left sides, assumptions, conventions, Coq scripts; of a whole text its
            units (kinds.py), its own definitions (world.py) and the theories that fit (fit.py); of a program what its
            names mean in a theory (lexicon.py) and to what they come near (nearness.py)
 repair/    what each part would have to be (required.py), slips, what was left out, two at once; search.py says in

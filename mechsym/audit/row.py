@@ -5,7 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from mechsym.audit.judge import conventions
-from mechsym.audit.judge.asked import Asked, left_note, question_of
+from mechsym.audit.judge.asked import Asked, question_of
+from mechsym.audit.judge.left_side import left_note
 from mechsym.audit.judge.orders import expansions, groups, powers
 from mechsym.audit.judge.question import Question, used_names
 from mechsym.audit.read.letter import WAYS, Ambiguous, Way
@@ -139,7 +140,7 @@ def _answer(asked: Asked, said: Statement, claim: str, one: bool) -> Row:
     verdict = decide(question, one=one)
     read = {*dependencies(question.theory, [question.quantity]), *used_names(question.formula)}
     held, idle = ([f"{k} = {v:g}" for k, v in question.hold.items() if (k in read) == there] for there in (True, False))
-    notes = [f"compared at {', '.join(held)}" if held else "", left_note(question, asked, said.left)]
+    notes = [f"compared at {', '.join(held)}" if held else "", left_note(question, asked.quantity, said.left)]
     # an even motion is said of a whole paper, not of the formulas that hold its speed
     idle = [said for said in idle if not question.theory.letters[said.split()[0]].unit.endswith(("/s", "/s^2"))]
     notes += [f"not read: {', '.join(idle)}; neither the formula nor {question.quantity} holds it"] if idle else []
