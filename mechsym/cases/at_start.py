@@ -20,6 +20,7 @@ from mechsym.plausible import Doubt, proportion
 
 _ANGLES = np.linspace(0.0, math.tau, 13)[None, :-1]  # at which masses that an angle moves are looked at [rad]
 _STEP = 1e-4  # of a slope
+_WORDS = {"pi": np.pi, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos}  # of a short formula
 _SEEN = 0.2  # of a period: five results show a vibration
 
 
@@ -41,22 +42,23 @@ def _stretched(
 ) -> Iterator[Doubt]:
     """How far a run stretches a spring, and whether its two ends start at one speed where both move."""
     stiffness, stretch = spring
-    turns, words = units.get(stiffness) == "N*m/rad", {"__builtins__": {}, "sin": np.sin, "cos": np.cos, "pi": np.pi}
+    code = "spring_wound" if units.get(stiffness) == "N*m/rad" else "spring_stretch"
     values = {**mechanism.parameters, **{q: columns[q] for q in mechanism.coordinates}}
-    code = "spring_wound" if turns else "spring_stretch"
-    yield from proportion(code, f"stretch of spring {stiffness} in the run", _largest(eval(stretch, words, values)))
-    rates = []
+    farthest = np.nanmax(np.abs(_number(stretch, values)), initial=0.0)
+    yield from proportion(code, f"stretch of spring {stiffness} in the run", float(farthest))
+    start, rates = {**values, **{q: columns[q][0] for q in mechanism.coordinates}}, []
     for q in mechanism.coordinates:
-        beside = [{**values, q: columns[q][0] + step} for step in (-_STEP, _STEP)]
-        before, behind = (float(np.ravel(eval(stretch, words, one))[0]) for one in beside)
+        before, behind = (float(_number(stretch, {**start, q: start[q] + step})) for step in (-_STEP, _STEP))
         rates.append((behind - before) / (2 * _STEP) * float(columns[f"{q}d"][0]))
-    if np.count_nonzero(rates) > 1:
+    if np.isfinite(rates).all() and np.count_nonzero(rates) > 1:
         what = f"speed at which spring {stiffness} is stretched at the start / that of its faster end"
-        yield from proportion("start_speeds", what, abs(sum(rates)) / _largest(rates))
+        yield from proportion("start_speeds", what, abs(sum(rates)) / float(np.max(np.abs(rates))))
 
 
-def _largest(values: Sequence[float] | np.ndarray) -> float:
-    return float(np.abs(values).max())
+def _number(text: str, values: Mapping[str, Any]) -> Any:
+    """A short formula of the derivation at numbers or columns; nan where it has no value."""
+    with np.errstate(all="ignore"):
+        return eval(text, {"__builtins__": {}}, {**_WORDS, **values})
 
 
 def _swinging(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iterator[Doubt]:

@@ -148,7 +148,7 @@ def guides(case: str, overrides: Mapping[str, object], heres: Sequence[Mapping[s
     groups: dict[tuple[tuple[str, Value], ...], list[int]] = {}
     for i, here in enumerate(heres):
         groups.setdefault(tuple((k, v) for k, v in here.items() if k not in numbers), []).append(i)
-    outcomes = Outcomes(len(heres), Gap(reason="not reached"))
+    outcomes = Outcomes(len(heres))
     for rest, members in groups.items():
         at = {**overrides, **dict(rest)}
         free = [{key: heres[i][key] for key in numbers} for i in members]
@@ -181,7 +181,7 @@ def _margins(case: Case, places: Mapping[str, Place], heres: Sequence[Mapping[st
     margins = kernel.margins(values)
     least = margins.min(axis=1, initial=np.inf)
     again = np.flatnonzero((np.abs(least) < _KERNEL) | (least == least.max(initial=-1.0)))
-    outcomes = Outcomes(len(heres), Gap(reason="not reached"))
+    outcomes = Outcomes(len(heres))
     outcomes.put(list(gaps), list(gaps.values()))
     outcomes.merge(good, _told(margins, least, kernel.limits))
     nearer = [_one(wanted, _design(given, names, values[k].tolist()), kernel.limits) for k in again.tolist()]

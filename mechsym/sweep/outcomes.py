@@ -41,13 +41,15 @@ class Gap:
     of_input: bool = False  #: Whether the case was refused, not its run
 
 
+UNREACHED = Gap(reason="not reached")
+
 Outcome = Any  # a result, numbers by dotted names, or a Gap
 
 
 class Outcomes(Sequence[Any]):
     """What came out at each point: a column for each name, the names that each point has, gaps."""
 
-    def __init__(self, count: int, gap: Gap) -> None:
+    def __init__(self, count: int, gap: Gap = UNREACHED) -> None:
         self._unreached = gap
         self._kind = np.full(count, -1, dtype=np.int32)  # which names a point has; -1 of a gap
         self._names: list[tuple[str, ...]] = []
@@ -57,14 +59,14 @@ class Outcomes(Sequence[Any]):
     @classmethod
     def of(cls, outcomes: Sequence[Outcome]) -> "Outcomes":
         """Outcomes of all points, as they are."""
-        whole = cls(len(outcomes), Gap(reason="not reached"))
+        whole = cls(len(outcomes))
         whole.put(range(len(outcomes)), outcomes)
         return whole
 
     @classmethod
     def table(cls, names: Sequence[str], values: np.ndarray) -> "Outcomes":
         """Outcomes of points that have the same names. values: shape (n, k) for n points and k names [by name]."""
-        whole = cls(len(values), Gap(reason="not reached"))
+        whole = cls(len(values))
         whole._enter(tuple(names), np.arange(len(values)), list(values.T))
         return whole
 
@@ -140,7 +142,7 @@ class Outcomes(Sequence[Any]):
     @classmethod
     def unpacked(cls, count: int, text: str, numbers: bytes) -> "Outcomes":
         """What `packed` has packed of `count` points."""
-        told, whole = json.loads(text), cls(count, Gap(reason="not reached"))
+        told, whole = json.loads(text), cls(count)
         whole._kind = np.frombuffer(numbers, "<i4", count)
         whole._names = [tuple(names) for names in told["names"]]
         columns = np.frombuffer(numbers, "<f8", offset=4 * count).reshape(-1, count)

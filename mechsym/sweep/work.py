@@ -73,31 +73,33 @@ def prepared(order: SweepOrder) -> Callable[[Chunk], Done]:
         start = time.process_time()  # a clock would count what else the machine does
         with inputs.reads() as read:
             outcomes = tied(order, chosen, chunk.heres)
-            outcomes = outcomes if isinstance(outcomes, Outcomes) else Outcomes.of(outcomes)
         seconds, host = (time.process_time() - start) / len(chunk.members), socket.gethostname()
         return Done(members=chunk.members, outcomes=outcomes, seconds=seconds, host=host, reads=read)
 
     return work
 
 
-def tied(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> Sequence[Outcome]:
+def tied(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> Outcomes:
     """Results of points whose tied values are worked out first; a formula without a value leaves a gap."""
     if not order.tied or not heres:
         return computed(order, chosen, heres)
     places = {key: cases.locate(order.case, key, order.overrides) for key in heres[0]}
     rules = ties(order.case, order.overrides, order.tied, places)
     ready: dict[int, Here] = {}
-    outcomes: dict[int, Outcome] = {}
+    gaps: dict[int, Gap] = {}
     for i, here in enumerate(heres):
         try:
             ready[i] = rules.at(here)
         except BadInput as error:
-            outcomes[i] = known(error)
-    outcomes |= dict(zip(ready, computed(order, chosen, list(ready.values())), strict=True))
-    return [outcomes[i] for i in range(len(heres))]
+            gaps[i] = known(error)
+    outcomes = Outcomes(len(heres))
+    outcomes.put(list(gaps), list(gaps.values()))
+    if ready:
+        outcomes.merge(list(ready), computed(order, chosen, list(ready.values())))
+    return outcomes
 
 
-def computed(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> Sequence[Outcome]:
+def computed(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> Outcomes:
     """Results of points by name, or why there are none."""
     if chosen.at is not None:
         return chosen.at(order.case, order.overrides, heres)
@@ -109,7 +111,7 @@ def computed(order: SweepOrder, chosen: Route, heres: Sequence[Here]) -> Sequenc
         except BadInput as error:
             outcomes[i] = known(error)
     outcomes |= dict(zip(loaded, chosen.run(list(loaded.values())), strict=True))
-    return [o if isinstance(o, Gap) else flat(o) for o in (outcomes[i] for i in range(len(heres)))]
+    return Outcomes.of([o if isinstance(o, Gap) else flat(o) for o in (outcomes[i] for i in range(len(heres)))])
 
 
 def here(order: SweepOrder, chunks: Sequence[Chunk], asked: threading.Event) -> Generator[Done, None, None]:

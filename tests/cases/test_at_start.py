@@ -57,3 +57,20 @@ def test_an_inertia_is_held_against_what_its_angle_moves_on():
     share = doubts("wagon", {"parameters.R": "0.5 mm"})["turning_share"]
     assert share == pytest.approx(180.0 / (32e3 * 0.0005**2))
     assert not doubts("wagon")
+
+
+def test_a_spring_along_a_distance_is_measured_where_it_has_a_length(tmp_path):
+    """sqrt(x^2 + y^2), 3-4-5; at its centre the distance has no slope, and nothing is said."""
+    (tmp_path / "bob.py").write_text(
+        "from sympy import sqrt\nfrom mechsym.derive import Mechanism, output\n\n\ndef bob():\n"
+        '    m = Mechanism("bob", about="A bob on a spring.")\n    x, y = m.coordinates("x y", "m")\n'
+        '    m_b, k = m.parameters("m_b", "kg", above=0), m.parameters("k", "N/m", above=0)\n'
+        '    m.body("bob", mass=m_b, at=(x, y))\n    m.spring(k, stretch=sqrt(x**2 + y**2))\n'
+        "    output(m, x)\n    return m\n"
+    )
+    (tmp_path / "bob.toml").write_text(
+        'mechanism = "./bob.py"\nabout = "."\n[parameters]\nm_b = "1 kg"\nk = "1 N/m"\n[simulation]\nt_end = "1 s"\n'
+    )
+    far = doubts(str(tmp_path / "bob"), x=30.0, y=40.0, xd=1.0, yd=0.5)
+    assert far == {"spring_stretch": pytest.approx(50.0), "start_speeds": pytest.approx((0.6 + 0.8 * 0.5) / 0.6)}
+    assert not doubts(str(tmp_path / "bob"), xd=1.0, yd=0.5)
