@@ -126,7 +126,8 @@ def _length(link: Json, letters: Mapping[str, float]) -> float:
 def _masses(
     links: Sequence[Json], letters: Mapping[str, float], units: Mapping[str, str], slides: bool
 ) -> Iterator[Doubt]:
-    """Letters in kg by the longest link, or twice the longest letter: none is heavier than a cube of steel of it.
+    """Letters in kg by the longest link, or twice the longest letter: none is heavier than a cube of steel of it, and
+    by one another.
 
     A body that slides where its coordinate says is as wide as no letter tells.
     """
@@ -136,6 +137,9 @@ def _masses(
         if unit == "kg" and letters[name] > 0:
             what = f"parameters.{name} / ({'longest link' if links else 'twice the longest letter'})^3"
             yield from proportion("link_density", what, letters[name] / longest**3)
+    masses = [letters[name] for name, unit in units.items() if unit == "kg" and letters[name] > 0]
+    if masses:
+        yield from proportion("mass_spread", "heaviest mass / lightest", max(masses) / min(masses))
 
 
 def _stress(

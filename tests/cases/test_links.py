@@ -247,3 +247,10 @@ def test_inertias_and_dampers_are_held_against_their_neighbours():
     letters = {"I": 2.0, "J": 1e-6, "k": 8.0, "c": 1600.0}
     assert _values(by_links(SHAFT, letters, {}, {})) == {"inertia_spread": pytest.approx(2e6)}
     assert _values(by_sign(SHAFT, letters)) == {"damping_share": pytest.approx(200.0)}  # of critical, 2 sqrt(k I) = 8
+
+
+@pytest.mark.parametrize(("heavy", "codes"), [(299.0, []), (301.0, ["mass_spread"])])
+def test_masses_are_held_against_one_another(heavy, codes):
+    listing = {"coordinates": {"x": "m"}, "inputs": {}, "parameters": {"m_1": "kg", "m_2": "kg", "m_3": "kg"}}
+    letters = {"m_1": 2.0 * heavy, "m_2": 2.0, "m_3": 0.0}  # what is left away is no part
+    assert [d.code for d in by_links(listing, letters, {}, {})] == codes
