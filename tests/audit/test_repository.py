@@ -375,6 +375,14 @@ def test_a_slip_is_told_beside_one_neighbour_that_agrees(tmp_path):
     assert rows_of(tmp_path / "c", {"c.py": right.replace("(gamma - 1)", "(gamma + 1)").replace("p2 =", "q =")}) == []
 
 
+def test_a_step_of_an_iteration_is_no_derivative(tmp_path):
+    step = "def zero(a, phi):\n    x = a*phi\n    g = x**2 - 2*phi\n    dx = g/(2*x)\n    x = x - dx\n    return x\n"
+    assert not rows_of(tmp_path / "step", {"newton.py": step})
+    slope = "def place(a, phi):\n    dx = 3*a*phi\n    x = a*phi**2\n    return x\n"
+    (row,) = rows_of(tmp_path / "slope", {"slope.py": slope})
+    assert row["verdict"] == "derivative"
+
+
 def test_each_function_has_names_of_its_own(tmp_path):
     """Pressure and radii under one name here and another there: what agrees in both is no slip in either."""
     text = (

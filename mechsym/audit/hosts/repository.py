@@ -144,6 +144,8 @@ def _pair(claim: Claim, claims: Sequence[Claim]) -> Row | None:
     alike = [c for c in claims if c.scope == claim.scope and c.name == of]
     if len(alike) != 1 or alike[0].case != claim.case:
         return None
+    if claim.name in map(base, letters(alike[0].tree)):  # x = x - dx: a step
+        return None
     whole, slope = inlined(alike[0].tree, alike[0].values), inlined(claim.tree, claim.values)
     if whole is None or slope is None:
         return None
