@@ -149,6 +149,10 @@ def main() -> None:
         f"Projet-Bielle-DAM: at the dead centre {10 * swept / 2 + swept / 19:.2e} m^3 as written, {swept / 19:.2e} m^3"
     )
     print("Machine-Design-Code: {:.0f} MPa as written, {:.1f} MPa".format(*screw()))
+    transverse = np.arctan(np.tan(np.radians(20)) / np.cos(np.radians(20)))
+    written, right = np.tan(np.radians(transverse)), np.tan(transverse)
+    print(f"MEtoolbox: radial force {written:.4f} of the tangential one as written, {right:.3f}")
+    print(f"Slider-Crank-Analysis: at 100 degrees a sine of {np.sin(100):.3f} as written, {np.sin(np.radians(100)):.3f}")
 
 
 if __name__ == "__main__":

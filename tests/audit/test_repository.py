@@ -375,6 +375,27 @@ def test_a_slip_is_told_beside_one_neighbour_that_agrees(tmp_path):
     assert rows_of(tmp_path / "c", {"c.py": right.replace("(gamma - 1)", "(gamma + 1)").replace("p2 =", "q =")}) == []
 
 
+def test_an_angle_is_converted_once(tmp_path):
+    """As in a public toolbox of gears, whose radial force is a sixtieth of what it should be."""
+    text = "def forces(w, angle):\n    phi_t = radians(angle)\n    w_r = w*tan({})\n    return w_r\n"
+    assert not rows_of(tmp_path / "right", {"a.py": text.format("phi_t"), "b.py": text.format("radians(angle)")})
+    (row,) = rows_of(tmp_path / "wrong", {"a.py": text.format("radians(phi_t)")})
+    assert (row["verdict"], row["correction"], row["line"]) == ("misprint", "w*tan(phi_t)", 3)
+
+
+def test_an_angle_in_degrees_is_converted_everywhere(tmp_path):
+    """As in a public program of a slider crank, one sine of whose acceleration is taken of degrees."""
+    text = (
+        "def crank(r, l, theta, w):\n    x = r*cos(theta*pi/180) + l\n    y = r*sin(radians(theta))\n"
+        "    v = -r*w*sin({})\n    return x, y, v\n"
+    )
+    assert not rows_of(tmp_path / "right", {"a.py": text.format("theta*pi/180")})
+    own = "def crank(r, l, theta, w):\n    x = r*cos(theta) + l\n    theta = radians(theta)\n    y = r*sin(theta)\n"
+    assert not rows_of(tmp_path / "own", {"a.py": own})  # two meanings, one after the other
+    (row,) = rows_of(tmp_path / "wrong", {"a.py": text.format("theta")})
+    assert row["line"] == 4 and "is converted in line 2, 3" in row["note"] and "pi/180" in row["correction"]
+
+
 def test_a_step_of_an_iteration_is_no_derivative(tmp_path):
     step = "def zero(a, phi):\n    x = a*phi\n    g = x**2 - 2*phi\n    dx = g/(2*x)\n    x = x - dx\n    return x\n"
     assert not rows_of(tmp_path / "step", {"newton.py": step})

@@ -1,6 +1,5 @@
 """A repository audits itself: every formula of every program against what fits its names, and against itself."""
 
-import ast
 import hashlib
 import os
 import re
@@ -9,28 +8,23 @@ from dataclasses import field
 from functools import cache
 from pathlib import Path
 
+from mechsym.audit.hosts.itself import converted_here_and_not_there, converted_twice, slope_beside, slopes
 from mechsym.audit.hosts.neighbours import Neighbours
-from mechsym.audit.hosts.slips import asked_once, renamed_to
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.judge.lexicon import ANGLES, Lexicon, safe
-from mechsym.audit.judge.nearness import Probes, compared, of_units
-from mechsym.audit.read import tree as trees
-from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, inlined, longest, read_program
+from mechsym.audit.judge.lexicon import Lexicon
+from mechsym.audit.read.programs.claims import ENDS, Claim, Reading, base, longest, read_program
 from mechsym.audit.read.programs.statements import OF
-from mechsym.audit.read.reader import Formula
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
-from mechsym.audit.theory.record import Letter, Theory
-from mechsym.audit.theory.tape import TheoryTape, derivative
-from mechsym.audit.verdict import PASSED
 from mechsym.errors import BadInput
 from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record
 
 _LEFT_OUT = {*"node_modules venv __pycache__ build dist third_party site-packages".split()}  # and what a dot begins
 _MOST_FILES = 20_000
+_FOUND = ("misprint", "derivative", "wrong")
 
 
 @record
@@ -93,15 +87,15 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
     neighbours = Neighbours(reading.claims, vocabularies)
     for claim in reading.claims:
         outcome = neighbours.outcome(claim)
-        own = _pair(claim, claims)
+        own = slope_beside(claim, claims) or converted_twice(claim)
         matched += outcome is not None or own is not None
         judged += bool(outcome and outcome["verdict"] != "") or bool(own)
         for row in (outcome, own):
-            if row is not None and row["verdict"] in ("misprint", "derivative", "wrong"):
+            if row is not None and row["verdict"] in _FOUND:
                 rows.append(_placed(row, claim, shown))
-    for claim, row in _slopes(reading):
+    for claim, row in (*slopes(reading), *converted_here_and_not_there(reading.claims)):
         matched, judged = matched + 1, judged + 1
-        if row["verdict"] == "derivative":
+        if row["verdict"] in _FOUND:
             rows.append(_placed(row, claim, shown))
     return File(
         path=shown,
@@ -129,84 +123,3 @@ def _placed(row: Row, claim: Claim, shown: str) -> Row:
 
 def _shown(tree: Node) -> str:
     return re.sub(r"__[vw]\d+", "", to_python(tree)).replace(OF, ".")
-
-
-_SLOPE = re.compile(
-    r"^(?:d_?(?P<of>\w+?)_?d_?(?P<by>\w+)|(?:d_|d|deriv_|grad_)(?P<f>\w+)|(?P<g>\w+?)_?(?:prime|deriv|derivative))$"
-)
-
-
-def _pair(claim: Claim, claims: Sequence[Claim]) -> Row | None:
-    """What names like dV_dtheta and dV say: the derivative of V, which stands in the same scope, by an angle."""
-    match, names = _SLOPE.match(claim.name), {c.name for c in claims if c.scope == claim.scope}
-    of = claim.name[1:].lstrip("_") if claim.name[:1] == "d" else ""
-    of = of if of in names else (match["of"] or "") if match else ""
-    alike = [c for c in claims if c.scope == claim.scope and c.name == of]
-    if len(alike) != 1 or alike[0].case != claim.case:
-        return None
-    if claim.name in map(base, letters(alike[0].tree)):  # x = x - dx: a step
-        return None
-    whole, slope = inlined(alike[0].tree, alike[0].values), inlined(claim.tree, claim.values)
-    if whole is None or slope is None:
-        return None
-    wanted = (match["by"],) if match and match["of"] == of else ANGLES
-    by = [k for k in letters(whole) if base(k) in wanted]
-    if len(by) != 1 or not set(letters(slope)) <= set(letters(whole)):
-        return None
-    return _derived(whole, slope, by[0], claim.name, of)
-
-
-def _slopes(reading: Reading) -> Iterator[tuple[Claim, Row]]:
-    """Functions of one letter that are called the derivative of another function."""
-    for claim in reading.claims:
-        match = _SLOPE.match(claim.scope) if claim.name == "return" else None
-        of = (match["f"] or match["g"] or "") if match else ""
-        if of not in reading.functions or claim.scope not in reading.functions:
-            continue
-        (parameters, whole), (again, slope) = reading.functions[of], reading.functions[claim.scope]
-        if len(parameters) != 1 or len(again) != 1:
-            continue
-        named_alike = _with_name(slope, again[0], parameters[0])
-        if set(letters(named_alike)) <= set(letters(whole)) and parameters[0] in letters(named_alike):
-            row = _derived(whole, named_alike, parameters[0], claim.scope, of)
-            if row is not None:
-                yield claim, row
-
-
-def _with_name(tree: Node, old: str, new: str) -> Node:
-    return trees.substitute(tree, lambda n: renamed_to(n, {old: new}))
-
-
-def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | None:
-    free = {safe(k): Letter(unit="-", value=1.0) for k in letters(whole) if k != "pi"}
-    plain, slope = (
-        trees.substitute(t, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None)
-        for t in (whole, slope)
-    )
-    letter = safe(by)
-    if letter not in free:
-        return None
-    try:
-        rate = derivative(plain, lambda k: trees.number(int(k == letter)))
-        theory = Theory(
-            name="itself",
-            letters=free,
-            tape=TheoryTape({"of_itself": plain, "slope": rate}, free, "", declared=True),
-            results=("of_itself", "slope"),
-            data="the program itself",
-        )
-        trees.check(slope)
-        met = compared(Formula(tree=slope), Probes(theory), "slope")
-    except (BadInput, RecursionError):
-        return None
-    if met is None or of_units(met.ratio):
-        return None if met is None else {"verdict": "agrees", "claim": f"derivative of {of}"}
-    row, _ = asked_once(to_python(slope), theory, "slope", {}, ())
-    if row["verdict"] in (*PASSED, "untestable"):
-        return row | {"verdict": "agrees"}
-    why = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"
-    return row | {
-        "verdict": "derivative",
-        "claim": f"the derivative of {of} by {base(by)}",
-        "note": f"{why}; {row['note']}",
-    }

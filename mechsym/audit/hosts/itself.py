@@ -1,0 +1,179 @@
+"""What a program says of itself, without a theory: slopes by their names, and angles that are converted twice."""
+
+import ast
+import functools
+import math
+import re
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from mechsym.audit.hosts.slips import asked_once, renamed_to
+from mechsym.audit.judge.lexicon import ANGLES, safe
+from mechsym.audit.judge.nearness import Probes, compared, of_units
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.algebra import FLOATS, evaluate
+from mechsym.audit.read.programs.claims import Claim, Reading, base, inlined
+from mechsym.audit.read.reader import Formula
+from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.repair.rules import CIRCULAR
+from mechsym.audit.row import Row
+from mechsym.audit.theory.record import Letter, Theory
+from mechsym.audit.theory.tape import TheoryTape, derivative
+from mechsym.audit.verdict import PASSED
+from mechsym.errors import BadInput
+
+_SLOPE = re.compile(
+    r"^(?:d_?(?P<of>\w+?)_?d_?(?P<by>\w+)|(?:d_|d|deriv_|grad_)(?P<f>\w+)|(?P<g>\w+?)_?(?:prime|deriv|derivative))$"
+)
+
+
+def slope_beside(claim: Claim, claims: Sequence[Claim]) -> Row | None:
+    """What names like dV_dtheta and dV say: the derivative of V, which stands in the same scope, by an angle."""
+    match, names = _SLOPE.match(claim.name), {c.name for c in claims if c.scope == claim.scope}
+    of = claim.name[1:].lstrip("_") if claim.name[:1] == "d" else ""
+    of = of if of in names else (match["of"] or "") if match else ""
+    alike = [c for c in claims if c.scope == claim.scope and c.name == of]
+    if len(alike) != 1 or alike[0].case != claim.case:
+        return None
+    if claim.name in map(base, letters(alike[0].tree)):  # x = x - dx: a step
+        return None
+    whole, slope = inlined(alike[0].tree, alike[0].values), inlined(claim.tree, claim.values)
+    if whole is None or slope is None:
+        return None
+    wanted = (match["by"],) if match and match["of"] == of else ANGLES
+    by = [k for k in letters(whole) if base(k) in wanted]
+    if len(by) != 1 or not set(letters(slope)) <= set(letters(whole)):
+        return None
+    return _derived(whole, slope, by[0], claim.name, of)
+
+
+def slopes(reading: Reading) -> Iterator[tuple[Claim, Row]]:
+    """Functions of one letter that are called the derivative of another function."""
+    for claim in reading.claims:
+        match = _SLOPE.match(claim.scope) if claim.name == "return" else None
+        of = (match["f"] or match["g"] or "") if match else ""
+        if of not in reading.functions or claim.scope not in reading.functions:
+            continue
+        (parameters, whole), (again, slope) = reading.functions[of], reading.functions[claim.scope]
+        if len(parameters) != 1 or len(again) != 1:
+            continue
+        named_alike = _with_name(slope, again[0], parameters[0])
+        if set(letters(named_alike)) <= set(letters(whole)) and parameters[0] in letters(named_alike):
+            row = _derived(whole, named_alike, parameters[0], claim.scope, of)
+            if row is not None:
+                yield claim, row
+
+
+def _with_name(tree: Node, old: str, new: str) -> Node:
+    return trees.substitute(tree, lambda n: renamed_to(n, {old: new}))
+
+
+def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | None:
+    if by not in letters(whole):
+        return None
+    try:
+        rate = derivative(_safe(whole), lambda k: trees.number(int(k == safe(by))))
+        theory = _itself(whole, of_itself=_safe(whole), slope=rate)
+        printed = _safe(slope)
+        trees.check(printed)
+        met = compared(Formula(tree=printed), Probes(theory), "slope")
+    except (BadInput, RecursionError):
+        return None
+    if met is None or of_units(met.ratio):
+        return None if met is None else {"verdict": "agrees", "claim": f"derivative of {of}"}
+    row, _ = asked_once(to_python(printed), theory, "slope", {}, ())
+    if row["verdict"] in (*PASSED, "untestable"):
+        return row | {"verdict": "agrees"}
+    why = f"{called} is called the derivative of {of} by {base(by)}, and is not; one of the two is wrong"
+    return row | {
+        "verdict": "derivative",
+        "claim": f"the derivative of {of} by {base(by)}",
+        "note": f"{why}; {row['note']}",
+    }
+
+
+_TURN = math.pi / 180
+
+
+def converted_twice(claim: Claim) -> Row | None:
+    """A sine, cosine or tangent whose angle is turned from degrees to radians, and has been so before, or back."""
+    for path, node in trees.walk(claim.tree):
+        argument = trees.argument_of(node, *CIRCULAR)
+        whole = None if argument is None else inlined(argument, claim.values)
+        if (
+            argument is None
+            or whole is None
+            or not letters(argument)
+            or trees.letters(argument) == trees.letters(whole)
+        ):
+            continue
+        for factor in (_TURN, 1 / _TURN):
+            if not _is_times(whole, factor**2) or not _is_times(argument, factor):
+                continue
+            (angle,) = (k for k in letters(argument) if k != "pi")
+            right = trees.replace(claim.tree, (*path, "argument"), trees.name(angle))
+            row, _ = asked_once(to_python(_safe(claim.tree)), _itself(right, right=_safe(right)), "right", {}, ())
+            if row["verdict"] in ("misprint", "wrong"):
+                why = f"{base(angle)} has been converted before"
+                return row | {"claim": "what its own angles give", "note": f"{why}; {row['note']}"}
+    return None
+
+
+def converted_here_and_not_there(claims: Sequence[Claim]) -> Iterator[tuple[Claim, Row]]:
+    """Formulas with the bare sine of a letter whose degrees are turned to radians in most others of its scope."""
+    used: dict[tuple[str, str], tuple[list[Claim], list[Claim]]] = {}
+    for claim in claims:
+        for letter, plain in {use for _, node in trees.walk(claim.tree) for use in _angle_of(node)}:
+            used.setdefault((claim.scope, letter), ([], []))[plain].append(claim)
+    for (_, letter), (converted, bare) in used.items():
+        if len(converted) <= len(bare) or any(claim in converted for claim in bare):
+            continue
+        for claim in bare:
+            right = trees.substitute(claim.tree, functools.partial(_turned, letter))
+            row, _ = asked_once(to_python(_safe(claim.tree)), _itself(right, right=_safe(right)), "right", {}, ())
+            if row["verdict"] in ("misprint", "wrong"):
+                lines = ", ".join(str(other.line) for other in converted[:3])
+                why = f"{base(letter)} is in degrees, and is converted in line {lines}"
+                yield claim, row | {"claim": "what its own angles give", "note": f"{why}; {row['note']}"}
+
+
+def _angle_of(node: Node) -> Iterator[tuple[str, bool]]:
+    """The letter whose sine, cosine or tangent a node is, and whether it stands there bare."""
+    argument = trees.argument_of(node, *CIRCULAR)
+    if isinstance(argument, ast.Name) and argument.id != "pi":
+        yield argument.id, True
+    elif argument is not None and _is_times(argument, _TURN):
+        yield next(k for k in letters(argument) if k != "pi"), False
+
+
+def _turned(letter: str, node: Node) -> Node | None:
+    argument = trees.argument_of(node, *CIRCULAR)
+    if argument is None or not isinstance(argument, ast.Name) or argument.id != letter:
+        return None
+    radians = trees.binary(ast.Div, trees.binary(ast.Mult, argument, trees.name("pi")), trees.number(180))
+    return trees.call(str(trees.function_of(node)), radians)
+
+
+def _is_times(tree: Node, factor: float) -> bool:
+    """Whether a formula of one letter is that letter times a factor."""
+    own = [k for k in letters(tree) if k != "pi"]
+    if len(own) != 1:
+        return False
+    with np.errstate(all="ignore"):
+        values = [float(evaluate(tree, {own[0]: x, "pi": math.pi}, FLOATS)) for x in (1.0, 2.0)]
+    return bool(np.allclose(values, [factor, 2 * factor], rtol=1e-6, atol=0))
+
+
+def _itself(tree: Node, **quantities: Node) -> Theory:
+    """A theory of a program's own formulas, whose letters are all free."""
+    free = {safe(k): Letter(unit="-", value=1.0) for k in letters(tree) if k != "pi"}
+    tape = TheoryTape(quantities, free, "", declared=True)
+    return Theory(name="itself", letters=free, tape=tape, results=tuple(quantities), data="the program itself")
+
+
+def _safe(tree: Node) -> Node:
+    return trees.substitute(
+        tree, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
+    )
