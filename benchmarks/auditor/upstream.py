@@ -152,7 +152,8 @@ def main() -> None:
     transverse = np.arctan(np.tan(np.radians(20)) / np.cos(np.radians(20)))
     written, right = np.tan(np.radians(transverse)), np.tan(transverse)
     print(f"MEtoolbox: radial force {written:.4f} of the tangential one as written, {right:.3f}")
-    print(f"Slider-Crank-Analysis: at 100 degrees a sine of {np.sin(100):.3f} as written, {np.sin(np.radians(100)):.3f}")
+    sines = np.sin(100), np.sin(np.radians(100))
+    print("Slider-Crank-Analysis: at 100 degrees a sine of {:.3f} as written, {:.3f}".format(*sines))
 
 
 if __name__ == "__main__":

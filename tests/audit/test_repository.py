@@ -394,6 +394,8 @@ def test_an_angle_in_degrees_is_converted_everywhere(tmp_path):
     assert not rows_of(tmp_path / "own", {"a.py": own})  # two meanings, one after the other
     (row,) = rows_of(tmp_path / "wrong", {"a.py": text.format("theta")})
     assert row["line"] == 4 and "is converted in line 2, 3" in row["note"] and "pi/180" in row["correction"]
+    (row,) = rows_of(tmp_path / "sum", {"a.py": text.format("2*theta")})
+    assert row["line"] == 4
 
 
 def test_a_step_of_an_iteration_is_no_derivative(tmp_path):

@@ -95,6 +95,7 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
 
 
 _TURN = math.pi / 180
+_HALVES = np.arange(1.0, 9.0)[:, None]  # of an angle: of which sines are taken
 
 
 def converted_twice(claim: Claim) -> Row | None:
@@ -140,17 +141,28 @@ def converted_here_and_not_there(claims: Sequence[Claim]) -> Iterator[tuple[Clai
 
 
 def _angle_of(node: Node) -> Iterator[tuple[str, bool]]:
-    """The letter whose sine, cosine or tangent a node is, and whether it stands there bare."""
+    """The letters whose sum has a node as its sine, cosine or tangent, and whether they stand there bare."""
     argument = trees.argument_of(node, *CIRCULAR)
-    if isinstance(argument, ast.Name) and argument.id != "pi":
-        yield argument.id, True
-    elif argument is not None and _is_times(argument, _TURN):
-        yield next(k for k in letters(argument) if k != "pi"), False
+    factors = _factors(argument) if argument is not None else {}
+    for bare, turn in ((True, 1.0), (False, _TURN)):
+        if factors and bool(np.isclose(2 * np.abs([*factors.values()]) / turn, _HALVES, rtol=1e-5).any(axis=0).all()):
+            yield from ((letter, bare) for letter in factors)
+
+
+def _factors(tree: Node) -> dict[str, float]:
+    """Factors of the letters of a sum of multiples of them; none where it is anything else."""
+    own = [k for k in letters(tree) if k != "pi"]
+    ones = np.vstack([np.zeros(len(own)), np.eye(len(own)), np.ones(len(own))])
+    with np.errstate(all="ignore"):
+        rows = evaluate(tree, {"pi": math.pi, **dict(zip(own, ones.T, strict=True))}, FLOATS)
+    nothing, *factors, together = np.broadcast_to(np.asarray(rows, dtype=float), (len(ones),)).tolist()
+    linear = nothing == 0 and math.isclose(sum(factors), together, rel_tol=1e-9, abs_tol=1e-12)
+    return dict(zip(own, factors, strict=True)) if linear else {}
 
 
 def _turned(letter: str, node: Node) -> Node | None:
     argument = trees.argument_of(node, *CIRCULAR)
-    if argument is None or not isinstance(argument, ast.Name) or argument.id != letter:
+    if argument is None or (letter, True) not in _angle_of(node):
         return None
     radians = trees.binary(ast.Div, trees.binary(ast.Mult, argument, trees.name("pi")), trees.number(180))
     return trees.call(str(trees.function_of(node)), radians)
@@ -168,7 +180,8 @@ def _is_times(tree: Node, factor: float) -> bool:
 
 def _itself(tree: Node, **quantities: Node) -> Theory:
     """A theory of a program's own formulas, whose letters are all free."""
-    free = {safe(k): Letter(unit="-", value=1.0) for k in letters(tree) if k != "pi"}
+    # no two alike, so that none cancels another where the data are looked at
+    free = {safe(k): Letter(unit="-", value=1 + 0.37 * i) for i, k in enumerate(letters(tree)) if k != "pi"}
     tape = TheoryTape(quantities, free, "", declared=True)
     return Theory(name="itself", letters=free, tape=tape, results=tuple(quantities), data="the program itself")
 
