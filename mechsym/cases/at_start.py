@@ -13,13 +13,12 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cases.links import PLACES, STEP
 from mechsym.mechanisms import own
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism, form_of
 from mechsym.plausible import Doubt, proportion
 
-_ANGLES = np.linspace(0.0, math.tau, 13)[None, :-1]  # at which masses that an angle moves are looked at [rad]
-_STEP = 1e-4  # of a slope
 _WORDS = {"pi": np.pi, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos}  # of a short formula
 _SEEN = 0.2  # of a period: five results show a vibration
 
@@ -48,8 +47,8 @@ def _stretched(
     yield from proportion(code, f"stretch of spring {stiffness} in the run", float(farthest))
     start, rates = {**values, **{q: columns[q][0] for q in mechanism.coordinates}}, []
     for q in mechanism.coordinates:
-        before, behind = (float(_number(stretch, {**start, q: start[q] + step})) for step in (-_STEP, _STEP))
-        rates.append((behind - before) / (2 * _STEP) * float(columns[f"{q}d"][0]))
+        before, behind = (float(_number(stretch, {**start, q: start[q] + step})) for step in (-STEP, STEP))
+        rates.append((behind - before) / (2 * STEP) * float(columns[f"{q}d"][0]))
     if np.isfinite(rates).all() and np.count_nonzero(rates) > 1:
         what = f"speed at which spring {stiffness} is stretched at the start / that of its faster end"
         yield from proportion("start_speeds", what, abs(sum(rates)) / float(np.max(np.abs(rates))))
@@ -92,14 +91,14 @@ def _turning(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Itera
     for place, q in enumerate(mechanism.coordinates):
         if mechanism.units.get(q, "rad") != "rad":
             continue
-        all_, moved = (_inertia(one, place, {**at, q: _ANGLES}) for one in (mechanism, bare))
+        all_, moved = (_inertia(one, place, {**at, q: np.array([PLACES])}) for one in (mechanism, bare))
         if (most := float(moved.max())) > 0:
             what = f"inertia that turns with {q} / mass that it moves * its lever^2"
             yield from proportion("turning_share", what, float((all_ - moved).max()) / most)
 
 
 def _inertia(mechanism: Mechanism, place: int, at: Mapping[str, Any]) -> np.ndarray:
-    """A diagonal entry of the mass matrix at each of `_ANGLES`; what `at` does not name is 0 [kg*m^2]."""
+    """A diagonal entry of the mass matrix at each of `PLACES`; what `at` does not name is 0 [kg*m^2]."""
     dynamics, n = mechanism.functions["dynamics"], len(mechanism.coordinates)
     matrices = np.asarray(dynamics(*(at.get(name, 0.0) for name in dynamics.name_in()))[0])
     return matrices.reshape(n, -1, n)[place, :, place]

@@ -31,7 +31,7 @@ _WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: f
 _OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its joints, by its length [-]
 _CARRIES = 10.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
 
-_STEP, _PLACES = 1e-4, tuple(k * math.pi / 6 for k in range(12))  # of a slope, and where it is taken [rad]
+STEP, PLACES = 1e-4, tuple(k * math.pi / 6 for k in range(12))  # of a slope, and where it is taken [rad]
 
 _WORDS = {name: getattr(math, name) for name in ("pi", "sqrt", "sin", "cos", "tan", "atan", "atan2", "exp", "log")}
 
@@ -96,11 +96,11 @@ def _carried(listing: "Listing", letters: Mapping[str, float], speeds: Mapping[s
     angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]
     for name, place in listing.get("bodies", {}).items():
         fastest = 0.0
-        for q, at in itertools.product([q for q in angles if q in speeds], _PLACES):
+        for q, at in itertools.product([q for q in angles if q in speeds], PLACES):
             values = {**letters, **start, **dict.fromkeys(angles, at)}
             with contextlib.suppress(ValueError, ZeroDivisionError):  # a root that has no value there
-                moved = math.dist(*(_point(place, {**values, q: at + step}) for step in (-_STEP, _STEP)))
-                fastest = max(fastest, moved / (2 * _STEP) * abs(speeds[q]))
+                moved = math.dist(*(_point(place, {**values, q: at + step}) for step in (-STEP, STEP)))
+                fastest = max(fastest, moved / (2 * STEP) * abs(speeds[q]))
         yield from proportion("point_speed", f"speed of {name}", fastest)
 
 

@@ -92,7 +92,7 @@ def _connected(path: Path) -> sqlite3.Connection:
 
 def _set_aside(connection: sqlite3.Connection, path: Path) -> Path | None:
     """Close the store of another sweep and give it a name of its own; nothing is lost of hours of work."""
-    (count,) = connection.execute("select count(*) from chunk").fetchone()
+    (count,) = connection.execute("select count(*) from point").fetchone()
     belongs_to = repr((_about(connection, "key"), _read(connection)))
     aside = path.with_stem(f"{path.stem}-{hashlib.sha256(belongs_to.encode()).hexdigest()[:8]}")
     connection.execute("delete from about where name = 'writer'")

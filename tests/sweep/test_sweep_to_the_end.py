@@ -85,6 +85,20 @@ def test_another_sweep_begins_anew(tmp_path, other):
     assert sweep(Plan(**given), means=Means(folder=tmp_path)).kept == 0
 
 
+def test_points_of_an_older_version_are_set_aside(tmp_path):
+    """Which kept a row a point; whoever goes back to it finds them."""
+    with contextlib.closing(sqlite3.connect(tmp_path / store.NAME)) as connection, connection:
+        connection.execute("create table about (name text primary key, value text not null)")
+        connection.execute("create table input (path text primary key, digest text not null)")
+        connection.execute("create table point (i integer primary key, row text, seconds real, host text)")
+        connection.execute("insert into about values ('key', 'older')")
+        connection.execute("insert into point values (0, '{}', 1.0, 'here')")
+    done = sweep(PLAN, means=Means(folder=tmp_path))
+    assert done.kept == 0 and len(rows(tmp_path)) == len(done.outcomes)
+    with contextlib.closing(sqlite3.connect(done.aside)) as connection:
+        assert connection.execute("select row from point").fetchall() == [("{}",)]
+
+
 def test_the_points_of_another_sweep_are_set_aside_and_found_again(tmp_path):
     first, other = PLAN, Plan(case=PLAN.case, over=("spring.p0=3..8 MPa:6",), analysis="cycle")
     whole = sweep(first, means=Means(folder=tmp_path))

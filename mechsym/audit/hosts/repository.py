@@ -104,8 +104,16 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
         formulas=len(claims),
         matched=matched,
         judged=judged,
-        rows=list({row["fingerprint"]: row for row in rows}.values()),
+        rows=_once(rows),
     )
+
+
+def _once(rows: Sequence[Row]) -> list[Row]:
+    """The first of the findings of each formula: one slip is told once."""
+    first: dict[tuple[str, str, str], Row] = {}
+    for row in rows:
+        first.setdefault((row["scope"], row["equation"], row["printed"]), row)
+    return list(first.values())
 
 
 def _placed(row: Row, claim: Claim, shown: str) -> Row:
