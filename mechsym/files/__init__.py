@@ -270,35 +270,63 @@ def write_netcdf(path: Path, data: "xarray.Dataset") -> Path:
     except ImportError as error:
         raise without_netcdf(error) from None
 
+    # words are kept by reference: sixteen bytes each, and their own place
+    variables = data.variables.values()
+    size = sum(v.nbytes + 40 * v.size * (v.dtype.kind not in "biuf") for v in variables) + _BESIDE
+
     def write(part: Path) -> None:
-        with _Patient(part, "r+b") as disk:
-            try:
-                with h5netcdf.File(disk, "w") as file:
-                    data.dump_to_store(H5NetCDFStore(file))
-            except Exception:
-                if disk.error is None:  # else HDF5 has met what is not there
-                    raise
-            if disk.error:
-                raise disk.error
+        with _Reserved(part, size) as disk, h5netcdf.File(disk, "w") as file:
+            data.dump_to_store(H5NetCDFStore(file))
 
     return write_with(path, write)
 
 
-class _Patient(io.FileIO):
-    """A file that never fails while it is written: HDF5 would go on without a word, or take the process with it."""
+_BESIDE = 1_000_000  # what a netCDF file has beside its numbers [byte]
 
-    error: OSError | None = None  #: What the disk said first
+
+class _Reserved(io.FileIO):
+    """A file whose place on the disk is taken before it is written, and that looks as long as what is written.
+
+    Where the disk is full later HDF5 goes on without a word, or takes the process with it.
+    """
+
+    def __init__(self, path: Path, size: int) -> None:
+        super().__init__(path, "r+b")
+        self._end = 0
+        try:
+            if hasattr(os, "posix_fallocate"):
+                os.posix_fallocate(self.fileno(), 0, size)
+        except OSError:
+            super().close()
+            raise
+
+    def seek(self, offset: int, whence: int = os.SEEK_SET) -> int:
+        """To a place, from the end of what is written."""
+        return super().seek(offset + self._end) if whence == os.SEEK_END else super().seek(offset, whence)
+
+    def readinto(self, buffer: Any) -> int | None:
+        """Nothing beyond what is written."""
+        return super().readinto(memoryview(buffer).cast("B")[: max(0, self._end - self.tell())])
 
     def write(self, data: Any) -> int:
-        """Write all of it, or keep the error."""
+        """All of it."""
         left = memoryview(data).cast("B")
         size = len(left)
-        try:
-            while len(left) and not self.error:
-                left = left[super().write(left) :]
-        except OSError as error:
-            self.error = error
+        while len(left):
+            left = left[super().write(left) :]
+        self._end = max(self._end, self.tell())
         return size
+
+    def truncate(self, size: int | None = None) -> int:
+        """The end of what is written."""
+        self._end = self.tell() if size is None else size
+        return self._end
+
+    def close(self) -> None:
+        """Give back what was not needed."""
+        if not self.closed:
+            super().truncate(self._end)
+        super().close()
 
 
 def without_netcdf(error: ImportError) -> MissingExtra:
