@@ -1,4 +1,4 @@
-r"""Doubts of a run of a user's own mechanism by its equations at the start: its vibrations, its push, what turns in it.
+r"""Doubts of a run of a user's own mechanism by its equations: vibrations and push at its start, stretches, inertias.
 
 .. math:: \ddot q = M^{-1}(Q - b), \qquad \lambda\left(\begin{smallmatrix} 0 & 1 \\ \partial\ddot q/\partial q &
     \partial\ddot q/\partial\dot q \end{smallmatrix}\right) = -\delta \pm \mathrm{i}\omega, \qquad
@@ -24,7 +24,10 @@ _SEEN = 0.2  # of a period: five results show a vibration
 
 
 def of_start(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
-    """columns: of the run, by coordinate and velocity; what is not there is 0 [SI]."""
+    """Doubts of a run; none of a mechanism that is built in, or whose loops constraints hold.
+
+    columns: of the run, by coordinate and velocity [SI].
+    """
     if not own.is_file(case.mechanism) or mechanism.dependents:
         return
     at = {name: float(column[0]) for name, column in columns.items()}

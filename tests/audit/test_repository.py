@@ -5,27 +5,16 @@ import json
 import random
 
 import pytest
+from audited import NONE, rows_of
 from click.testing import CliRunner
 
 from mechsym.audit.hosts import findings as told
-from mechsym.audit.hosts.findings import counts, of_files
+from mechsym.audit.hosts.findings import counts
 from mechsym.audit.hosts.repository import _vocabularies, audited, programs
-from mechsym.audit.judge.asked import Asked
 from mechsym.audit.read.programs.claims import read_program
 from mechsym.audit.read.spelling import to_python
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
-
-NONE = Asked(text="", against="")
-
-
-def rows_of(tmp_path, files):
-    for name, text in files.items():
-        place = tmp_path / name
-        place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return of_files(list(audited(tmp_path, NONE, programs(tmp_path))))
-
 
 # a piston's place with a sign under the root, in the manner of each language; {sign} is - where it is right
 PLACES = {
@@ -373,37 +362,6 @@ def test_a_slip_is_told_beside_one_neighbour_that_agrees(tmp_path):
     (row,) = rows_of(tmp_path / "b", {"b.py": right.replace("(gamma - 1)", "(gamma + 1)")})
     assert (row["verdict"], row["claim"]) == ("misprint", "otto_cycle.T_2")
     assert rows_of(tmp_path / "c", {"c.py": right.replace("(gamma - 1)", "(gamma + 1)").replace("p2 =", "q =")}) == []
-
-
-def test_an_angle_is_converted_once(tmp_path):
-    """As in a public toolbox of gears, whose radial force is a sixtieth of what it should be."""
-    text = "def forces(w, angle):\n    phi_t = radians(angle)\n    w_r = w*tan({})\n    return w_r\n"
-    assert not rows_of(tmp_path / "right", {"a.py": text.format("phi_t"), "b.py": text.format("radians(angle)")})
-    (row,) = rows_of(tmp_path / "wrong", {"a.py": text.format("radians(phi_t)")})
-    assert (row["verdict"], row["correction"], row["line"]) == ("misprint", "w*tan(phi_t)", 3)
-
-
-def test_an_angle_in_degrees_is_converted_everywhere(tmp_path):
-    """As in a public program of a slider crank, one sine of whose acceleration is taken of degrees."""
-    text = (
-        "def crank(r, l, theta, w):\n    x = r*cos(theta*pi/180) + l\n    y = r*sin(radians(theta))\n"
-        "    v = -r*w*sin({})\n    return x, y, v\n"
-    )
-    assert not rows_of(tmp_path / "right", {"a.py": text.format("theta*pi/180")})
-    own = "def crank(r, l, theta, w):\n    x = r*cos(theta) + l\n    theta = radians(theta)\n    y = r*sin(theta)\n"
-    assert not rows_of(tmp_path / "own", {"a.py": own})  # two meanings, one after the other
-    (row,) = rows_of(tmp_path / "wrong", {"a.py": text.format("theta")})
-    assert row["line"] == 4 and "is converted in line 2, 3" in row["note"] and "pi/180" in row["correction"]
-    (row,) = rows_of(tmp_path / "sum", {"a.py": text.format("2*theta")})
-    assert row["line"] == 4
-
-
-def test_a_step_of_an_iteration_is_no_derivative(tmp_path):
-    step = "def zero(a, phi):\n    x = a*phi\n    g = x**2 - 2*phi\n    dx = g/(2*x)\n    x = x - dx\n    return x\n"
-    assert not rows_of(tmp_path / "step", {"newton.py": step})
-    slope = "def place(a, phi):\n    dx = 3*a*phi\n    x = a*phi**2\n    return x\n"
-    (row,) = rows_of(tmp_path / "slope", {"slope.py": slope})
-    assert row["verdict"] == "derivative"
 
 
 def test_each_function_has_names_of_its_own(tmp_path):

@@ -1,10 +1,12 @@
-"""What a program says of itself, without a theory: slopes by their names, and angles that are converted twice."""
+"""What a program says of itself, without a theory: slopes by their names, and angles that are converted twice, or in
+most places and in another not.
+"""
 
 import ast
 import functools
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -103,41 +105,39 @@ def converted_twice(claim: Claim) -> Row | None:
     for path, node in trees.walk(claim.tree):
         argument = trees.argument_of(node, *CIRCULAR)
         whole = None if argument is None else inlined(argument, claim.values)
-        if (
-            argument is None
-            or whole is None
-            or not letters(argument)
-            or trees.letters(argument) == trees.letters(whole)
-        ):
+        if argument is None or whole is None or letters(argument) == letters(whole):
             continue
-        for factor in (_TURN, 1 / _TURN):
-            if not _is_times(whole, factor**2) or not _is_times(argument, factor):
-                continue
-            (angle,) = (k for k in letters(argument) if k != "pi")
-            right = trees.replace(claim.tree, (*path, "argument"), trees.name(angle))
-            row, _ = asked_once(to_python(_safe(claim.tree)), _itself(right, right=_safe(right)), "right", {}, ())
-            if row["verdict"] in ("misprint", "wrong"):
-                why = f"{base(angle)} has been converted before"
-                return row | {"claim": "what its own angles give", "note": f"{why}; {row['note']}"}
+        here, in_all = _factors(argument), _factors(whole)
+        for turn in (_TURN, 1 / _TURN):
+            if _is_once(here, turn) and _is_once(in_all, turn**2):
+                (angle,) = here
+                right = trees.replace(claim.tree, (*path, "argument"), trees.name(angle))
+                return _otherwise(claim, right, f"{base(angle)} has been converted before")
     return None
 
 
 def converted_here_and_not_there(claims: Sequence[Claim]) -> Iterator[tuple[Claim, Row]]:
-    """Formulas with the bare sine of a letter whose degrees are turned to radians in most others of its scope."""
-    used: dict[tuple[str, str], tuple[list[Claim], list[Claim]]] = {}
+    """Formulas with the bare sine of a letter whose degrees are turned to radians in most others of its branch."""
+    used: dict[tuple[str, int, str], tuple[list[Claim], list[Claim]]] = {}
     for claim in claims:
         for letter, plain in {use for _, node in trees.walk(claim.tree) for use in _angle_of(node)}:
-            used.setdefault((claim.scope, letter), ([], []))[plain].append(claim)
-    for (_, letter), (converted, bare) in used.items():
+            used.setdefault((claim.scope, claim.case, letter), ([], []))[plain].append(claim)
+    for (_, _, letter), (converted, bare) in used.items():
         if len(converted) <= len(bare) or any(claim in converted for claim in bare):
             continue
+        lines = ", ".join(str(claim.line) for claim in converted[:3])
         for claim in bare:
             right = trees.substitute(claim.tree, functools.partial(_turned, letter))
-            row, _ = asked_once(to_python(_safe(claim.tree)), _itself(right, right=_safe(right)), "right", {}, ())
-            if row["verdict"] in ("misprint", "wrong"):
-                lines = ", ".join(str(other.line) for other in converted[:3])
-                why = f"{base(letter)} is in degrees, and is converted in line {lines}"
-                yield claim, row | {"claim": "what its own angles give", "note": f"{why}; {row['note']}"}
+            row = _otherwise(claim, right, f"{base(letter)} is in degrees, and is converted in line {lines}")
+            if row is not None:
+                yield claim, row
+
+
+def _otherwise(claim: Claim, right: Node, why: str) -> Row | None:
+    """The row of a formula that should be another one; None where that makes no difference."""
+    row, _ = asked_once(to_python(_safe(claim.tree)), _itself(right, right=_safe(right)), "right", {}, ())
+    found = row["verdict"] in ("misprint", "wrong")
+    return row | {"claim": "what its own angles give", "note": f"{why}; {row['note']}"} if found else None
 
 
 def _angle_of(node: Node) -> Iterator[tuple[str, bool]]:
@@ -168,14 +168,9 @@ def _turned(letter: str, node: Node) -> Node | None:
     return trees.call(str(trees.function_of(node)), radians)
 
 
-def _is_times(tree: Node, factor: float) -> bool:
-    """Whether a formula of one letter is that letter times a factor."""
-    own = [k for k in letters(tree) if k != "pi"]
-    if len(own) != 1:
-        return False
-    with np.errstate(all="ignore"):
-        values = [float(evaluate(tree, {own[0]: x, "pi": math.pi}, FLOATS)) for x in (1.0, 2.0)]
-    return bool(np.allclose(values, [factor, 2 * factor], rtol=1e-6, atol=0))
+def _is_once(factors: Mapping[str, float], factor: float) -> bool:
+    """Whether factors are of one letter alone, and that one."""
+    return len(factors) == 1 and all(math.isclose(own, factor, rel_tol=1e-6) for own in factors.values())
 
 
 def _itself(tree: Node, **quantities: Node) -> Theory:

@@ -1,4 +1,4 @@
-"""An eccentric press: flywheel on a belt that gives way, crank, rod and ram, with its blank as a spring.
+"""An eccentric press: flywheel on a belt that gives way, crank, rod and ram, which a blank holds back.
 
 motor I_m, psi -- belt k, c (ratio i) -- crank I_f, phi, r -- rod l -- ram m_s
 """

@@ -33,7 +33,7 @@ class Claim:
     tree: Node
     line: int
     about: str  #: What a comment or a description says of it
-    case: int  #: Branches that it lies in
+    case: int  #: Number of the branch that it lies in, 0 in none
     values: Mapping[str, Node] = field(default_factory=dict)
     abouts: Mapping[str, str] = field(default_factory=dict)
     parameters: Sequence[str] = ()
@@ -185,6 +185,7 @@ class _Build:
         self.values: dict[str, Node] = {}
         self.claims: list[Claim] = []
         self.counts: dict[str, int] = {}
+        self.arms = 0
         self.on_line = Counter(let.line for let in _lets(scope.body))
 
     def run(self, body: Sequence[Statement], case: int) -> None:
@@ -198,7 +199,8 @@ class _Build:
                 before = dict(self.names)
                 for arm in statement.arms:
                     self.names = dict(before)
-                    self.run(arm, case + 1)
+                    self.arms += 1
+                    self.run(arm, self.arms)
                 self.names = before
                 lets = [let for arm in statement.arms for let in _lets(arm)]
                 again = {*before, *self.scope.parameters, *(let.name for let in lets if _uses_itself(let))}
