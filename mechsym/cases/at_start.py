@@ -5,6 +5,7 @@ r"""Doubts of a run of a user's own mechanism by its equations: vibrations and p
     \frac{M_{qq} - M_{qq}|_{I=0}}{M_{qq}|_{I=0}}
 """
 
+import dataclasses
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -13,14 +14,15 @@ import casadi as ca
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cases.links import PLACES, STEP
+from mechsym.cases.laws import value
+from mechsym.cases.links import PLACES, STEP, value_of
 from mechsym.mechanisms import own
-from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.plan import plan_of, roles_of
 from mechsym.mechanisms.record import Mechanism, form_of
 from mechsym.plausible import Doubt, proportion
 
-_WORDS = {"pi": np.pi, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos}  # of a short formula
 _SEEN = 0.2  # of a period: five results show a vibration
+_STATES = 200  # of a run, at which forces are compared
 
 
 def of_start(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
@@ -36,7 +38,36 @@ def of_start(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]
         yield from _swinging(case, mechanism, at)
     for spring in listing.get("stretches", ()):
         yield from _stretched(spring, listing["parameters"], mechanism, columns)
-    yield from _turning(case, mechanism, at)
+    yield from of_inertia(case, mechanism, at)
+    yield from _acting(case, mechanism, columns)
+
+
+def _acting(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
+    r"""What each input and the drive do in a run beside all else that acts, along the coordinate where they do most.
+
+    .. math:: \max_t |Q(u) - Q(0)| / \max_t |Q(0) - b|
+    """
+    acts = dataclasses.asdict(case.need("inputs")) if "inputs" in case.sections else {}
+    rotors = roles_of(case.mechanism).rotors
+    if rotors and rotors[0].drive:
+        acts[rotors[0].drive] = acts.get(rotors[0].drive, 0.0) + value(case.sections, "drive", "torque")
+    acts = {name: acting for name, acting in acts.items() if acting and isinstance(acting, float)}
+    dynamics, last = mechanism.functions["dynamics"], len(columns[mechanism.coordinates[0]]) - 1
+    some = np.unique(np.linspace(0, last, _STATES).astype(int))
+    states = {name: columns[name][None, some] for name in dynamics.name_in() if name in columns}
+
+    def driven(acting: Mapping[str, float]) -> np.ndarray:
+        _, bias, force = dynamics(*({**states, **acting}.get(name, 0.0) for name in dynamics.name_in()))
+        return np.asarray(force) - np.asarray(bias)
+
+    together = driven(acts)
+    for name in acts:
+        rest = driven({other: acting for other, acting in acts.items() if other != name})
+        own, beside = (np.nanmax(np.abs(v), axis=1) for v in (together - rest, rest))
+        moved = own > 0
+        if moved.any() and (beside[moved] > 0).all():
+            share = float((own[moved] / beside[moved]).max())
+            yield from proportion("input_share", f"largest effect of {name} in the run / of all else that acts", share)
 
 
 def _stretched(
@@ -46,21 +77,15 @@ def _stretched(
     stiffness, stretch = spring
     code = "spring_wound" if units.get(stiffness) == "N*m/rad" else "spring_stretch"
     values = {**mechanism.parameters, **{q: columns[q] for q in mechanism.coordinates}}
-    farthest = np.nanmax(np.abs(_number(stretch, values)), initial=0.0)
+    farthest = np.nanmax(np.abs(value_of(stretch, values)), initial=0.0)
     yield from proportion(code, f"stretch of spring {stiffness} in the run", float(farthest))
     start, rates = {**values, **{q: columns[q][0] for q in mechanism.coordinates}}, []
     for q in mechanism.coordinates:
-        before, behind = (float(_number(stretch, {**start, q: start[q] + step})) for step in (-STEP, STEP))
+        before, behind = (float(value_of(stretch, {**start, q: start[q] + step})) for step in (-STEP, STEP))
         rates.append((behind - before) / (2 * STEP) * float(columns[f"{q}d"][0]))
     if np.isfinite(rates).all() and np.count_nonzero(rates) > 1:
         what = f"speed at which spring {stiffness} is stretched at the start / that of its faster end"
         yield from proportion("start_speeds", what, abs(sum(rates)) / float(np.max(np.abs(rates))))
-
-
-def _number(text: str, values: Mapping[str, Any]) -> Any:
-    """A short formula of the derivation at numbers or columns; nan where it has no value."""
-    with np.errstate(all="ignore"):
-        return eval(text, {"__builtins__": {}}, {**_WORDS, **values})
 
 
 def _swinging(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iterator[Doubt]:
@@ -78,14 +103,17 @@ def _swinging(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iter
     if not step or not np.isfinite(slope).all():
         return
     rates = np.linalg.eigvals(np.vstack([np.eye(n, 2 * n, n), slope]))
-    # what dies away within a turn of it is no vibration
-    fastest = max((abs(rate.imag) for rate in rates if abs(rate.imag) > abs(rate.real)), default=0.0)
+    # of what is no vibration less than a fifth is left after one swing
+    fastest = max((abs(rate.imag) for rate in rates if abs(rate.imag) > 4 * abs(rate.real)), default=0.0)
     what = "simulation.output_step in periods of the fastest vibration"
     yield from proportion("aliasing", what, step * fastest / math.tau, _SEEN)
 
 
-def _turning(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iterator[Doubt]:
-    """What turns with an angle by the masses that the angle moves on, at the angle where these are most."""
+def of_inertia(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iterator[Doubt]:
+    """What turns with an angle by the masses that the angle moves on, at the angle where these are most.
+
+    at: coordinates of the state, by their names; those that it does not name are 0 [SI].
+    """
     form, units = form_of(mechanism), plan_of(case.mechanism).listing(None)["parameters"]
     massless = {name: 0.0 for name, unit in units.items() if unit == "kg*m^2"}
     if form is None or not massless:

@@ -14,7 +14,7 @@ import contextlib
 import itertools
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,11 +29,13 @@ _STEEL = 7850.0  # its density [kg/m^3]
 _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
 _OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its joints, by its length [-]
-_CARRIES = 10.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+_CARRIES = 5.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+_BEHIND_GEARS = 1e4  # inertia of a load by that of its motor, seen through the gear [-]
 
 STEP, PLACES = 1e-4, tuple(k * math.pi / 6 for k in range(12))  # of a slope, and where it is taken [rad]
 
-_WORDS = {name: getattr(math, name) for name in ("pi", "sqrt", "sin", "cos", "tan", "atan", "atan2", "exp", "log")}
+_WORDS = {"pi": np.pi, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "tan": np.tan, "atan": np.arctan,
+          "atan2": np.arctan2, "exp": np.exp, "log": np.log}  # fmt: skip
 
 
 def by_links(
@@ -53,7 +55,7 @@ def by_links(
     worst: dict[str, Doubt] = {}
     acts = {q: "N*m" for q, unit in listing["coordinates"].items() if unit == "rad"} | dict(listing["inputs"])
     longest = max((_length(link, letters) for link in links), default=0.0)
-    moving = sum(_number(link["mass"], letters) for link in links)
+    moving = sum(value_of(link["mass"], letters) for link in links)
     of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors, (longest, moving)))
     pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
     forces = max(pushes, default=0.0), max(turns, default=0.0)
@@ -86,7 +88,7 @@ def linked(listing: "Listing", letters: Mapping[str, float]) -> float:
 
     listing: as stored of the declaration. letters: values of the parameters [SI].
     """
-    return sum(_number(link["mass"], letters) for link in listing.get("links", ()) if len(link["points"]) > 1)
+    return sum(value_of(link["mass"], letters) for link in listing.get("links", ()) if len(link["points"]) > 1)
 
 
 def _carried(listing: "Listing", letters: Mapping[str, float], speeds: Mapping[str, float]) -> Iterator[Doubt]:
@@ -98,7 +100,7 @@ def _carried(listing: "Listing", letters: Mapping[str, float], speeds: Mapping[s
         fastest = 0.0
         for q, at in itertools.product([q for q in angles if q in speeds], PLACES):
             values = {**letters, **start, **dict.fromkeys(angles, at)}
-            with contextlib.suppress(ValueError, ZeroDivisionError):  # a root that has no value there
+            with contextlib.suppress(ZeroDivisionError):
                 moved = math.dist(*(_point(place, {**values, q: at + step}) for step in (-STEP, STEP)))
                 fastest = max(fastest, moved / (2 * STEP) * abs(speeds[q]))
         yield from proportion("point_speed", f"speed of {name}", fastest)
@@ -113,7 +115,14 @@ def _turning(listing: "Listing", letters: Mapping[str, float], torque: float) ->
         yield from proportion("spring_wound", what, torque / min(k for k in springs if k > 0))
     inertias = [letters[name] for name, unit in units.items() if unit == "kg*m^2" and letters[name] > 0]
     if len(inertias) > 1 and not listing.get("links"):  # which have inertias of all sizes
-        yield from proportion("inertia_spread", "largest inertia / smallest", max(inertias) / min(inertias))
+        ratios = [letters[name] for name, unit in units.items() if unit == "-" and letters[name] > 0]
+        geared = max((max(ratio, 1 / ratio) for ratio in ratios), default=1.0)
+        spread = max(inertias) / min(inertias)
+        if geared > 1:  # a motor turns by the ratio faster than its load
+            what = "largest inertia / (smallest * square of the ratio)"
+            yield from proportion("inertia_spread", what, spread / geared**2, _BEHIND_GEARS)
+        else:
+            yield from proportion("inertia_spread", "largest inertia / smallest", spread)
 
 
 def _length(link: Json, letters: Mapping[str, float]) -> float:
@@ -149,7 +158,7 @@ def _stress(
 
     .. math:: F/A, \qquad 6 M / A^{3/2}
     """
-    lengths = [(_number(link["mass"], letters), _length(link, letters)) for link in links]
+    lengths = [(value_of(link["mass"], letters), _length(link, letters)) for link in links]
     section = max((mass / (_STEEL * length) for mass, length in lengths if length > 0), default=0.0)
     if section > 0:
         what = f"largest force {of} / section of the stoutest link"
@@ -165,10 +174,10 @@ def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]
     """
     for kind, texts in (("spring", listing.get("springs", ())), ("damper", listing.get("dampers", ()))):
         for text in texts:
-            yield from proportion(f"{kind}_sign", f"{kind} {text}", _number(text, letters))
+            yield from proportion(f"{kind}_sign", f"{kind} {text}", value_of(text, letters))
     yield from _swinging(listing, letters)
     for name, (xx, yy, zz, xy, xz, yz) in listing.get("tensors", {}).items():
-        rows = [[_number(entry, letters) for entry in row] for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
+        rows = [[value_of(entry, letters) for entry in row] for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
         moments = np.linalg.eigvalsh(rows)
         if moments[0] > 0:
             about = f"largest principal moment of {name} / sum of the other two"
@@ -203,7 +212,7 @@ def _of(
     name, (longest, moving) = link["name"], all_
     points = [_point(pair, letters) for pair in link["points"]]
     length = _length(link, letters)
-    mass, inertia = (_number(link[name], letters) for name in ("mass", "inertia"))
+    mass, inertia = (value_of(link[name], letters) for name in ("mass", "inertia"))
     if length <= 0:
         return
     if len(points) == 1:  # its size is that of its centre's distance: a disc beside its axis is wider, a bob thinner
@@ -249,9 +258,10 @@ def _of(
 
 
 def _point(place: Sequence[str], letters: Mapping[str, float]) -> tuple[float, ...]:
-    return tuple(_number(text, letters) for text in place)
+    return tuple(value_of(text, letters) for text in place)
 
 
-def _number(text: str, letters: Mapping[str, float]) -> float:
-    """Value of an expression that the derivation has written, in its letters."""
-    return float(eval(text, {"__builtins__": {}}, {**_WORDS, **letters}))
+def value_of(text: str, letters: Mapping[str, Any]) -> Any:
+    """What a formula that the derivation has written is for numbers or columns; nan where a root has no value."""
+    with np.errstate(all="ignore"):
+        return eval(text, {"__builtins__": {}}, {**_WORDS, **letters})

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.cases import Case
+from mechsym.cases.at_start import of_inertia
 from mechsym.cases.laws import fired
 from mechsym.cases.links import by_force, by_links, linked
 from mechsym.cycle.gas import Gas
@@ -16,6 +17,7 @@ from mechsym.cycle.motion import pistons_of, travel_of
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.forces.result import Forces
+from mechsym.mechanisms import own
 from mechsym.mechanisms.plan import plan_of, roles_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.plausible import PROPORTIONS, Doubt, inputs, moving_mass, piston_speed, proportion, proportions, results
@@ -81,6 +83,8 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     if not closed.all():
         return proportion("open_loop", "operation: share of a turn in which the loops close", float(closed.mean()))
     inner = _borne(case, mechanism, phi)
+    if own.is_file(case.mechanism):
+        inner += tuple(of_inertia(case, mechanism, {}))
     bores = [getattr(case.sections.get(name), "bore", None) for name in ("chamber", "cycle")]
     bore = next(filter(None, bores), None)
     if bore is None:

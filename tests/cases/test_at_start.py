@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 from mechsym import cases
+from mechsym.cases import load
 from mechsym.cases.at_start import of_start
+from mechsym.cases.links import PLACES
+from mechsym.cases.outcomes import of_own
 from mechsym.jobs.machine import mechanism_of
 
 OWN = Path(__file__).parents[1] / "plausible" / "own"
@@ -43,6 +46,15 @@ def test_results_are_too_far_apart_for_a_vibration_of_two_masses():
     assert "aliasing" not in doubts("wagon", {"parameters.c": "1 MN*s/m", "simulation.output_step": step})
 
 
+@pytest.mark.parametrize(("damping", "doubted"), [(0.24, True), (0.26, False)])
+def test_what_is_damped_within_one_swing_is_no_vibration(damping, doubted):
+    """A chain of 9 kN m/rad: -delta + i omega of 1/(1/I_p + 1/(i^2 (I_w + m R^2))), delta / omega on both sides of 1/4."""
+    spread = 1 / 0.06 + 1 / (2.8**2 * (0.22 + 85 * 0.34**2))
+    c = 2 * damping * math.sqrt(9e3 * spread / (1 + damping**2)) / spread
+    seen = doubts("pedal", {"parameters.c": f"{c!r} N*m*s/rad", "parameters.d": 0, "simulation.output_step": "5 ms"})
+    assert ("aliasing" in seen) == doubted
+
+
 def test_both_ends_of_a_spring_start_together():
     """The belt of the press: psi/i - phi."""
     together = {"phid": 10.0, "psid": 95.0}
@@ -57,6 +69,25 @@ def test_an_inertia_is_held_against_what_its_angle_moves_on():
     share = doubts("wagon", {"parameters.R": "0.5 mm"})["turning_share"]
     assert share == pytest.approx(180.0 / (32e3 * 0.0005**2))
     assert not doubts("wagon")
+
+
+def test_a_wheel_is_held_against_what_its_crank_moves_before_any_run():
+    """Of a sewing machine, at the angle where rod and bar weigh most."""
+    heavy = load(str(OWN / "sewing.toml"), {"parameters.I_w": "12 kg*m^2", "parameters.I_r": "1e-9 kg*m^2"})
+    (share,) = (d.value for d in of_own(heavy, mechanism_of) if d.code == "turning_share")
+    phi = np.array([PLACES])
+    dynamics = mechanism_of(heavy).functions["dynamics"]
+    moved = np.asarray(dynamics(phi, *[0.0] * (dynamics.n_in() - 1))[0]).ravel() - 12.0
+    assert share == pytest.approx(12.0 / moved.max(), rel=1e-4)
+    assert not of_own(load(str(OWN / "sewing.toml")), mechanism_of)
+
+
+def test_an_input_is_held_against_all_else_that_acts():
+    """A force on the mast beside its spring, F / (k x), and beside nothing."""
+    force, at = {"inputs.F": "4 N"}, {"x": 0.06}
+    assert doubts("tower", force, **at)["input_share"] == pytest.approx(4.0 / (310e3 * 0.06))
+    assert "input_share" not in doubts("tower", {"inputs.F": "400 N"}, **at)
+    assert "input_share" not in doubts("tower", force)
 
 
 def test_a_spring_along_a_distance_is_measured_where_it_has_a_length(tmp_path):

@@ -160,8 +160,8 @@ SECTION = 4.0 / 7850 / 0.35  # of a bar of steel of that mass and length [m^2]
     ("values", "changes", "torque", "code"),
     [
         ({}, {}, 0.0, None),
-        ({"I": 9.0 * 4 * 0.35**2}, {}, 0.0, None),  # with a motor behind its gear
-        ({"I": 11.0 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
+        ({"I": 4.5 * 4 * 0.35**2}, {}, 0.0, None),  # with a motor behind its gear
+        ({"I": 5.5 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
         ({"I": 1.1e-5 * 4 * 0.35**2}, {}, 0.0, None),  # its mass at one end
         ({"I": 0.9e-5 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
         ({"I": 4 * 0.1**2 / 2, "l": 0.02, "L": 0.1}, {}, 0.0, None),  # a disc with a crank pin
@@ -239,7 +239,7 @@ def test_a_body_that_slides_along_an_arm_is_where_it_was_assembled():
 
 def test_a_spring_is_wound_up_by_the_largest_torque():
     letters = {"I": 2.0, "J": 1.0, "k": 10.0, "c": 0.0}
-    assert _values(by_links(SHAFT, letters, {"M": 20 * math.pi}, {})) == {}  # one turn
+    assert _values(by_links(SHAFT, letters, {"M": 10 * math.pi}, {})) == {}  # half a turn
     assert _values(by_links(SHAFT, letters, {"M": -100.0, "phi": 5.0}, {})) == {"spring_wound": pytest.approx(10.0)}
 
 
@@ -247,6 +247,16 @@ def test_inertias_and_dampers_are_held_against_their_neighbours():
     letters = {"I": 2.0, "J": 1e-6, "k": 8.0, "c": 1600.0}
     assert _values(by_links(SHAFT, letters, {}, {})) == {"inertia_spread": pytest.approx(2e6)}
     assert _values(by_sign(SHAFT, letters)) == {"damping_share": pytest.approx(200.0)}  # of critical, 2 sqrt(k I) = 8
+
+
+def test_a_motor_turns_by_the_ratio_faster_than_its_load():
+    """I / (J i^2), a ratio up or down."""
+    geared = {**SHAFT, "parameters": {**SHAFT["parameters"], "i": "-"}}
+    for ratio in (30.0, 1 / 30.0):
+        letters = {"I": 2.0, "J": 2e-6, "k": 8.0, "c": 0.0, "i": ratio}
+        assert _values(by_links(geared, letters, {}, {})) == {}
+        seen = _values(by_links(geared, {**letters, "J": 2e-8}, {}, {}))
+        assert seen == {"inertia_spread": pytest.approx(1e8 / 900)}
 
 
 @pytest.mark.parametrize(("heavy", "codes"), [(299.0, []), (301.0, ["mass_spread"])])
