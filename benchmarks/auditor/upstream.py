@@ -154,6 +154,13 @@ def main() -> None:
     print(f"MEtoolbox: radial force {written:.4f} of the tangential one as written, {right:.3f}")
     sines = np.sin(100), np.sin(np.radians(100))
     print("Slider-Crank-Analysis: at 100 degrees a sine of {:.3f} as written, {:.3f}".format(*sines))
+    turn = np.radians(np.arange(360))
+    rise = np.sqrt(1 - np.cos(turn) ** 2)
+    rods = np.hypot(np.cos(turn), rise)
+    still = np.mean(np.abs(np.sin(turn) + rise) < 1e-9)
+    print(
+        f"Coding_Project: a rod of {rods.min():.3f} to {rods.max():.3f} as written; at rest for {still:.0%} of a turn"
+    )
 
 
 if __name__ == "__main__":

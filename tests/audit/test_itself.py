@@ -41,3 +41,12 @@ def test_a_step_of_an_iteration_is_no_derivative(tmp_path):
     slope = "def place(a, phi):\n    dx = 3*a*phi\n    x = a*phi**2\n    return x\n"
     (row,) = rows_of(tmp_path / "slope", {"slope.py": slope})
     assert row["verdict"] == "derivative"
+
+
+def test_a_one_that_was_an_l_is_told(tmp_path):
+    """As in a public program of a crank drive whose rod has a length that nothing uses."""
+    text = "r, l = 1.0, {}\n\n\ndef piston(theta):\n    return r*sin(theta) + sqrt({}**2 - (r*cos(theta))**2)\n"
+    (row,) = rows_of(tmp_path / "wrong", {"a.py": text.format("4.0", 1)})
+    assert (row["verdict"], row["correction"]) == ("misprint", "r*sin(theta) + sqrt(l**2 - (r*cos(theta))**2)")
+    assert not rows_of(tmp_path / "right", {"a.py": text.format("4.0", "l"), "b.py": text.format("1.0", 1)})
+    assert not rows_of(tmp_path / "other", {"a.py": text.replace("l =", "m =").format("4.0", 1)})

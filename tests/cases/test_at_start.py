@@ -48,7 +48,7 @@ def test_results_are_too_far_apart_for_a_vibration_of_two_masses():
 
 @pytest.mark.parametrize(("damping", "doubted"), [(0.24, True), (0.26, False)])
 def test_what_is_damped_within_one_swing_is_no_vibration(damping, doubted):
-    """A chain of 9 kN m/rad: -delta + i omega of 1/(1/I_p + 1/(i^2 (I_w + m R^2))), delta / omega on both sides of 1/4."""
+    """A chain of 9 kN m/rad on 1/(1/I_p + 1/(i^2 (I_w + m R^2))): delta / omega on both sides of 1/4."""
     spread = 1 / 0.06 + 1 / (2.8**2 * (0.22 + 85 * 0.34**2))
     c = 2 * damping * math.sqrt(9e3 * spread / (1 + damping**2)) / spread
     seen = doubts("pedal", {"parameters.c": f"{c!r} N*m*s/rad", "parameters.d": 0, "simulation.output_step": "5 ms"})

@@ -1,5 +1,5 @@
-"""What a program says of itself, without a theory: slopes by their names, and angles that are converted twice, or in
-most places and in another not.
+"""What a program says of itself, without a theory: slopes by their names, angles that are converted twice, or in most
+places and in another not, and a 1 that was an l.
 """
 
 import ast
@@ -133,11 +133,29 @@ def converted_here_and_not_there(claims: Sequence[Claim]) -> Iterator[tuple[Clai
                 yield claim, row
 
 
+def one_for_a_letter(claim: Claim) -> Row | None:
+    """A power of 1 where the program has an l of its own that the formula does without: 1**2 for l**2."""
+    for path, node in trees.walk(claim.tree):
+        if (
+            not trees.is_operation(node, ast.Pow)
+            or trees.value_of(node.left) != 1
+            or trees.value_of(node.right) is None
+        ):
+            continue
+        known = {*claim.values, *claim.parameters} - set(letters(claim.tree))
+        letter = next((k for k in ("l", "I") if k in known), "")
+        if letter and not (letter in claim.values and trees.value_of(claim.values[letter]) == 1):
+            right = trees.replace(claim.tree, (*path, "left"), trees.name(letter))
+            row = _otherwise(claim, right, f"a power of 1 is 1, and {letter} stands beside it unused")
+            return row and row | {"correction": to_python(right)}
+    return None
+
+
 def _otherwise(claim: Claim, right: Node, why: str) -> Row | None:
     """The row of a formula that should be another one; None where that makes no difference."""
     row, _ = asked_once(to_python(_safe(claim.tree)), _itself(right, right=_safe(right)), "right", {}, ())
     found = row["verdict"] in ("misprint", "wrong")
-    return row | {"claim": "what its own angles give", "note": f"{why}; {row['note']}"} if found else None
+    return row | {"claim": "what its own letters give", "note": f"{why}; {row['note']}"} if found else None
 
 
 def _angle_of(node: Node) -> Iterator[tuple[str, bool]]:

@@ -8,7 +8,13 @@ from dataclasses import field
 from functools import cache
 from pathlib import Path
 
-from mechsym.audit.hosts.itself import converted_here_and_not_there, converted_twice, slope_beside, slopes
+from mechsym.audit.hosts.itself import (
+    converted_here_and_not_there,
+    converted_twice,
+    one_for_a_letter,
+    slope_beside,
+    slopes,
+)
 from mechsym.audit.hosts.neighbours import Neighbours
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.lexicon import Lexicon
@@ -87,7 +93,7 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
     neighbours = Neighbours(reading.claims, vocabularies)
     for claim in reading.claims:
         outcome = neighbours.outcome(claim)
-        own = slope_beside(claim, claims) or converted_twice(claim)
+        own = slope_beside(claim, claims) or converted_twice(claim) or one_for_a_letter(claim)
         matched += outcome is not None or own is not None
         judged += bool(outcome and outcome["verdict"] != "") or bool(own)
         for row in (outcome, own):

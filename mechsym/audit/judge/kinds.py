@@ -14,7 +14,7 @@ from fractions import Fraction
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.tree import Node, argument_of, function_of, letters, value_of, walk
-from mechsym.audit.read.units import KINDS
+from mechsym.audit.read.units import KINDS, OTHERS
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
 from mechsym.quantities.units import scale
@@ -37,6 +37,7 @@ _UNITS = ("kg", "m", "s", "K")
 
 _STEMS = "|".join([*sorted(SYMBOLS, key=len, reverse=True), "[A-Za-z]"])
 _RATE = re.compile(rf"((?:{_STEMS})\w*?)(dd?)")
+_SLOPE = re.compile(r"d(\d?)(\w+?)_d(\w+?)\1")
 _STEP = re.compile(rf"(?:Delta|delta|d)((?:{'|'.join(sorted(SYMBOLS, key=len, reverse=True))}|[A-Zxyzms])\w*)")
 _MARKED = re.compile(r"(\w+?)(?:bar|hat|tilde|star)")
 _INDEX = re.compile(rf"({_STEMS})(\w+)")
@@ -76,6 +77,13 @@ class Kinds:
                 return known[letter]
         if "prime" in letter or letter in SYMBOLS:
             return None
+        if slope := _SLOPE.fullmatch(letter):
+            above, below, times = self.of(slope[2]), self.of(slope[3]), int(slope[1] or 1)
+            return (
+                None
+                if above is None or below is None
+                else tuple(a - times * b for a, b in zip(above, below, strict=True))
+            )
         if (rate := _RATE.fullmatch(letter)) and (still := self.of(rate[1])) is not None:
             # the dot on a mass or a heat may mean the angle
             return (*still[:2], still[2] - len(rate[2]), *still[3:]) if still in (PURE, _LENGTH) else None
@@ -179,7 +187,8 @@ def kinds_of(paper: Text) -> Kinds:
     for letter, about in paper.named.items():
         words = re.findall(r"[a-z]+", about.meaning.lower())
         called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
-        unit = about.unit or ("" if re.match("(?:d|delta|Delta)[A-Za-z]", letter) else KINDS.get(called, ""))
+        changed = any(OTHERS.fullmatch(word) for word in words) or re.match("(?:d|delta|Delta)[A-Za-z]", letter)
+        unit = about.unit or ("" if changed else KINDS.get(called, ""))
         if unit:
             kinds.printed[letter] = of_unit(unit)
         if about.unit == "rpm":

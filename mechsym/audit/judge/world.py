@@ -10,10 +10,12 @@ import zlib
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial, reduce
 
 import numpy as np
 
 from mechsym.audit.judge.kinds import PURE, Kinds, text
+from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
@@ -21,7 +23,6 @@ from mechsym.audit.read.tree import (
     Node,
     argument_of,
     binary,
-    call,
     function_of,
     is_operation,
     letters,
@@ -35,10 +36,9 @@ from mechsym.quantities import record
 
 _STATES = 48
 _CLOSE = 1e-9
+_RATES = ("omega", "Omega", "w")  # usual letters of an angular speed
 _ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
 _OPAQUE = re.compile(r"integral\w{8}|constant|function")
-_FORCES = re.compile(r"[FMNTSQRK]\w*")
-_INVERSE = {"sin": "asin", "tan": "atan", "asin": "sin", "acos": "cos", "atan": "tan", "exp": "log", "log": "exp"}
 _PRIME = re.compile(r"(\w+?)((?:prime)+)")
 
 
@@ -65,6 +65,7 @@ class World:
 
     def __post_init__(self) -> None:
         """Find the angle that runs, its rates, and all definitions."""
+        self._name_time()
         self.angle = _angle(self.paper.said)
         self._name_alike()
         self._name_rates()
@@ -72,6 +73,23 @@ class World:
             self._define(order, said)
         self._name_motion()
         self._name_applied()
+
+    def _name_time(self) -> None:
+        # omega t under a sine, where time stands nowhere else: an angle, and omega its rate
+        trees = [side for said in self.paper.said for side in said.sides]
+        sines = [a for t in trees for _, n in walk(t) if (a := argument_of(n, "sin", "cos", "tan")) is not None]
+        rates = {k for a in sines if "t" in letters(a) for k in letters(a) if k in _RATES}
+        used = {n for tree in trees for n in letters(tree)}
+        angle = next(a for a in ("phi", "theta", "alpha", "gamma", "psi", "") if a not in used)
+        if len(rates) != 1 or not angle:
+            return
+        rate = rates.pop()
+        said = [replace(one, sides=tuple(_with_angle(s, rate, angle) for s in one.sides)) for one in self.paper.said]
+        if any("t" in letters(side) for one in said for side in one.sides):
+            return
+        sign = rf"\{rate} t" if len(rate) > 1 else f"{rate} t"
+        self.paper = replace(self.paper, said=[replace(o, spelled={**o.spelled, angle: sign}) for o in said])
+        self.aliases[rate] = f"{angle}d"
 
     def _name_alike(self) -> None:
         # a nu that is a v where the same letter has one
@@ -104,7 +122,7 @@ class World:
                         n: f"{self.angle}{'d' * order}" for n in names if n != f"{self.angle}{'d' * order}"
                     }
         written = {n for said in self.paper.said for side in said.sides for n in letters(side)}
-        for usual in ("omega", "Omega", "w"):
+        for usual in _RATES:
             about = self.paper.named.get(usual)
             fits = usual != "w" or about and about.unit == "rad/s"
             if self.angle and usual in written and f"{self.angle}d" not in self.aliases.values() and fits:
@@ -144,7 +162,7 @@ class World:
         known = {d.letter for d in self.defined}
         for side in right:
             for whole, other in ((left, side), (side, left)):
-                for target in _targets(whole, known | {self.angle, f"{self.angle}d", f"{self.angle}dd"}, any_letter):
+                for target in targets(whole, known | {self.angle, f"{self.angle}d", f"{self.angle}dd"}, any_letter):
                     if target in letters(other) or target in self.kinds.turns and not any_letter:
                         continue
                     if (solved := isolate(whole, target, other)) is not None and target not in self._reach(solved):
@@ -159,7 +177,7 @@ class World:
             if letter in reached:
                 continue
             reached.add(letter)
-            waiting += letters(latest[letter]) if letter in latest else [s for s in _stems(letter) if s in latest]
+            waiting += letters(latest[letter]) if letter in latest else [s for s in stems_of(letter) if s in latest]
         return reached
 
     def _name_motion(self) -> None:
@@ -237,14 +255,17 @@ class World:
     def _rods(self, tape: Mapping[str, Node]) -> set[str]:
         ratio = [t.right.id for t in tape.values() if is_operation(t, ast.Div) and isinstance(t.right, ast.Name)
                  and isinstance(t.left, ast.Name)]  # fmt: skip
+        # and what a root is real by: sqrt(l^2 - r^2 sin^2)
+        roots = [a for t in tape.values() for _, n in walk(t) if (a := argument_of(n, "sqrt")) is not None]
+        ratio += [k for a in roots if any(function_of(n) == "sin" for _, n in walk(a)) for k in letters(a)]
         return {r for r in ratio if r in ("l", "L")}
 
     def _letter(self, letter: str, known: bool, rod: bool) -> Letter:
         kind = self.kinds.of(letter)
         unit = "-" if not known or kind is None or kind == PURE else text(kind).replace(" ", "*")
         if letter == self.angle or letter.startswith(self.angle) and letter in (f"{self.angle}d", f"{self.angle}dd"):
-            unit = {0: "rad", 1: "rad/s", 2: "rad/s^2"}[len(letter) - len(self.angle)]
-            return Letter(unit=unit, value=1.0, sign="any")
+            unit, value = {0: ("rad", 1.0), 1: ("rad/s", 1.7), 2: ("rad/s^2", 1.3)}[len(letter) - len(self.angle)]
+            return Letter(unit=unit, value=value, sign="any")  # at 1 a rate that is left out would not be missed
         share = zlib.crc32(letter.encode()) % 100 / 250
         return Letter(unit=unit, value=4.0 if rod else 0.8 + share, sign="positive")
 
@@ -253,12 +274,30 @@ def _renamed(tree: Node, meant: Mapping[str, str]) -> Node:
     return substitute(tree, lambda n: name(meant[n.id]) if isinstance(n, ast.Name) and n.id in meant else None)
 
 
+def _with_angle(tree: Node, rate: str, angle: str) -> Node:
+    """The tree with an angle in place of the product of its rate and time."""
+
+    def changed(node: Node) -> Node | None:
+        factors = _factors(node)
+        names = [f.id for f in factors if isinstance(f, ast.Name)]
+        if names.count("t") != 1 or names.count(rate) != 1:
+            return None
+        rest = [f for f in factors if not (isinstance(f, ast.Name) and f.id in ("t", rate))]
+        return reduce(partial(binary, ast.Mult), [*(_with_angle(f, rate, angle) for f in rest), name(angle)])
+
+    return substitute(tree, changed)
+
+
+def _factors(node: Node) -> list[Node]:
+    return [*_factors(node.left), *_factors(node.right)] if is_operation(node, ast.Mult) else [node]
+
+
 def _is_rate(tree: Node) -> bool:
     return isinstance(tree, ast.Name) and bool(_PRIME.fullmatch(tree.id) or re.fullmatch(r"d\d?\w+_d\w+", tree.id))
 
 
-def _stems(letter: str) -> list[str]:
-    # what a derivative is one of: x of dx_dphi, x_d, xd and xprime
+def stems_of(letter: str) -> list[str]:
+    """What a letter may be a derivative of: x of dx_dphi, x_d, xd and xprime."""
     slope = re.fullmatch(r"d\d?(\w+?)_d\w+", letter)
     return [slope[1]] if slope else [s for s in (re.sub(r"(?:_?dd?|(?:prime)+)$", "", letter),) if s != letter]
 
@@ -270,7 +309,7 @@ def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:
         if letter in done or letter in above:
             return
         for n in letters(tape[letter]):
-            for need in (n, *_stems(n)):
+            for need in (n, *stems_of(n)):
                 if need in tape:
                     yield from put(need, above | {letter})
         if letter not in done:
@@ -296,37 +335,6 @@ def _angle(said: Sequence[Said]) -> str:
                     if n not in given and any(n.startswith(a) for a in _ANGLES):
                         counts[n] += 1
     return counts.most_common(1)[0][0] if counts else ""
-
-
-def _targets(tree: Node, known: set[str], any_letter: bool) -> list[str]:
-    counts = Counter(n.id for _, n in walk(tree) if isinstance(n, ast.Name))
-    under = [a.id for _, n in walk(tree) if isinstance(a := argument_of(n, "sin", "tan"), ast.Name)]
-    forces = [n for n in counts if _FORCES.fullmatch(n) and is_operation(tree, ast.Add, ast.Sub)]
-    chosen = list(counts) if any_letter else [*under, *forces]
-    return [
-        n for n in dict.fromkeys(chosen) if counts[n] == 1 and n not in known and n != "pi" and not n.endswith("dd")
-    ]
-
-
-def isolate(tree: Node, letter: str, other: Node) -> Node | None:
-    """What a letter is where tree = other, None where it cannot be told: the letter stands in the tree once."""
-    while not (isinstance(tree, ast.Name) and tree.id == letter):
-        if isinstance(tree, ast.UnaryOp):
-            tree, other = tree.operand, ast.UnaryOp(op=ast.USub(), operand=other)
-        elif isinstance(tree, ast.Call) and (inverse := _INVERSE.get(str(function_of(tree)))):
-            tree, other = tree.args[0], call(inverse, other)
-        elif isinstance(tree, ast.BinOp) and not isinstance(tree.op, ast.Pow):
-            inside = letter in letters(tree.left)
-            part, rest = (tree.left, tree.right) if inside else (tree.right, tree.left)
-            back = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}[type(tree.op)]
-            if not inside and isinstance(tree.op, (ast.Sub, ast.Div)):
-                other = binary(type(tree.op), rest, other)
-            else:
-                other = binary(back, other, rest)
-            tree = part
-        else:
-            return None
-    return other
 
 
 @record

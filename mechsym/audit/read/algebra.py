@@ -69,29 +69,28 @@ def evaluate(
     tree: Node, names: Mapping[str, Values], algebra: Algebra, memo: MutableMapping[bytes, Values] | None = None
 ) -> Values:
     """Value of an expression; `memo` is filled by what the parts say, for all trees with the same names."""
+    if isinstance(tree, ast.Name):
+        return names[tree.id]
     memo = {} if memo is None else memo
     said = digest(tree)
     if said in memo:
         return memo[said]
-    value = _value(tree, names, algebra, memo)
+    if isinstance(tree, ast.BinOp):
+        left, right = evaluate(tree.left, names, algebra, memo), evaluate(tree.right, names, algebra, memo)
+        value = algebra.operations[type(tree.op)](left, right)
+    elif isinstance(tree, ast.Constant):
+        value = algebra.number(Fraction(str(tree.value)))
+    else:
+        values = [evaluate(child, names, algebra, memo) for _, child in children(tree)]
+        if isinstance(tree, ast.Call):
+            value = algebra.functions[str(function_of(tree))](values[0])
+        elif isinstance(tree, ast.Compare):
+            value = _COMPARED[type(tree.ops[0])](*values)
+        else:
+            value = algebra.choose(*values) if isinstance(tree, ast.IfExp) else -values[0]
     home = memo.home(tree) if isinstance(memo, Layered) else memo
     home[said] = value
     return value
-
-
-def _value(tree: Node, names: Mapping[str, Values], algebra: Algebra, memo: MutableMapping[bytes, Values]) -> Values:
-    if isinstance(tree, ast.Constant):
-        return algebra.number(Fraction(str(tree.value)))
-    if isinstance(tree, ast.Name):
-        return names[tree.id]
-    values = [evaluate(child, names, algebra, memo) for _, child in children(tree)]
-    if isinstance(tree, ast.BinOp):
-        return algebra.operations[type(tree.op)](*values)
-    if isinstance(tree, ast.Call):
-        return algebra.functions[str(function_of(tree))](values[0])
-    if isinstance(tree, ast.Compare):
-        return _COMPARED[type(tree.ops[0])](*values)
-    return algebra.choose(*values) if isinstance(tree, ast.IfExp) else -values[0]
 
 
 _COMPARED: dict[type, Callable[..., Values]] = {

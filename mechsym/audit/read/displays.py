@@ -4,6 +4,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 from mechsym.audit.read.units import unit_of
 from mechsym.errors import BadInput
@@ -13,12 +14,17 @@ _ROWS = ("align", "gather", "eqnarray", "flalign", "alignat")
 _WHOLE = ("equation", "multline", "displaymath", "math")
 _OPENING = re.compile(
     rf"\\begin\{{(?P<name>{'|'.join((*_ROWS, *_WHOLE))})(?P<star>\*?)\}}(?:\{{\d+\}})?|\\\[|(?<!\\)\$\$"
+    r"|^[ \t]*\$(?=[^$\n=]+=[^$\n]+\$[ \t]*[.,;]?[ \t]*$)",  # a line of its own
+    re.MULTILINE,
 )
 MOST = 3000  #: Equations of one file
 _LONGEST = 6000  # characters of a display; two `$$` further apart are no pair
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _REMARK = re.compile(r"^[ \t]*%[^\n]*", re.MULTILINE)
-_INNER = re.compile(r"\\(?:begin|end)\{(?:split|aligned|alignedat|gathered|subequations)\}(?:\[\w\]|\{\d+\})?")
+_INNER = re.compile(
+    rf"\\(?:begin|end)\{{(?:split|aligned|alignedat|gathered|subequations|(?:{'|'.join((*_ROWS, *_WHOLE))})\*?)\}}"
+    r"(?:\[\w\]|\{\d+\})?"
+)
 _NESTED = re.compile(r"\\(begin|end)\{|\\\\(?:\s*\[[\d.]+\s*\w+\])?")
 _LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _TAG = re.compile(r"\\tag\*?\s*\{\s*\(?([^{}()]*)\)?\s*\}|\\eqno\s*\(?([\w.]+)\)?")
@@ -27,10 +33,11 @@ _TRAILING = re.compile(r"(?:\\q?quad|\\[,;:! ]|~|\s|\.)+\((\d+(?:\.\d+)*[a-z]?)\
 _UNNUMBERED = re.compile(r"\\(?:nonumber|notag)\b")
 _SIGN = r"(?:[=+\-]|\\(?:approx|simeq|cdot|times|equiv)\b)"
 _SPACE = r"(?:\s|~|\\q?quad\b|\\[,;:! ]|\{\})"
+_TRAIL = re.compile(rf"(?:{_SPACE}|[.,;])+$")
 _GOES_ON = re.compile(rf"{_SPACE}*{_SIGN}")
 _OPEN = re.compile(rf"{_SIGN}\s*$")
 _WORDS = re.compile(
-    rf"[,;.]?{_SPACE}*\\(?:text|mbox|intertext|textrm|mathrm)\s*\{{\s*(?:for|if|where|when|with|and|at|in|per|"
+    rf"[,;.]?{_SPACE}*(?<!_)(?<!_\{{)\\(?:text|mbox|intertext|textrm|mathrm)\s*\{{\s*(?:for|if|where|when|with|and|at|in|per|"
     r"positive|negative|otherwise|as)\b[^{}]*\}.*$|[,;]\s*(?:\\q?quad|\\ )+\s*(?:for|if|where|with|when)\b.*$",
     re.DOTALL,
 )
@@ -40,8 +47,12 @@ _TWO = re.compile(
 )
 _LIMIT = re.compile(r"(?<![\\{]),[^=,]*(?:<|>|\\leq?\b|\\geq?\b|\\ll\b|\\gg\b)[^=]*$")
 _PROSE = re.compile(r"(?:^|\s)[A-Za-z]{3,}(?=[\s,.:;]|$)")  # a word, which no formula has
-_MARK = re.compile(r"[$\\]")
+_MARK = re.compile(r"[$\\`<>\"]|==|^\s*(?:[-*+]\s|[|#!\[]|\d+\.\s)")  # of a page's own language: no formula alone
 _NUMBER = re.compile(r"\(?(\d{1,3}(?:\.\d+)*)\)?")
+#: A unit behind a number: 0.023\\,\\text{W/m}^3
+_DATA = re.compile(
+    rf"(=\s*-?\d[\d.,]*){_SPACE}*((?:\\(?:text|mathrm|mbox|rm)\s*\{{[^{{}}]*\}}(?:\^\{{?-?\d\}}?)?|/|\\cdot|{_SPACE})+)[.,;]?\s*$"
+)
 BRACKET = re.compile(rf"{_SPACE}*(?:\\left)?\[([^\[\]]{{1,60}}?)(?:\\right)?\]{_SPACE}*[.,;]?\s*$")
 
 
@@ -112,12 +123,14 @@ def _blocks(text: str, at: int) -> Iterator[_Display]:
     while match := _OPENING.search(text, at):
         at = match.end()
         name, star = match["name"], match["star"] or ""
-        closing = "$$" if match[0] == "$$" else rf"\end{{{name}{star}}}" if name else r"\]"
+        dollars = match[0].strip()
+        closing = dollars if "$" in dollars else rf"\end{{{name}{star}}}" if name else r"\]"
         close = text.find(closing, at, at + _LONGEST)
         body = text[at:close] if close >= 0 else ""
         if not body.strip() or match[0] == "$$" and re.search(r"\n[ \t]*\n|\n#", body.strip() if "=" in body else body):
             continue  # a sign that closes nothing: the next one opens
-        rows = name in _ROWS or bool(_INNER.search(body)) and "{split}" not in body
+        lines = body.count("=") > 1 and re.search(r"\\\\[ \t]*\n", body)
+        rows = name in _ROWS or bool(_INNER.search(body) or lines) and "{split}" not in body
         start, at = at, close + len(closing)
         margin = _MARGIN.match(text, at) if not name else None
         numbered = name in (*_ROWS, "equation", "multline") and not star
@@ -152,7 +165,7 @@ def _parts(equation: Displayed) -> Iterator[Displayed]:
     words = _WORDS.search(equation.text) if r"\begin{" not in equation.text else None
     text = equation.text[: words.start()] if words and words.start() else equation.text
     aside = words[0].strip(" ,;") if words and words.start() else ""
-    for part in _TWO.split(text):
+    for part in _split(text):
         limit = _LIMIT.search(part)
         if limit and "=" in part[: limit.start()]:
             part, aside = part[: limit.start()], limit[0].strip(" ,")
@@ -160,8 +173,18 @@ def _parts(equation: Displayed) -> Iterator[Displayed]:
         known = unit_of(unit[1]) if unit and "=" in part[: unit.start()] else None
         if unit and known:
             part = part[: unit.start()]
-        if part.strip(" .,;\\"):
-            yield replace(equation, text=part.strip(" .,;"), aside=aside, unit=known or "")
+        elif data := _DATA.search(part):
+            part, known = part[: data.end(1)], unit_of(data[2])
+            aside = aside or ("" if known else data[2].strip())
+        part = _TRAIL.sub("", part).strip(" .,;")
+        if part.strip("\\"):
+            yield replace(equation, text=part, aside=aside, unit=known or "")
+
+
+def _split(text: str) -> list[str]:
+    # where no brace is open
+    cuts = [m.span() for m in _TWO.finditer(text) if text.count("{", 0, m.start()) == text.count("}", 0, m.start())]
+    return [text[a:b] for (_, a), (b, _) in pairwise([(0, 0), *cuts, (len(text), 0)])]
 
 
 def flattened(text: str) -> list[Displayed]:

@@ -27,7 +27,7 @@ _FUNCTIONS = {
     "arccos": "acos", "arctan": "atan", "arctg": "atan", "exp": "exp", "ln": "log", "log": "log",
 }  # fmt: skip
 _SEVERAL = ("atan2", "min", "max", "hypot")
-_FUNCTIONS |= {n: n for n in _SEVERAL} | {"sen": "sin"}
+_FUNCTIONS |= {n: n for n in (*_SEVERAL, "sinh", "cosh", "tanh", "sec", "csc")} | {"sen": "sin"}
 SINGLE = (*(n for n in _FUNCTIONS if n not in _SEVERAL),)  #: Functions of one argument, as they are written
 _LONGEST = 400  # digits of a number
 _FRACTIONS = {"\\frac", "\\dfrac", "\\tfrac"}
@@ -307,6 +307,10 @@ def _opens(token: str) -> bool:
 
 def _function(cursor: Cursor, function: str) -> Node:
     power: Node | None = None
+    if function == "log" and cursor.peek() == "_":
+        cursor.take()
+        base = _argument(cursor)
+        return binary(ast.Div, _function(cursor, function), call("log", base))
     if cursor.peek() == "^":
         cursor.take()
         power = _argument(cursor)
@@ -330,7 +334,7 @@ def _function(cursor: Cursor, function: str) -> Node:
             power = _argument(cursor)
     else:
         argument = _run(cursor, function)
-    tree = call(function, argument)
+    tree = meaning(function, [argument]) or call(function, argument)
     return tree if power is None else binary(ast.Pow, tree, power)
 
 
@@ -342,7 +346,8 @@ def _run(cursor: Cursor, function: str) -> Node:
         number_alone = isinstance(tree, ast.Constant)
         if cursor.peek() in _CLOSING and not (number_alone and cursor.peek() in ("(", "[")):
             break
-        if tree is not None and not number_alone and not _goes_on(cursor, function, cursor.peek()):
+        bound = number_alone or tree is not None and _is_turned(cursor, tree)
+        if tree is not None and not bound and not _goes_on(cursor, function, cursor.peek()):
             return tree
         factor = _factor(cursor)
         if cursor.peek() == "^":
@@ -360,6 +365,15 @@ def _run(cursor: Cursor, function: str) -> Node:
         cursor.take()
         tree = binary(ast.Div, tree, _factor(cursor))
     return tree
+
+
+def _is_turned(cursor: Cursor, tree: Node) -> bool:
+    # sin omega t, cos n omega t: the time belongs to the speed
+    speeds = ("\\omega", "\\Omega")
+    if cursor.peek() == "t":
+        return any(n.startswith(speed[1:]) for n in letters(tree) for speed in speeds)
+    after = cursor.peek(3) if cursor.peek(1) == "_" else cursor.peek(1)
+    return cursor.peek() in speeds and after == "t"
 
 
 def _goes_on(cursor: Cursor, function: str, what: str) -> bool:

@@ -19,11 +19,30 @@ from mechsym.audit.read.units import Named, nomenclature
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
+_SIGN = r"(?:\\[A-Za-z]+|[A-Za-z])'*(?:_(?:\w|\{(?:[^{}]|\{[^{}]*\})*\}))?'*"
 _ANGLES = r"\\(?:theta|vartheta|varphi|phi|alpha|psi)"
 _APPLIED = re.compile(
     rf"(?P<of>[A-Za-z}}'])\s*(?:\\left)?\(\s*(?:{_ANGLES}(?:_\{{?\w+\}}?)?|t)\s*(?:\\right)?\)(?!\s*\^)"
 )
+_DEFINED = re.compile(rf"((?:\\Delta ?)?{_SIGN}) ?\( ?({_SIGN}(?: ?, ?{_SIGN})*) ?\)")
+_NO_LETTERS = {
+    "sin",
+    "cos",
+    "tan",
+    "cot",
+    "arcsin",
+    "arccos",
+    "arctan",
+    "exp",
+    "ln",
+    "log",
+    "sinh",
+    "cosh",
+    "tanh",
+    "pi",
+}
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
+_BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{3,200}?)\$(?!\$)")
 _INDEXED = re.compile(r"([A-Z])_(\d|\{\d\})\^(\d|\{\d\})")
 _NO_EQUATION = re.compile(r"\\(?:to|rightarrow|longrightarrow|le|leq|ge|geq|ll|gg|neq|in|propto|sim)(?![A-Za-z])|[<>]")
@@ -32,13 +51,28 @@ _TIDY = (
     (re.compile(r"\\mathrm\s*\{\s*d\s*\}"), "d"),
     (re.compile(r"(?<=\d),\s(?=\d)"), "."),
     (re.compile(r"\\(?:mathbf|mathsf|mathit|boldsymbol|bm|vec|mathrm|rm)\s*(?=[A-Za-z\\])"), " "),
-    (re.compile(r"(?<![A-Za-z\\])const(?:ant)?\b\.?"), r"\\text{constant}"),
+    (re.compile(r"(?<![A-Za-z\\{])const(?:ant)?\b\.?"), r"\\text{constant}"),
     (re.compile(r"(?<![\\A-Za-z])f\s*\([^()=]*,[^()=]*\)|(?<==)\s*f\s*\([^()=]*\)\s*$"), r"\\text{function}"),
+    (re.compile(r"\\[lr]vert(?![A-Za-z])"), "|"),
+    (re.compile(r"\\(?:rm|mathrm)\s*\{"), r"\\text{"),
+    (re.compile(r"_\s*\\(?:text|textrm)\s*(\{[^{}]*\})"), r"_{\\text\1}"),
+    (re.compile(r"\s*\\prime(?![A-Za-z])(?<!\^\\prime)(?<!\{\\prime)"), "'"),
+    (re.compile(r"\^(\d|\{\d\})\s*_(\w|\{[^{}]*\})"), r"_\2^\1"),
+    (re.compile(rf"(?:\\(?:text|operatorname)\s*\{{\s*inv\s*\}}|\\inv(?![A-Za-z]))\s*({_SIGN})"), r"(\\tan \1 - \1)"),
     (re.compile(r"\\(?:bar|overline)\s*\{\s*([A-Za-z])\s*\}\s*([a-z])(?![A-Za-z_])"), r"\\bar{\\text{\1\2}}"),
 )
 
 
 _FLAT = "it stands in plain text, where 12 may be 1/2 and x2 a square; give it between $$, as LaTeX"
+
+
+@record
+class _Spelling:
+    """How a text writes its letters."""
+
+    words: Sequence[str]  #: Letters of several characters
+    indexed: frozenset[str]  #: Letters of which `Q_2^3` is one
+    applied: re.Pattern[str] | None = None  #: Letters with arguments of which some are defined
 
 
 @record
@@ -68,6 +102,7 @@ class Text:
 
 def read_text_whole(text: str) -> Text:
     """All equations of a text in their order, those within its lines as well."""
+    text = _BRACKETS.sub(lambda m: " $" if m[0] == r"\(" else "$ ", text)
     shown = displayed(text)
     written = nomenclature(text)
     words = _words(written, shown)
@@ -87,11 +122,12 @@ def read_text_whole(text: str) -> Text:
     if not shown:
         lost = [Said(shown=e, name=e.number or f"line {e.line}", why=_FLAT) for e in flattened(text)]
         return Text(said=lost, named=named, prose=text)
+    spelling = _Spelling(words=words, indexed=indexed, applied=_applied(shown))
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
     said = []
     for equation, inline in everything:
         section = sum(start <= lines[equation.line - 1] for start in starts)
-        one = _read(equation, words, indexed, section, text[max(0, equation.begins - 240) : equation.begins], inline)
+        one = _read(equation, spelling, section, text[max(0, equation.begins - 240) : equation.begins], inline)
         if one.sides or not inline:
             said.append(one)
     return Text(said=said, named=named, prose=text)
@@ -102,7 +138,14 @@ def _inline(text: str) -> Iterator[Displayed]:
     breaks = [m.start() for m in re.finditer("\n", text)]
     for match in islice(_INLINE.finditer(text), MOST):
         inside = match[1]
-        if inside.count("=") == 1 and not re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|$)|\\text|\\mathrm", inside):
+        alone = text[text.rfind("\n", 0, match.start()) + 1 : match.start()].strip() == "" and re.match(
+            r"[ \t]*[.,;]?[ \t]*(?:\n|$)", text[match.end() :]
+        )
+        if (
+            inside.count("=") == 1
+            and not alone
+            and not re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|$)|\\text|\\mathrm", inside)
+        ):
             line = bisect_right(breaks, match.start()) + 1
             yield Displayed(number="", label="", text=inside.strip(), line=line, begins=match.start())
 
@@ -119,20 +162,25 @@ def _words(written: Mapping[str, Named], shown: Sequence[Displayed]) -> list[str
 
 
 def _plain(symbol: str, words: Sequence[str]) -> str:
+    plain = _Spelling(words=words, indexed=frozenset())
     try:
-        tree = read_latex(_prepared(symbol.partition("=")[0].strip(), words, frozenset()), whole=True)[0]
+        tree = read_latex(_prepared(symbol.partition("=")[0].strip(), plain), whole=True)[0]
     except BadInput:
         return ""
     return tree.id if isinstance(tree, ast.Name) else ""
 
 
-def _prepared(text: str, words: Sequence[str], indexed: frozenset[str]) -> str:
+def _prepared(text: str, spelling: _Spelling) -> str:
+    if spelling.applied is not None:
+        text = spelling.applied.sub(lambda m: m[0] if m["of"].lstrip("\\") in _NO_LETTERS else m["of"], text)
     text = "".join(rf"\{_COMMANDS[c]} " if c in _COMMANDS else c for c in text)
     for pattern, instead in _TIDY:
         text = pattern.sub(instead, text)
     text += "}" * (text.count("{") - text.count("}") == 1)  # one brace lost at the end
-    text = _INDEXED.sub(lambda m: f"{m[1]}_{{{m[2].strip('{}')}{m[3].strip('{}')}}}" if m[1] in indexed else m[0], text)
-    for word in words:
+    text = _INDEXED.sub(
+        lambda m: f"{m[1]}_{{{m[2].strip('{}')}{m[3].strip('{}')}}}" if m[1] in spelling.indexed else m[0], text
+    )
+    for word in spelling.words:
         inside = r"\s*".join(word)
         text = re.sub(rf"(?<![A-Za-z\\])(?<!_\{{)(?<!text\{{){inside}(?![A-Za-z])", rf"\\text{{{word}}}", text)
     return unapplied(text, _APPLIED)
@@ -141,13 +189,26 @@ def _prepared(text: str, words: Sequence[str], indexed: frozenset[str]) -> str:
 _COMMANDS = {sign: "lambda" if name == "lam" else name for name, sign in SYMBOLS.items()} | {"ϕ": "varphi"}
 
 
-def _read(
-    shown: Displayed, words: Sequence[str], indexed: frozenset[str], section: int, before: str, inline: bool
-) -> Said:
+def _applied(shown: Sequence[Displayed]) -> re.Pattern[str] | None:
+    r"""A letter with arguments that some equation defines a letter with: t(R) beside t_p(R) = .. is no product."""
+    arguments = set()
+    for one in shown:
+        left = re.sub(r"\\(?:left|right)\b|\\[,;:! ]", " ", one.text.partition("=")[0])
+        match = _DEFINED.fullmatch(" ".join(left.split()))
+        if match is not None and match[1].lstrip("\\") not in _NO_LETTERS:
+            arguments |= {part.strip() for part in match[2].split(",")}
+    if not arguments:
+        return None
+    any_of = "|".join(re.escape(k) for k in sorted(arguments, key=len, reverse=True))
+    within = rf"\s*(?:{any_of})(?:\s*,\s*(?:{any_of}))*\s*"
+    return re.compile(rf"(?P<of>{_SIGN})\s*(?:\\left)?\({within}(?:\\right)?\)(?!\s*\^)")
+
+
+def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inline: bool) -> Said:
     name = shown.number or shown.label or f"line {shown.line}"
     head = Said(shown=shown, name=name, section=section, before=before, inline=inline)
     try:
-        return _sides(head, _prepared(shown.text, words, indexed))
+        return _sides(head, _prepared(shown.text, spelling))
     except BadInput as error:
         return replace(head, why=str(error))
     except RecursionError:

@@ -107,8 +107,9 @@ def _with_letters(text: str, quantity: str) -> tuple[str, dict[str, str]]:
     """An equation, and the letters that are said beside it: `tau = K*8*F*D/(pi*d**3), K = .., C = D/d`."""
     at_value = _AT.search(text.strip(" $."))
     if at_value is not None:
-        name, _, value = (at_value[1] or at_value[2]).partition("=")
-        return text.strip(" $.")[: at_value.start()], {name.strip(): value.strip()}
+        name, _, value = (part.strip() for part in (at_value[1] or at_value[2]).partition("="))
+        alone = rf"(?<![A-Za-z\\_])(?<!_\{{){re.escape(name)}(?![A-Za-z_])"
+        return re.sub(alone, lambda _: f"{{{value}}}", text.strip(" $.")[: at_value.start()]), {}
     pieces, depth, start = [], 0, 0
     text = text.strip().removeprefix("$$").removesuffix("$$").strip("$ ")
     for at, sign in enumerate(text):

@@ -304,6 +304,7 @@ MEANINGS: dict[str, tuple[int, Callable[..., Node]]] = {
     "csc": (1, lambda a: binary(ast.Div, number(1), call("sin", a))),
     "sinh": (1, _hyperbolic(ast.Sub)),
     "cosh": (1, _hyperbolic(ast.Add)),
+    "tanh": (1, lambda a: binary(ast.Div, _hyperbolic(ast.Sub)(a), _hyperbolic(ast.Add)(a))),
     "log10": (1, lambda a: binary(ast.Div, call("log", a), call("log", number(10)))),
     "sind": (1, lambda a: call("sin", _radians(a))),
     "cosd": (1, lambda a: call("cos", _radians(a))),

@@ -31,7 +31,9 @@ PURE = (0, 0, 0, 0)
 KINDS = {
     "power": "W", "torque": "N*m", "force": "N", "pressure": "Pa", "work": "J", "energy": "J", "heat": "J",
     "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
-    "efficiency": "-", "ratio": "-", "factor": "-", "number": "-",
+    "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
+    "width": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m", "stress": "Pa",
+    "time": "s",
 }  # fmt: skip
 
 
@@ -69,7 +71,20 @@ _SYMBOL = r"(\$[^$\n]{1,40}\$|\\\([^\n]{1,40}?\\\)|[A-Za-zα-ωΑ-Ω][\w{}\\^]{0
 _LISTED = re.compile(
     rf"{_SYMBOL}\s*(?:[–—=:-]|is the|denotes the)\s*([A-Za-z][^\[\]\n;,$&|]{{2,70}}?)\s*\[([^\[\]\n]{{1,40}})\]"
 )
-_PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n]{1,24}\$?)\s*\)")
+_BACKWARDS = re.compile(
+    r"^\s*[-*+]\s*([A-Za-z][^:`$\[\]\n]{2,60}):\s*[`$]([^`$\n]{1,24})[`$]\s*(?:\([^()]*\)\s*)?\[([^\[\]\n]{1,40})\]"
+)
+_BOLD = re.compile(
+    r"^\s*[-*+]\s*(?:\*\*|[`$])([^*`$\n]{1,24}?)(?:\*\*|[`$])\s*[=:–—-]\s*([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*$"
+)
+_PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
+_WHERE = re.compile(
+    r"\$([^$\n]{1,40})\$,?\s*(?:(?:is|are|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
+    r"(?=\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|\$|\Z))"
+)
+_AHEAD = re.compile(rf"(\w+)\s+({'|'.join(KINDS)})\s+\$([^$\n=]{{1,40}})\$")
+#: Words that change what the next one is measured in
+OTHERS = re.compile("per|unit|specific|by|relative|dimensionless|normali[sz]ed|molar|section")
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
 
 
@@ -79,16 +94,25 @@ def nomenclature(text: str) -> dict[str, Named]:
     for number, row in enumerate(text.split("\n"), 1):
         if len(row) > 6000:
             continue
-        for symbol, meaning, unit in (*_cells(row), *((m[1], m[2], m[3]) for m in _LISTED.finditer(row))):
+        listed = [*_cells(row), *((m[1], m[2], m[3]) for m in _LISTED.finditer(row))]
+        listed += [(m[2], m[1], m[3]) for m in _BACKWARDS.finditer(row)]
+        listed += [(m[1], m[2], m[3] if m[3] and unit_of(m[3]) else "") for m in _BOLD.finditer(row)]
+        for symbol, meaning, unit in listed:
             known = unit_of(unit) if unit else None
             for one in re.split(r",\s*(?![^{]*\})", symbol.strip("$ ")):
-                one = spelled(one)
+                one = spelled(one.partition("=")[0])
                 if one and one not in names and (known or not unit.strip()):
                     names[one] = Named(meaning=meaning.strip(), unit=known or "", line=number)
         for match in _PROSE.finditer(row):
             one = spelled(match[2])
             if match[1] in KINDS and one and len(one) < 20 and one not in names:
                 names[one] = Named(meaning=match[1], unit="", line=number)
+    told = [(m[1], m[2], m.start()) for m in _WHERE.finditer(text)]
+    told += [(m[3], m[2], m.start()) for m in _AHEAD.finditer(text) if not OTHERS.fullmatch(m[1])]
+    for symbol, meaning, start in told:
+        one = spelled(symbol.partition("=")[0])
+        if one and one not in names:
+            names[one] = Named(meaning=" ".join(meaning.split()), unit="", line=text.count("\n", 0, start) + 1)
     return names
 
 

@@ -1,6 +1,6 @@
 """A sewing machine's needle bar: an offset crank and rod drive it, a spring holds it up, the cloth holds it back.
 
-O crank r -- A -- rod l -- B needle bar m_n on a vertical line e beside the shaft; the hand wheel I_w turns with the shaft.
+O crank r -- A -- rod l -- B needle bar m_n on a line e beside the shaft, which turns the hand wheel I_w.
 """
 
 from mechsym.derive import Mechanism, output

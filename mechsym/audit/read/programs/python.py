@@ -2,12 +2,12 @@
 
 import ast
 import io
-import json
 import re
 import tokenize
 import warnings
 from collections.abc import Iterator, Sequence
 
+from mechsym.audit.read.notebook import cells_of
 from mechsym.audit.read.programs.statements import (
     Branch,
     Let,
@@ -42,12 +42,7 @@ def read_python(text: str) -> ProgramText:
 
 def code_of_notebook(text: str) -> str:
     """The code cells of a Jupyter notebook, one below another, without those that are no Python."""
-    try:
-        content = json.loads(text)
-        cells = content["cells"] if "cells" in content else [c for w in content["worksheets"] for c in w["cells"]]
-        code = ["".join(c.get("source", c.get("input", ""))) for c in cells if c["cell_type"] == "code"]
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        raise BadInput("no notebook: JSON with cells is expected, as Jupyter writes it") from None
+    code = cells_of(text, "code")
     plain = (re.sub(r"(?m)^(?=[ \t]*[%!?])", "# ", cell) for cell in code if not cell.startswith("%%"))
     return "\n".join(cell for cell in plain if _is_python(cell))
 

@@ -1,0 +1,297 @@
+"""The verdict of an equation of a text: by a theory that fits, by what the text says elsewhere, by its units."""
+
+import ast
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from mechsym.audit.hosts.paper import CARRIED, DEFINED
+from mechsym.audit.judge import fit as fitting
+from mechsym.audit.judge import kinds as of_units
+from mechsym.audit.judge.asked import Asked
+from mechsym.audit.judge.resultants import squares_of_sums
+from mechsym.audit.judge.world import World, alike, free, states, stems_of
+from mechsym.audit.read.reader import AnyLetter, read_expression
+from mechsym.audit.read.said import Said
+from mechsym.audit.read.spelling import to_latex, to_python
+from mechsym.audit.read.tree import Node, letters, name, substitute, value_of
+from mechsym.audit.row import Row, answer
+from mechsym.audit.theory.record import Theory
+from mechsym.audit.theory.tape import retaped
+from mechsym.audit.verdict import FINDINGS, PASSED
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+_PUT_BACK = re.compile("repaired by (?:put back|letter)")
+_BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
+_CASE = re.compile(
+    r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
+)
+AGREES = "units agree"
+_SEARCHES = 48  # searches for a slip in one text
+
+
+@record
+class Judged:
+    """What is said of an equation."""
+
+    verdict: str
+    matched: str = ""  #: What it was compared with
+    note: str = ""
+    error: float | None = None  #: Largest relative difference over the states compared [-]
+    correction: str | None = None
+    follows: tuple[str, ...] = ()
+
+
+@dataclass
+class Judge:
+    """Judges the equations of a text in their order; a slip is believed mended for those behind it."""
+
+    world: World
+    fits: Sequence[fitting.Match]
+    odd: Mapping[str, list[of_units.Odd]]
+    agreeing: set[str]
+    searches: int = _SEARCHES
+    wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
+
+    def verdict(self, order: int, said: Said) -> Judged:
+        """The verdict of an equation: a theory that fits, the text itself, its units."""
+        odd = self.odd.get(of_units.id_of(said), ())
+        met = self._met(order, said)
+        if met is not None and not odd:
+            return met
+        if (squares := squares_of_sums(self.world, order, said)) is not None:
+            return Judged(
+                verdict="misprint", matched="the text", correction=to_latex(squares, said.spelled),
+                note="the squares belong outside the sums: so the resultant has the size that stands beside it",
+            )  # fmt: skip
+        own = self._by_text(order, said)
+        if own.verdict in (*FINDINGS, CARRIED) or own.verdict not in ("", DEFINED) and not odd:
+            return own
+        if odd:
+            return Judged(verdict="wrong", matched="units", note="; ".join(dict.fromkeys(o.why for o in odd)))
+        for fit in self.fits:
+            if (slip := self._slip(fit, order, said)) is not None:
+                return slip
+        if of_units.id_of(said) in self.agreeing:
+            return Judged(verdict=AGREES, matched="units", note=own.note)
+        return (
+            own if own.verdict else Judged(verdict="untestable", note="nothing in the text or a theory is told of it")
+        )
+
+    def _met(self, order: int, said: Said) -> Judged | None:
+        for fit in self.fits:
+            met = [fit.met[order, k] for k in range(1, len(said.sides)) if (order, k) in fit.met]
+            if met and len(met) == len(said.sides) - 1:
+                against = f"{fit.theory.name}.{met[0].quantity}"
+                if all(m.sign > 0 for m in met):
+                    return self._carried(order, said, Judged(verdict="exact", matched=against, error=0.0))
+                return Judged(verdict="convention", matched=against, note="exact with the opposite sense")
+        return None
+
+    def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
+        # one slip away from the quantity that the text's words name, in letters that are all known
+        for k, side in enumerate(said.sides[1:], 1):
+            tree = self.world.plain(side)
+            used = [n for n in letters(tree) if n != "pi"]
+            if (order, k) in fit.met or not used or len(used) < 2:
+                continue
+            partners = [fit.met[order, j].quantity for j in range(1, len(said.sides)) if (order, j) in fit.met]
+            for quantity in partners or fitting.candidates(fit, said, self.world):
+                for reading in fitting.readings(fit, self.world, used):
+                    row = self._asked(fit.theory, quantity, tree, reading, said)
+                    if row is not None and (slip := self._finding(row, said, side, f"{fit.theory.name}.{quantity}")):
+                        return slip
+                    if row is not None and row["verdict"] in PASSED:
+                        return _passed(row, f"{fit.theory.name}.{quantity}")
+        return None
+
+    def _by_text(self, order: int, said: Said) -> Judged:
+        world = self.world
+        own = next((d for d in world.defined if d.order == order), None)
+        reference = own.side if own else 0
+        pairs = [(reference, k) for k in range(len(said.sides)) if k != reference and not (own and k == 0)]
+        if own is None or own.side == 0:
+            pairs = [(0, k) for k in range(1, len(said.sides))]
+        if own is None and _CASE.search(said.before.rstrip("$[\\ \n").rpartition("\n\n")[2]):
+            pairs = [(1, k) for k in range(2, len(said.sides))]  # what an earlier equation says holds elsewhere
+        if not pairs or own and own.side == 0 and len(pairs) == 1:
+            return Judged(verdict=DEFINED, note=f"the text's own {own.letter}" if own else "")
+        said_all = [self._pair(order, said, i, k) for i, k in pairs]
+        worst = next((v for v in said_all if v.verdict in (*FINDINGS, CARRIED)), None)
+        if worst is not None:
+            return worst
+        verdicts = [v for v in said_all if v.verdict]
+        if verdicts:
+            return self._carried(order, said, max(verdicts, key=lambda v: PASSED.index(v.verdict)))
+        return Judged(verdict=DEFINED if own else "", note=f"the text's own {own.letter}" if own else "")
+
+    def _pair(self, order: int, said: Said, i: int, k: int) -> Judged:
+        nothing = Judged(verdict="")
+        theory = self.world.theory(order)
+        left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
+        if value_of(right) == 0 and value_of(left) is None and not (free(theory, left)):
+            return nothing
+        if any(self._is_still(n) for n in {*letters(left), *letters(right)}):
+            return nothing
+        for first, second in self._readings(left, right, theory):
+            try:
+                same = alike(states(self._steady(theory)), first, second)
+            except (BadInput, KeyError, RecursionError):
+                return nothing
+            if same:
+                if ast.dump(first) == ast.dump(second):
+                    return nothing
+                return Judged(verdict="exact", matched="the text", error=0.0)
+        return self._unlike(order, said, i, k, theory)
+
+    def _is_still(self, letter: str) -> bool:
+        # a rate of what the text says elsewhere without time or angle: there it was a state of rest
+        stems = [] if letter in self.world.paper.named else stems_of(letter)
+        known = {d.letter for d in self.world.defined}
+        return letter not in known and any(stem in known and not self.world.turns(stem) for stem in stems)
+
+    def _readings(self, left: Node, right: Node, theory: Theory) -> Iterator[tuple[Node, Node]]:
+        # a prime is a derivative by the angle, or in time
+        angle = self.world.angle
+        for by in (f"d{{}}_d{angle}", "{}_d"):
+            yield _primed(left, by, theory), _primed(right, by, theory)
+
+    def _known(self, tree: Node, theory: Theory) -> Node:
+        # dots and slopes of the text's own letters under the names of the tape
+        def changed(node: Node) -> Node | None:
+            if not isinstance(node, ast.Name) or node.id in theory.tape or node.id in theory.letters:
+                return None
+            for dots in ("dd", "d"):
+                stem = node.id.removesuffix(dots)
+                if node.id.endswith(dots) and stem in theory.results and f"{stem}_{dots}" in theory.tape:
+                    return name(f"{stem}_{dots}")
+            if node.id.endswith("_dt") and node.id.startswith("d"):
+                return name(f"{node.id[1:].removesuffix('_dt')}_d")
+            if node.id.endswith("_dt2") and node.id.startswith("d2"):
+                return name(f"{node.id[2:].removesuffix('_dt2')}_dd")
+            return None
+
+        return substitute(self.world.plain(tree), changed)
+
+    def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:
+        nothing = Judged(verdict="")
+        left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
+        by = "{}_d" if f"{self.world.angle}d" in letters(right) else f"d{{}}_d{self.world.angle}"
+        left, right = _primed(left, by, theory), _primed(right, by, theory)
+        first, second = free(theory, left), free(theory, right)
+        circular = isinstance(left, ast.Name) and left.id in second
+        if not (first <= second or second <= first or circular) or not second or value_of(right) == 0:
+            return nothing
+        if isinstance(left, ast.Name) and left.id in theory.letters and not circular:
+            return nothing
+        believed = self._believed(order, said, i, k)
+        if believed:
+            return believed
+        row = self._asked_of(theory, left, right, said)
+        if row is None:
+            return nothing
+        if row["verdict"] in PASSED:
+            return _passed(row, "the text")
+        return self._finding(row, said, said.sides[k], "the text") or nothing
+
+    def _believed(self, order: int, said: Said, i: int, k: int) -> Judged | None:
+        # right where earlier slips are believed
+        if not self.wrong:
+            return None
+        for names in [*([w] for w in self.wrong), list(self.wrong)]:
+            theory = self.world.theory(order, {w: self.wrong[w][1] for w in names})
+            left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
+            for first, second in self._readings(left, right, theory):
+                try:
+                    if alike(states(self._steady(theory)), first, second):
+                        return self._follows(names)
+                except (BadInput, KeyError, RecursionError):
+                    continue
+        return None
+
+    def _steady(self, theory: Theory) -> Theory:
+        # at constant speed, which a text takes for granted where no acceleration of the angle stands in it
+        rate = f"{self.world.angle}dd"
+        used = {n for s in self.world.paper.said for side in s.sides for n in letters(self.world.plain(side))}
+        if rate in used or rate not in theory.letters:
+            return theory
+        still = replace(theory.letters[rate], value=1e-300)
+        return replace(theory, letters={**theory.letters, rate: still})
+
+    def _follows(self, names: Sequence[str]) -> Judged:
+        sources = tuple(self.wrong[n][0] for n in names)
+        why = f"follows from {', '.join(f'({s})' for s in sources)} as printed, and is no slip of its own"
+        return Judged(verdict=CARRIED, matched="the text", note=why, follows=sources)
+
+    def _carried(self, order: int, said: Said, verdict: Judged) -> Judged:
+        # right by the text's own letters, one of which is wrong: not so with the right one
+        own = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
+        for letter, (source, _, right) in self.wrong.items():
+            if letter == own or source == said.name:
+                continue
+            theory = self.world.theory(order, {letter: right})
+            trees = [self._known(s, theory) for s in said.sides]
+            if len(trees) < 3 or not any(letter in letters(t) for t in trees):
+                continue
+            try:
+                if alike(states(theory), trees[1], trees[2]) is False:
+                    return self._follows([letter])
+            except (BadInput, KeyError):
+                continue
+        return verdict
+
+    def _asked_of(self, theory: Theory, left: Node, right: Node, said: Said) -> Row | None:
+        claimed = "claimed"
+        tape = retaped(theory.tape, {claimed: left}, theory.letters, theory.angle)
+        grown = replace(theory, tape=tape, results=(*theory.results, claimed))
+        return self._asked(grown, claimed, right, {}, said)
+
+    def _asked(self, theory: Theory, quantity: str, tree: Node, meant: Mapping[str, str], said: Said) -> Row | None:
+        if self.searches <= 0:
+            return None
+        self.searches -= 1
+        asked = Asked(
+            text=to_python(tree), against=f"{theory.name}.{quantity}", given=theory, name=said.name,
+            claim="approx" if said.claim else "", letters={k: v for k, v in meant.items() if k != v},
+        )  # fmt: skip
+        try:
+            return answer(asked, one=True)
+        except (BadInput, KeyError):  # of a broken text a letter that nothing gives a value
+            return None
+
+    def _finding(self, row: Row, said: Said, side: Node, matched: str) -> Judged | None:
+        # one slip explains it, and the correction is right
+        if row["verdict"] != "misprint" or not row["correction"] or ", then by " in row["note"]:
+            return None
+        right = read_expression(row["correction"], (), AnyLetter())[0]
+        if "repaired by left out" in row["note"] and of_units.id_of(said) not in self.odd:
+            if not set(letters(self.world.plain(side))) <= set(letters(right)):
+                return None  # with a letter more it may be of another model
+        beside = _BESIDE.search(row["note"]) and set(letters(right)) <= set(letters(self.world.plain(side)))
+        if _PUT_BACK.search(row["note"]) and of_units.id_of(said) not in self.odd and not beside:
+            return None  # what is left out may be 1 there; with a unit, or beside itself, it cannot
+        everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
+        spelled = everywhere | dict(said.spelled) | {f"{self.world.angle}d": r"\dot{\varphi}"}
+        spelled |= {a: said.spelled[k] for k, a in self.world.aliases.items() if k in said.spelled}
+        left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
+        if left:
+            self.wrong[left] = (said.name, self.world.plain(side), right)
+        return Judged(
+            verdict="misprint", matched=matched, note=row["note"], error=row["max_rel_error"],
+            correction=to_latex(right, spelled),
+        )  # fmt: skip
+
+
+def _passed(row: Row, matched: str) -> Judged:
+    return Judged(verdict=row["verdict"], matched=matched, note=row["note"], error=row["max_rel_error"])
+
+
+def _primed(tree: Node, by: str, theory: Theory) -> Node:
+    def changed(node: Node) -> Node | None:
+        if isinstance(node, ast.Name) and node.id.endswith("prime") and node.id not in theory.tape:
+            stem = node.id.removesuffix("prime")
+            return name(by.format(stem)) if stem in theory.results and by.format(stem) in theory.tape else None
+        return None
+
+    return substitute(tree, changed)

@@ -1,0 +1,192 @@
+"""Texts as people write them beside their programs: Markdown and notebooks, with formulas and words of many forms."""
+
+import json
+
+import pytest
+
+from mechsym.audit.hosts.whole import check_whole
+from mechsym.audit.read.displays import displayed
+from mechsym.audit.read.said import read_text_whole
+from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.units import nomenclature
+from mechsym.audit.verdict import FINDINGS
+from mechsym.errors import BadInput
+
+ROOT = r"\sqrt{1 - \frac{r^2 \sin^2(\omega t)}{l^2}}"
+PISTON = rf"""Let the crank length be r and the rod length l. At constant speed the piston stands at
+<div align='center'>
+
+$x = l {ROOT} + r \cos(\omega t)$
+
+</div>
+Its velocity is
+
+$\dot x = -\omega r \sin(\omega t) - \frac{{\omega r^2 \sin(\omega t) \cos(\omega t)}}{{l {ROOT}}}$
+"""
+
+
+def judged(tmp_path, text, name="text.md"):
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    return check_whole(tmp_path / name)[0]
+
+
+def sides(text):
+    return [[to_python(side) for side in said.sides] for said in read_text_whole(text).said if not said.inline]
+
+
+def test_speed_times_time_is_an_angle(tmp_path):
+    assert [row["verdict"] for row in judged(tmp_path, PISTON)] == ["exact", "exact"]
+
+
+@pytest.mark.parametrize(
+    ("right", "printed", "mended"),
+    [
+        (r"-\omega r \sin(\omega t) -", r"-r \sin(\omega t) -", "put back"),  # the speed stands in the other term
+        (r"{l \sqrt", r"{\sqrt", "put back"),
+        (r"\sin(\omega t) -", r"\sin(\omega t) +", "sign"),
+    ],
+)
+def test_a_slip_beside_speed_times_time_is_told(right, printed, mended, tmp_path):
+    assert PISTON.count(right) == 1
+    rows = judged(tmp_path, PISTON.replace(right, printed))
+    (slip,) = [row for row in rows if row["verdict"] in FINDINGS]
+    assert mended in slip["note"] and r"\omega t" in slip["correction"]
+
+
+def test_a_time_that_stands_alone_is_no_angle(tmp_path):
+    rows = judged(tmp_path, r"$$x = v t + r \cos(\omega t)$$ and $$\dot x = v - r \omega \sin(\omega t)$$")
+    assert not [row for row in rows if row["verdict"] in FINDINGS]
+
+
+def test_arguments_of_a_definition_are_no_factors(tmp_path):
+    text = r"""\[ t_p(R) = \frac{p R}{2 \sigma} \] \[ q(R) = \frac{g R}{3} \]
+\[ D(R) = \frac{q(R)\, t_p(R)}{k} = \frac{g p R^2}{6 k \sigma} \] \[ m = \rho\,t(R) \] \[ V = \pi (R) h \]"""
+    assert sides(text)[2:] == [["D", "q*tp/k", "g*p*R**2/(6*k*sigma)"], ["m", "rho*t"], ["V", "pi*R*h"]]
+    assert [row["verdict"] for row in judged(tmp_path, text)][2] == "exact"
+
+
+def test_words_within_an_index_stay_there():
+    text = r"$$T_{\text{in,surf}} = T_\text{in} + D_{\text{cond, wall}}$$"
+    assert [one.text for one in displayed(text)] == [r"T_{\text{in,surf}} = T_\text{in} + D_{\text{cond, wall}}"]
+    assert sides(text) == [["Tinsurf", "Tin + Dcondwall"]]
+
+
+def test_lines_of_a_display_are_equations(tmp_path):
+    text = "$$\n\\Delta S = S_1 + S_2 \\\\\n\\Delta S = S_1 = m (s_2 - s_1) \\;,\n$$"
+    assert sides(text) == [["DeltaS", "S1 + S2"], ["DeltaS", "S1", "m*(s2 - s1)"]]
+    assert sides("$$\na = b \\\\\n  + c\n$$") == [["a", "b + c"]]
+    assert not [row for row in judged(tmp_path, text) if row["verdict"] in FINDINGS]
+
+
+@pytest.mark.parametrize(
+    ("latex", "tree"),
+    [
+        (r"a = b \tanh(c)", "b*((exp(c) - exp(-c))/2/((exp(c) + exp(-c))/2))"),
+        (r"a = \sec\beta", "1/cos(beta)"),
+        (r"a = \log_{10} b", "log(b)/log(10)"),
+        (r"a = b \cos 2\omega t", "b*cos(2*omega*t)"),
+        (r"a = b \sin n\omega_1 t", "b*sin(n*omega1*t)"),
+        (r"a = \mathrm{inv}\alpha + b", "tan(alpha) - alpha + b"),
+        (r"a = d^2_{t,1} + \lvert b \rvert", "dt1**2 + abs(b)"),
+        (r"a = \cos\alpha\prime", "cos(alphaprime)"),
+    ],
+)
+def test_forms_of_latex(latex, tree):
+    assert sides(f"$${latex}$$") == [["a", tree]]
+
+
+@pytest.mark.parametrize(
+    ("latex", "text", "unit", "aside"),
+    [
+        (r"q_0 = 0.023\ \text{W/m}^3", "q_0 = 0.023", "W/m^3", ""),
+        (r"c = 8 \mbox{ parrots}", "c = 8", "", r"\mbox{ parrots}"),
+        (r"v^2/2 + g h = \text{constant}", r"v^2/2 + g h = \text{constant}", "", ""),
+    ],
+)
+def test_data_with_a_unit_are_read(latex, text, unit, aside):
+    (one,) = displayed(rf"\[ {latex} \]")
+    assert (one.text, one.unit, one.aside) == (text, unit, aside)
+    assert sides(rf"\[ {latex} \]")
+
+
+def test_an_environment_within_a_display_is_none():
+    assert sides("$$\n\\begin{align*}\na &= b \\\\\nc &= d\n\\end{align*}\n$$") == [["a", "b"], ["c", "d"]]
+    assert sides("$$\\begin{equation} a = b \\end{equation}$$") == [["a", "b"]]
+
+
+def test_what_is_said_at_rest_is_nothing_of_its_rates(tmp_path):
+    """A column of liquid that stands at y = P/(rho g), and then swings about another place."""
+    text = r"$$y = \frac{P}{\rho g}$$ and $$\frac{d^2y}{dt^2} + \frac{2 g}{L} y = \frac{1}{\rho L} P$$"
+    assert not [row for row in judged(tmp_path, text) if row["verdict"] in FINDINGS]
+
+
+def test_a_slope_has_the_unit_of_a_quotient(tmp_path):
+    text = (
+        "- Radius: `R` [m]\n- Arc: `s` [m]\n\n$$\\frac{1}{R} = \\frac{d\\theta}{ds}$$\n\n$$R = \\frac{d\\theta}{ds}$$"
+    )
+    text += r" with $$\sin\theta = 0.5$$"
+    assert [row["verdict"] for row in judged(tmp_path, text)][:2] == ["units agree", "wrong"]
+
+
+def test_what_holds_in_another_case_is_no_slip(tmp_path):
+    text = r"""For $a + b \leq 1$ it is
+
+$$l = m \left(1 - \frac{a b}{e f}\right)$$
+
+and for $a + b \gt 1$ it is
+
+$$l = m \left(1 - \frac{(1 - a)(1 - b)}{e f}\right)$$"""
+    assert not [row for row in judged(tmp_path, text) if row["verdict"] in FINDINGS]
+
+
+def test_a_model_with_one_letter_more_is_no_slip(tmp_path):
+    text = r"$$\dot\theta = A \cos(\omega t)$$ with friction $$\dot\theta = A e^{-\lambda t} \cos(\omega t)$$"
+    assert not [row for row in judged(tmp_path, text) if row["verdict"] in FINDINGS]
+
+
+def test_words_of_sentences_and_lists_name_letters():
+    text = r"""where \(F_t\) is the transmitted tangential force, \(b\)
+the face width, \(m\) the module and \(y\) the form factor.
+- Internal pressure: `p` [Pa]
+- **M** = Bending torque (N*mm)
+* $R$ — journal (rotor) radius
+* $\varepsilon = e / c$ — eccentricity ratio
+of specific heat $c$, of mass $m_1$"""
+    names = nomenclature(text.replace(r"\(", " $").replace(r"\)", "$ "))
+    told = {letter.strip().strip("\\"): (about.meaning, about.unit) for letter, about in names.items()}
+    assert told == {
+        "F_t": ("transmitted tangential force", ""), "b": ("face width", ""), "m": ("module", ""),
+        "y": ("form factor", ""), "p": ("Internal pressure", "Pa"), "M": ("Bending torque", "N*mm"),
+        "varepsilon": ("eccentricity ratio", ""), "m_1": ("mass", ""),
+    }  # fmt: skip
+
+
+def notebook(*cells, indent):
+    cells = [{"cell_type": k, "metadata": {}, "source": s.splitlines(keepends=True)} for k, s in cells]
+    return json.dumps({"cells": cells, "nbformat": 4}, indent=indent)
+
+
+@pytest.mark.parametrize("indent", [1, None])
+def test_the_words_of_a_notebook_are_a_text(indent, tmp_path):
+    cells = [("code", "x = 3\n"), ("markdown", "Two forms:\n\n$$a = 2 b = 3 b$$\n"), ("code", "'$$a = b$$'\n")]
+    (row,) = judged(tmp_path, notebook(*cells, indent=indent), "text.ipynb")
+    assert row["verdict"] in (*FINDINGS, "untestable", "definition") and row["printed"] == "a = 2 b = 3 b"
+    if indent:
+        lines = (tmp_path / "text.ipynb").read_text().split("\n")
+        assert "$$a = 2 b = 3 b$$" in lines[row["line"] - 1]
+
+
+def test_of_a_folder_what_cannot_be_read_is_a_row(tmp_path):
+    (tmp_path / "a.ipynb").write_text("no notebook")
+    with pytest.raises(BadInput, match=r"a\.ipynb: no notebook"):
+        check_whole(tmp_path)
+    (tmp_path / ".hidden").mkdir()
+    (tmp_path / ".hidden" / "b.md").write_text("$$a = b$$")
+    rows = judged(tmp_path, "$$a = b$$", "c.md") and check_whole(tmp_path)[0]
+    assert [(row["file"].rpartition("/")[2], row["read"]) for row in rows] == [("a.ipynb", False), ("c.md", True)]
+
+
+def test_lines_of_a_page_of_its_own_language_are_no_equations(tmp_path):
+    page = '<div align="center">\nattrs==19.3.0\n- r = 3 m\n[![x](https://a.b/c?d=e)]\n`a = b`\n'
+    with pytest.raises(BadInput, match="no display equation"):
+        judged(tmp_path, page)
