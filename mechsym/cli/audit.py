@@ -55,7 +55,7 @@ def audit(
 ) -> None:  # fmt: skip
     """Compare published hand formulas with the derivations; repair misprints by search.
 
-    PAPER is a text (.tex, .md, .txt, .ipynb with $ and $$) or a folder of them: each of its display equations is one
+    PAPER is a text (.tex, .md, .rst, .txt, .ipynb) or a folder of them: each of its display equations is one
     row. Without --theory it is judged against itself, its units, and the theories that fit. --out writes a page.
 
     Exit status of formulas: 0 exact, a truncation, right under a convention, or a claim kept; 1 misprint, nearer,

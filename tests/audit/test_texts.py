@@ -176,6 +176,37 @@ def test_the_words_of_a_notebook_are_a_text(indent, tmp_path):
         assert "$$a = 2 b = 3 b$$" in lines[row["line"] - 1]
 
 
+def test_formulas_of_a_page_of_sphinx(tmp_path):
+    text = """.. math::
+   :label: travel
+
+   x = r + l
+
+   x = l + r \\\\
+   y = x
+
+with :math:`r` the radius of the crank, and
+
+.. math:: z = 2 y
+
+Then ``x = 3``::
+
+    w = 4 x
+"""
+    rows = judged(tmp_path, text, "page.rst")
+    assert [(row["line"], row["printed"]) for row in rows] == [
+        (4, "x = r + l"), (6, "x = l + r"), (7, "y = x"), (11, "z = 2 y"),
+    ]  # fmt: skip
+    assert rows[1]["verdict"] == "exact"
+
+
+def test_a_program_in_a_page_is_no_formula(tmp_path):
+    text = "```math\na = b\n```\n\n```python\ncost = '$$c = d$$'\nx = y + z\n```\n"
+    assert [row["printed"] for row in judged(tmp_path, text)] == ["a = b"]
+    with pytest.raises(BadInput, match="no display equation"):
+        judged(tmp_path, "```\nx = y + z\n```\n\n    x = y + z\n")
+
+
 def test_of_a_folder_what_cannot_be_read_is_a_row(tmp_path):
     (tmp_path / "a.ipynb").write_text("no notebook")
     with pytest.raises(BadInput, match=r"a\.ipynb: no notebook"):
@@ -190,3 +221,40 @@ def test_lines_of_a_page_of_its_own_language_are_no_equations(tmp_path):
     page = '<div align="center">\nattrs==19.3.0\n- r = 3 m\n[![x](https://a.b/c?d=e)]\n`a = b`\n'
     with pytest.raises(BadInput, match="no display equation"):
         judged(tmp_path, page)
+
+
+def test_a_number_alone_has_the_unit_behind_it(tmp_path):
+    text = r"- Flow: `q` [m^3/s]\n\n$$q = q_1 - q_2 = 120 \mbox{ liters/hr}$$".replace(r"\n", "\n")
+    assert not [row for row in judged(tmp_path, text) if row["verdict"] in FINDINGS]
+
+
+def test_a_later_section_says_nothing_of_an_earlier_one(tmp_path):
+    """A level A that is a share of the signal's, where an equation before had another A."""
+    text = r"## Even\n$$s = \frac{4 x^2}{12}$$\n$$s = \frac{4 x^2 A^2}{12}$$\n## Waves\n$$A = \frac{\sqrt{s}}{x}$$"
+    assert not [row for row in judged(tmp_path, text.replace(r"\n", "\n")) if row["verdict"] in FINDINGS]
+
+
+@pytest.mark.parametrize("latex", [r"a = E\{b\} c", r"a = b e^{\mathrm{j} c}", r"F = \mathcal{L}\{f\}"])
+def test_operators_and_complex_numbers_are_not_read(latex, tmp_path):
+    (row,) = judged(tmp_path, f"$${latex}$$")
+    assert not row["read"] and "complex numbers and operators" in row["note"]
+
+
+def test_data_in_a_row_have_units_that_stand_elsewhere(tmp_path):
+    text = "$$J \\ddot\\theta = -b \\dot\\theta - k r \\sin\\theta$$\n\n$$k = 1, \\quad J = 9, \\quad b = 10$$"
+    assert not [row for row in judged(tmp_path, text) if row["verdict"] in FINDINGS]
+
+
+def test_raised_numbers_that_count_are_no_powers(tmp_path):
+    rows = judged(
+        tmp_path, "$$U = U^1 = U^2$$\n\n$$f = L^0 f(x^{0}) + L^{2} f(x^{2})$$\n\n$$a = b^{10} + c^{-1} + d^{1/2}$$"
+    )
+    assert ["indices" in row["note"] for row in rows] == [True, True, False]
+
+
+def test_matrices_are_not_read(tmp_path):
+    text = (
+        "$$A = \\begin{bmatrix} 1 & 0 \\\\ 0 & 2 \\end{bmatrix}$$\n\n$$x^T y = 0$$\n\n$$y = A x = x A$$\n\n$$z = A h$$"
+    )
+    rows = judged(tmp_path, text)
+    assert ["matrices" in row["note"] for row in rows][1:] == [True, True, False] and rows[3]["read"]

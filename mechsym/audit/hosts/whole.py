@@ -16,6 +16,7 @@ from mechsym.audit.judge.world import World
 from mechsym.audit.read.displays import Displayed
 from mechsym.audit.read.notebook import words_of_notebook
 from mechsym.audit.read.reader import joined
+from mechsym.audit.read.restructured import with_dollars
 from mechsym.audit.read.said import Said, read_text_whole
 from mechsym.audit.row import Row, html, plain_row, unread_row
 from mechsym.audit.verdict import FINDINGS, PASSED
@@ -24,7 +25,8 @@ from mechsym.files.inputs import read_any_text
 from mechsym.quantities import results
 from mechsym.quantities.results import part, result, tell
 
-SUFFIXES = (".tex", ".md", ".txt", ".ipynb")
+SUFFIXES = (".tex", ".md", ".rst", ".txt", ".ipynb")
+_PLAIN = {".ipynb": words_of_notebook, ".rst": with_dollars}  #: How the text of a file is got
 _LARGEST = 8_000_000  # characters of a file
 
 
@@ -74,7 +76,7 @@ def coverage(rows: Sequence[Row]) -> Coverage:
 def _rows_of(file: Path) -> list[Row]:
     text = read_any_text(file, _LARGEST)
     try:
-        paper = read_text_whole(words_of_notebook(text) if file.suffix == ".ipynb" else text)
+        paper = read_text_whole(_PLAIN.get(file.suffix, str)(text), marked=file.suffix in _PLAIN)
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
     kinds = of_units.kinds_of(paper)

@@ -211,9 +211,13 @@ def kinds_of(paper: Text) -> Kinds:
     for said in paper.said:
         if said.shown.unit and said.sides and isinstance(said.sides[0], ast.Name):
             kinds.printed.setdefault(said.sides[0].id, of_unit(said.shown.unit))
+    beside = Counter(said.shown.begins for said in paper.said)
     for _ in range(3):
         for said in paper.said:
-            _infer(kinds, said)
+            # numbers in a row are data, in units that stand elsewhere
+            data = beside[said.shown.begins] > 1 and said.sides and value_of(said.sides[-1]) is not None
+            if not data:
+                _infer(kinds, said)
     _numbers_of_turns(kinds, paper.said)
     return kinds
 
@@ -262,7 +266,7 @@ def odd(kinds: Kinds, said: Sequence[Said]) -> tuple[list[Odd], set[str]]:
             continue
         sides: list[tuple[int, Kind]] = []
         for i, side in enumerate(one.sides):
-            if value_of(side) == 0:
+            if value_of(side) is not None:  # 0 has any unit, and a number alone is in one that stands behind it
                 continue
             try:
                 sides.append((i, kinds.kind(side)))

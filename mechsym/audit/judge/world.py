@@ -217,8 +217,10 @@ class World:
     def theory(self, order: int, believed: Mapping[str, Node] | None = None) -> Theory:
         """The definitions that hold at an equation; `believed`: what letters are taken to be instead."""
         latest: dict[str, int] = {}
+        here = self.paper.said[order].section
         for index, one in enumerate(self.defined):
-            if one.order <= order or one.letter not in latest:
+            behind = one.letter not in latest and (one.order < 0 or self.paper.said[one.order].section == here)
+            if one.order <= order or behind:
                 latest[one.letter] = index
         key = tuple(sorted(latest.values()))
         if believed is None and key in self.theories:

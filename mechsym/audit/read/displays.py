@@ -14,12 +14,14 @@ _ROWS = ("align", "gather", "eqnarray", "flalign", "alignat")
 _WHOLE = ("equation", "multline", "displaymath", "math")
 _OPENING = re.compile(
     rf"\\begin\{{(?P<name>{'|'.join((*_ROWS, *_WHOLE))})(?P<star>\*?)\}}(?:\{{\d+\}})?|\\\[|(?<!\\)\$\$"
+    r"|^```math\b"  # as on GitHub
     r"|^[ \t]*\$(?=[^$\n=]+=[^$\n]+\$[ \t]*[.,;]?[ \t]*$)",  # a line of its own
     re.MULTILINE,
 )
 MOST = 3000  #: Equations of one file
 _LONGEST = 6000  # characters of a display; two `$$` further apart are no pair
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
+_FENCED = re.compile(r"^([ \t]*)(```+|~~~+)(math\b)?.*?(?:^\1\2[ \t]*$|\Z)", re.MULTILINE | re.DOTALL)
 _REMARK = re.compile(r"^[ \t]*%[^\n]*", re.MULTILINE)
 _INNER = re.compile(
     rf"\\(?:begin|end)\{{(?:split|aligned|alignedat|gathered|subequations|(?:{'|'.join((*_ROWS, *_WHOLE))})\*?)\}}"
@@ -47,7 +49,9 @@ _TWO = re.compile(
 )
 _LIMIT = re.compile(r"(?<![\\{]),[^=,]*(?:<|>|\\leq?\b|\\geq?\b|\\ll\b|\\gg\b)[^=]*$")
 _PROSE = re.compile(r"(?:^|\s)[A-Za-z]{3,}(?=[\s,.:;]|$)")  # a word, which no formula has
-_MARK = re.compile(r"[$\\`<>\"]|==|^\s*(?:[-*+]\s|[|#!\[]|\d+\.\s)")  # of a page's own language: no formula alone
+_MARK = re.compile(
+    r"[$\\`<>\"]|==|^(?: {4}|\t)|^\s*(?:[-*+]\s|[|#!\[]|\d+\.\s)"
+)  # of a page's own language: no formula alone
 _NUMBER = re.compile(r"\(?(\d{1,3}(?:\.\d+)*)\)?")
 #: A unit behind a number: 0.023\\,\\text{W/m}^3
 _DATA = re.compile(
@@ -81,7 +85,7 @@ class _Display:
 def displayed(text: str) -> list[Displayed]:
     """All display equations of a text in their order; numbers are counted as LaTeX counts them."""
     latex = r"\begin{document}" in text or r"\documentclass" in text
-    text = (_COMMENT if latex else _REMARK).sub(lambda m: " " * len(m[0]), text)
+    text = (_COMMENT if latex else _REMARK).sub(lambda m: " " * len(m[0]), _without_programs(text))
     equations: list[Displayed] = []
     breaks = [m.start() for m in re.finditer("\n", text)]
     count = 0
@@ -112,6 +116,10 @@ def displayed(text: str) -> list[Displayed]:
     return [part for equation in equations for part in _parts(equation)]
 
 
+def _without_programs(text: str) -> str:
+    return _FENCED.sub(lambda m: m[0] if m[3] else re.sub(r"[^\n]", " ", m[0]), text)
+
+
 def _joins(last: str, plain: str, same_block: bool) -> bool:
     # a row that begins with a sign goes on; across displays only what an open or leading equals sign asks for
     if same_block:
@@ -124,7 +132,9 @@ def _blocks(text: str, at: int) -> Iterator[_Display]:
         at = match.end()
         name, star = match["name"], match["star"] or ""
         dollars = match[0].strip()
-        closing = dollars if "$" in dollars else rf"\end{{{name}{star}}}" if name else r"\]"
+        closing = (
+            "```" if "`" in dollars else dollars if "$" in dollars else rf"\end{{{name}{star}}}" if name else r"\]"
+        )
         close = text.find(closing, at, at + _LONGEST)
         body = text[at:close] if close >= 0 else ""
         if not body.strip() or match[0] == "$$" and re.search(r"\n[ \t]*\n|\n#", body.strip() if "=" in body else body):
@@ -191,7 +201,7 @@ def flattened(text: str) -> list[Displayed]:
     """Lines that are equations in a text that marks none, as one copied from a page is: their fraction bars, roots
     and powers are lost."""
     equations: list[Displayed] = []
-    lines = text.split("\n")
+    lines = _without_programs(text).split("\n")
     for i, line in enumerate(lines):
         left, equals, _ = line.strip().partition("=")
         if not equals or not left or _PROSE.search(line.strip()) or _MARK.search(line):

@@ -41,6 +41,10 @@ _NO_LETTERS = {
     "tanh",
     "pi",
 }
+# the imaginary unit, and the mean or the transform of what stands in braces
+_NO_PRODUCT = re.compile(
+    r"\\(?:text|mathrm|rm)\s*\{?\s*[ij]\s*\}|(?<![A-Za-z])E\s*(?:\\left)?\s*\\\{|\\math(?:cal|bb|scr)\s*\{?\s*[A-Z]\s*\}?\s*(?:\\left)?\s*\\\{"
+)
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{3,200}?)\$(?!\$)")
@@ -73,6 +77,7 @@ class _Spelling:
     words: Sequence[str]  #: Letters of several characters
     indexed: frozenset[str]  #: Letters of which `Q_2^3` is one
     applied: re.Pattern[str] | None = None  #: Letters with arguments of which some are defined
+    matrices: frozenset[str] = frozenset()  #: Letters that are turned over or given row by row
 
 
 @record
@@ -100,8 +105,8 @@ class Text:
     prose: str
 
 
-def read_text_whole(text: str) -> Text:
-    """All equations of a text in their order, those within its lines as well."""
+def read_text_whole(text: str, marked: bool = False) -> Text:
+    """All equations of a text in their order, those within its lines as well; marked: it marks every equation."""
     text = _BRACKETS.sub(lambda m: " $" if m[0] == r"\(" else "$ ", text)
     shown = displayed(text)
     written = nomenclature(text)
@@ -120,9 +125,10 @@ def read_text_whole(text: str) -> Text:
     lines = [0]
     lines += [m.end() for m in re.finditer("\n", text)]
     if not shown:
-        lost = [Said(shown=e, name=e.number or f"line {e.line}", why=_FLAT) for e in flattened(text)]
+        bare = [] if marked else flattened(text)
+        lost = [Said(shown=e, name=e.number or f"line {e.line}", why=_FLAT) for e in bare]
         return Text(said=lost, named=named, prose=text)
-    spelling = _Spelling(words=words, indexed=indexed, applied=_applied(shown))
+    spelling = _Spelling(words=words, indexed=indexed, applied=_applied(shown), matrices=_matrices(shown))
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
     said = []
     for equation, inline in everything:
@@ -204,10 +210,41 @@ def _applied(shown: Sequence[Displayed]) -> re.Pattern[str] | None:
     return re.compile(rf"(?P<of>{_SIGN})\s*(?:\\left)?\({within}(?:\\right)?\)(?!\s*\^)")
 
 
+_TURNED = re.compile(
+    rf"({_SIGN}|\)|\])\s*\^\s*(?:\{{\s*)?(?:T(?![A-Za-z_\\])|\\(?:top|intercal|mathsf\s*\{{\s*T\s*\}}))"
+)
+_COUNTED = re.compile(r"[A-Za-z)}]\s*\^\s*(?:\{\s*[01]\s*\}|[01](?![\d./]))")
+_GIVEN = re.compile(rf"({_SIGN})\s*=\s*(?:\\left)?\s*[\[(]?\s*\\begin\{{(?:[bpvB]?matrix|array)\}}")
+_BOLD = re.compile(r"\\(?:mathbf|boldsymbol|bm|textbf)\s*\{?\s*([A-Za-z])\s*\}?")
+
+
+def _matrices(shown: Sequence[Displayed]) -> frozenset[str]:
+    """Letters that some equation turns over, as x^T, or gives row by row."""
+    texts = [_BOLD.sub(r"\1", one.text) for one in shown]
+    turned = {m[1] for text in texts for m in (*_TURNED.finditer(text), *_GIVEN.finditer(text))}
+    return frozenset(k.partition("_")[0] for k in turned if k not in ("e", ")", "]"))
+
+
+def _multiplies_matrices(text: str, spelling: _Spelling) -> bool:
+    # a transpose, or two letters of matrices, whose order counts
+    plain = _BOLD.sub(r"\1", text)
+    turned = [m for m in _TURNED.finditer(plain) if m[1] != "e"]
+    own = [k.partition("_")[0] for k in re.findall(_SIGN, plain)]
+    return (
+        bool(turned)
+        or sum(k in spelling.matrices for k in own) > 1
+        or bool(re.search(r"\\(?:operatorname\s*\{\s*)?(?:tr|det|rank)\b", plain))
+    )
+
+
 def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inline: bool) -> Said:
     name = shown.number or shown.label or f"line {shown.line}"
     head = Said(shown=shown, name=name, section=section, before=before, inline=inline)
     try:
+        if _multiplies_matrices(shown.text, spelling):
+            raise BadInput("it multiplies matrices, whose order counts")
+        if _COUNTED.search(shown.text):
+            raise BadInput("raised 0 and 1 are indices, no powers")
         return _sides(head, _prepared(shown.text, spelling))
     except BadInput as error:
         return replace(head, why=str(error))
@@ -216,6 +253,8 @@ def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inli
 
 
 def _sides(head: Said, text: str) -> Said:
+    if operator := _NO_PRODUCT.search(text):
+        raise BadInput(f"{operator[0].strip()} is no number: complex numbers and operators on braces are not read")
     zero = re.search(r"=\s*0\s*$", text)
     if not zero and _NO_EQUATION.search(text.partition("=")[2] or text) and r"\begin" not in text:
         raise BadInput("it is a range, a limit or an inequality, no equation")
