@@ -240,6 +240,16 @@ def test_operators_and_complex_numbers_are_not_read(latex, tmp_path):
     assert not row["read"] and "complex numbers and operators" in row["note"]
 
 
+@pytest.mark.parametrize("latex", [r"a \sin b = c - d", r"F + e = c = F_1 - d"])
+def test_an_equation_is_not_held_against_what_it_was_solved_for(latex, tmp_path):
+    assert [row["verdict"] for row in judged(tmp_path, f"$${latex}$$")] == ["definition"]
+
+
+def test_a_raised_circle_is_a_state_or_degrees():
+    assert sides(r"$$g_i^{\circ} = h^\circ - T s_{i,0}^\circ$$") == [["gio", "ho - T*si0o"]]
+    assert sides(r"$$a = \sin(30^\circ + \theta^{\circ})$$") == [["a", "sin(30*pi/180 + theta*pi/180)"]]
+
+
 def test_data_in_a_row_have_units_that_stand_elsewhere(tmp_path):
     text = "$$J \\ddot\\theta = -b \\dot\\theta - k r \\sin\\theta$$\n\n$$k = 1, \\quad J = 9, \\quad b = 10$$"
     assert not [row for row in judged(tmp_path, text) if row["verdict"] in FINDINGS]

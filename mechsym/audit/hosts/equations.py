@@ -112,10 +112,11 @@ class Judge:
         reference = own.side if own else 0
         pairs = [(reference, k) for k in range(len(said.sides)) if k != reference and not (own and k == 0)]
         if own is None or own.side == 0:
-            pairs = [(0, k) for k in range(1, len(said.sides))]
+            # of what the equation was solved with it says nothing
+            pairs = [(0, k) for k in range(1, len(said.sides)) if own is None or k != own.against]
         if own is None and _CASE.search(said.before.rstrip("$[\\ \n").rpartition("\n\n")[2]):
             pairs = [(1, k) for k in range(2, len(said.sides))]  # what an earlier equation says holds elsewhere
-        if not pairs or own and own.side == 0 and len(pairs) == 1:
+        if not pairs:
             return Judged(verdict=DEFINED, note=f"the text's own {own.letter}" if own else "")
         said_all = [self._pair(order, said, i, k) for i, k in pairs]
         worst = next((v for v in said_all if v.verdict in (*FINDINGS, CARRIED)), None)

@@ -50,6 +50,7 @@ class Defined:
     letter: str
     tree: Node
     side: int = 0  #: Which side of the equation it is; 0 where the equation was solved for the letter [-]
+    against: int = 0  #: Which side it was solved with [-]
 
 
 @dataclass
@@ -160,13 +161,13 @@ class World:
     def _solve(self, order: int, left: Node, right: Sequence[Node], any_letter: bool) -> None:
         # the one letter that nothing has defined yet: under a sine, or a force in a balance
         known = {d.letter for d in self.defined}
-        for side in right:
+        for k, side in enumerate(right, 1):
             for whole, other in ((left, side), (side, left)):
                 for target in targets(whole, known | {self.angle, f"{self.angle}d", f"{self.angle}dd"}, any_letter):
                     if target in letters(other) or target in self.kinds.turns and not any_letter:
                         continue
                     if (solved := isolate(whole, target, other)) is not None and target not in self._reach(solved):
-                        self.defined.append(Defined(order=order, letter=target, tree=solved))
+                        self.defined.append(Defined(order=order, letter=target, tree=solved, against=k))
                         return
 
     def _reach(self, tree: Node) -> set[str]:

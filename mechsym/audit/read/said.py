@@ -58,6 +58,9 @@ _TIDY = (
     (re.compile(r"(?<![A-Za-z\\{])const(?:ant)?\b\.?"), r"\\text{constant}"),
     (re.compile(r"(?<![\\A-Za-z])f\s*\([^()=]*,[^()=]*\)|(?<==)\s*f\s*\([^()=]*\)\s*$"), r"\\text{function}"),
     (re.compile(r"\\[lr]vert(?![A-Za-z])"), "|"),
+    # the standard state of chemists; behind a number, or an angle without an index, degrees
+    (re.compile(r"_(\w|\{(?:[^{}]|\{[^{}]*\})*\})\s*\^\s*(?:\\circ|\{\s*\\circ\s*\})"), r"_{\1\\text{o}}"),
+    (re.compile(r"(?<![A-Za-z\\])([A-Za-z])\s*\^\s*(?:\\circ|\{\s*\\circ\s*\})"), r"\1_{\\text{o}}"),
     (re.compile(r"\\(?:rm|mathrm)\s*\{"), r"\\text{"),
     (re.compile(r"_\s*\\(?:text|textrm)\s*(\{[^{}]*\})"), r"_{\\text\1}"),
     (re.compile(r"\s*\\prime(?![A-Za-z])(?<!\^\\prime)(?<!\{\\prime)"), "'"),
