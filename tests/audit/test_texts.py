@@ -5,6 +5,8 @@ import json
 import pytest
 
 from mechsym.audit.hosts.whole import check_whole
+from mechsym.audit.judge.kinds import kinds_of
+from mechsym.audit.judge.kinds import text as unit_words
 from mechsym.audit.read.displays import displayed
 from mechsym.audit.read.said import read_text_whole
 from mechsym.audit.read.spelling import to_python
@@ -159,6 +161,23 @@ of specific heat $c$, of mass $m_1$"""
         "y": ("form factor", ""), "p": ("Internal pressure", "Pa"), "M": ("Bending torque", "N*mm"),
         "varepsilon": ("eccentricity ratio", ""), "m_1": ("mass", ""),
     }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("words", "unit"),
+    [
+        ("where $a$ is the angular velocity of the shaft", "s^-1"),
+        ("the rotor of mass $a$", "kg"),
+        ("where $a$ is the mass per unit length", None),
+        ("where $a$ is the internal energy", None),
+        ("where $a$ is the heat of a kilogram", None),
+        ("$a$ the pressure ratio", "1"),
+        ("- Internal pressure: `a` [Pa]", "kg m^-1 s^-2"),
+    ],
+)
+def test_what_a_letter_is_called_tells_its_unit(words, unit):
+    kind = kinds_of(read_text_whole(f"{words}\n\n$$b = a c$$")).of("a")
+    assert (None if kind is None else unit_words(kind)) == unit
 
 
 def notebook(*cells, indent):

@@ -187,8 +187,11 @@ def kinds_of(paper: Text) -> Kinds:
     for letter, about in paper.named.items():
         words = re.findall(r"[a-z]+", about.meaning.lower())
         called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
+        called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
         changed = any(OTHERS.fullmatch(word) for word in words) or re.match("(?:d|delta|Delta)[A-Za-z]", letter)
-        unit = about.unit or ("" if changed else KINDS.get(called, ""))
+        usual = "" if changed else KINDS.get(called, "")
+        # small letters of work and heat are often those of a kilogram
+        unit = about.unit or ("" if usual == "J" and letter[0].islower() else usual)
         if unit:
             kinds.printed[letter] = of_unit(unit)
         if about.unit == "rpm":

@@ -25,29 +25,16 @@ _APPLIED = re.compile(
     rf"(?P<of>[A-Za-z}}'])\s*(?:\\left)?\(\s*(?:{_ANGLES}(?:_\{{?\w+\}}?)?|t)\s*(?:\\right)?\)(?!\s*\^)"
 )
 _DEFINED = re.compile(rf"((?:\\Delta ?)?{_SIGN}) ?\( ?({_SIGN}(?: ?, ?{_SIGN})*) ?\)")
-_NO_LETTERS = {
-    "sin",
-    "cos",
-    "tan",
-    "cot",
-    "arcsin",
-    "arccos",
-    "arctan",
-    "exp",
-    "ln",
-    "log",
-    "sinh",
-    "cosh",
-    "tanh",
-    "pi",
-}
+_NO_LETTERS = set("sin cos tan tg cot arcsin arccos arctan exp ln log sinh cosh tanh pi".split())
 # the imaginary unit, and the mean or the transform of what stands in braces
 _NO_PRODUCT = re.compile(
-    r"\\(?:text|mathrm|rm)\s*\{?\s*[ij]\s*\}|(?<![A-Za-z])E\s*(?:\\left)?\s*\\\{|\\math(?:cal|bb|scr)\s*\{?\s*[A-Z]\s*\}?\s*(?:\\left)?\s*\\\{"
+    r"\\(?:text|mathrm|rm)\s*\{?\s*[ij]\s*\}"
+    r"|(?:(?<![A-Za-z])E|\\math(?:cal|bb|scr)\s*\{?\s*[A-Z]\s*\}?)\s*(?:\\left)?\s*\\\{"
 )
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{3,200}?)\$(?!\$)")
+_ALONE = re.compile(r"^[ \t]*(\$[^$\n]+\$)[ \t]*[.,;]?[ \t]*$", re.MULTILINE)  # a display
 _INDEXED = re.compile(r"([A-Z])_(\d|\{\d\})\^(\d|\{\d\})")
 _NO_EQUATION = re.compile(r"\\(?:to|rightarrow|longrightarrow|le|leq|ge|geq|ll|gg|neq|in|propto|sim)(?![A-Za-z])|[<>]")
 _TIDY = (
@@ -145,16 +132,10 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
 def _inline(text: str) -> Iterator[Displayed]:
     # a letter that a sentence defines: $\lambda = r/l$; data with a unit are none
     breaks = [m.start() for m in re.finditer("\n", text)]
+    alone = {m.start(1) for m in _ALONE.finditer(text)}
     for match in islice(_INLINE.finditer(text), MOST):
-        inside = match[1]
-        alone = text[text.rfind("\n", 0, match.start()) + 1 : match.start()].strip() == "" and re.match(
-            r"[ \t]*[.,;]?[ \t]*(?:\n|$)", text[match.end() :]
-        )
-        if (
-            inside.count("=") == 1
-            and not alone
-            and not re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|$)|\\text|\\mathrm", inside)
-        ):
+        inside, data = match[1], re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|$)|\\text|\\mathrm", match[1])
+        if inside.count("=") == 1 and match.start() not in alone and not data:
             line = bisect_right(breaks, match.start()) + 1
             yield Displayed(number="", label="", text=inside.strip(), line=line, begins=match.start())
 
@@ -167,7 +148,7 @@ def _words(written: Mapping[str, Named], shown: Sequence[Displayed]) -> list[str
         left = equation.text.partition("=")[0].strip()
         if re.fullmatch(r"[A-Za-z]{2,5}", left) and not set(left) <= singles and left[0] != "d":
             words.add(left)
-    return sorted(words - {"sin", "cos", "tan", "exp", "log", "ln", "tg"}, key=len, reverse=True)
+    return sorted(words - _NO_LETTERS, key=len, reverse=True)
 
 
 def _plain(symbol: str, words: Sequence[str]) -> str:

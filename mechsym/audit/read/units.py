@@ -33,7 +33,7 @@ KINDS = {
     "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
     "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
     "width": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m", "stress": "Pa",
-    "time": "s",
+    "time": "s", "angular velocity": "rad/s", "angular speed": "rad/s", "angular acceleration": "rad/s^2",
 }  # fmt: skip
 
 
@@ -82,9 +82,9 @@ _WHERE = re.compile(
     r"\$([^$\n]{1,40})\$,?\s*(?:(?:is|are|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
     r"(?=\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|\$|\Z))"
 )
-_AHEAD = re.compile(rf"(\w+)\s+({'|'.join(KINDS)})\s+\$([^$\n=]{{1,40}})\$")
+_AHEAD = re.compile(rf"(\w+)\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+\$([^$\n=]{{1,40}})\$")
 #: Words that change what the next one is measured in
-OTHERS = re.compile("per|unit|specific|by|relative|dimensionless|normali[sz]ed|molar|section")
+OTHERS = re.compile("per|unit|specific|by|relative|dimensionless|normali[sz]ed|molar|section|internal")
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
 
 
