@@ -264,6 +264,13 @@ def test_an_equation_is_not_held_against_what_it_was_solved_for(latex, tmp_path)
     assert [row["verdict"] for row in judged(tmp_path, f"$${latex}$$")] == ["definition"]
 
 
+def test_steps_of_a_cycle_are_no_squares():
+    assert sides("$$Q_1^2 = a$$ $$Q_{2}^{3} = b$$ $$Q_4^1 = c$$") == [["Q12", "a"], ["Q23", "b"], ["Q41", "c"]]
+    assert sides("$$E = Q_1^2 + Q_2^2$$") == [["E", "Q1**2 + Q2**2"]]
+    assert sides("$$Q_1^2 = a$$") == [["Q1**2", "a"]]
+    assert sides("$$λ = r/l$$ $$a = λ b$$") == [["lam", "r/l"], ["a", "lam*b"]]
+
+
 def test_a_raised_circle_is_a_state_or_degrees():
     assert sides(r"$$g_i^{\circ} = h^\circ - T s_{i,0}^\circ$$") == [["gio", "ho - T*si0o"]]
     assert sides(r"$$a = \sin(30^\circ + \theta^{\circ})$$") == [["a", "sin(30*pi/180 + theta*pi/180)"]]
