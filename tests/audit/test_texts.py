@@ -294,3 +294,12 @@ def test_matrices_are_not_read(tmp_path):
     )
     rows = judged(tmp_path, text)
     assert ["matrices" in row["note"] for row in rows][1:] == [True, True, False] and rows[3]["read"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["$$a = 1" + r"\," * 2000 + "x$$", "$$a = 1" + "~" * 5000 + "x$$", "- " + "a" * 200_000 + ": $b$", "```\n" * 5000],
+    ids=["thin", "tied", "long", "fences"],
+)
+def test_no_sign_that_is_repeated_takes_minutes(text):
+    assert len(read_text_whole(text).said) < 2

@@ -35,6 +35,7 @@ _TRAILING = re.compile(r"(?:\\q?quad|\\[,;:! ]|~|\s|\.)+\((\d+(?:\.\d+)*[a-z]?)\
 _UNNUMBERED = re.compile(r"\\(?:nonumber|notag)\b")
 _SIGN = r"(?:[=+\-]|\\(?:approx|simeq|cdot|times|equiv)\b)"
 _SPACE = r"(?:\s|~|\\q?quad\b|\\[,;:! ]|\{\})"
+_WIDE = re.compile(rf"{_SPACE}{{9,}}")  # as good as one, and read in a moment
 _TRAIL = re.compile(rf"(?:{_SPACE}|[.,;])+$")
 _GOES_ON = re.compile(rf"{_SPACE}*{_SIGN}")
 _OPEN = re.compile(rf"{_SIGN}\s*$")
@@ -167,7 +168,7 @@ def _plain(row: str) -> str:
         row = pattern.sub(" ", row)
     if r"\begin{" not in row:
         row = re.sub(r"\\\\(?:\s*\[[\d.]+\s*\w+\])?", " ", row).replace("&", " ")
-    return " ".join(row.split())
+    return _WIDE.sub(r" \\quad ", " ".join(row.split()))
 
 
 def _parts(equation: Displayed) -> Iterator[Displayed]:

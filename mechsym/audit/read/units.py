@@ -82,7 +82,7 @@ _WHERE = re.compile(
     r"\$([^$\n]{1,40})\$,?\s*(?:(?:is|are|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
     r"(?=\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|\$|\Z))"
 )
-_AHEAD = re.compile(rf"(\w+)\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+\$([^$\n=]{{1,40}})\$")
+_AHEAD = re.compile(rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+\$([^$\n=]{{1,40}})\$")
 #: Words that change what the next one is measured in
 OTHERS = re.compile("per|unit|specific|by|relative|dimensionless|normali[sz]ed|molar|section|internal")
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
