@@ -45,7 +45,9 @@ def of_start(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]
 def _acting(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
     r"""What each input and the drive do in a run beside all else that acts, along the coordinate where they do most.
 
-    .. math:: \max_t |Q(u) - Q(0)| / \max_t |Q(0) - b|
+    .. math:: \operatorname{med}_t |Q(u) - Q(0)| / \operatorname{med}_t |Q(0) - b|
+
+    The middle of all times, so that a moment at which something falls or strikes hides nothing.
     """
     acts = dataclasses.asdict(case.need("inputs")) if "inputs" in case.sections else {}
     rotors = roles_of(case.mechanism).rotors
@@ -63,11 +65,11 @@ def _acting(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray])
     together = driven(acts)
     for name in acts:
         rest = driven({other: acting for other, acting in acts.items() if other != name})
-        own, beside = (np.nanmax(np.abs(v), axis=1) for v in (together - rest, rest))
+        own, beside = (np.nanmedian(np.abs(v), axis=1) for v in (together - rest, rest))
         moved = own > 0
         if moved.any() and (beside[moved] > 0).all():
             share = float((own[moved] / beside[moved]).max())
-            yield from proportion("input_share", f"largest effect of {name} in the run / of all else that acts", share)
+            yield from proportion("input_share", f"usual effect of {name} in the run / of all else that acts", share)
 
 
 def _stretched(

@@ -107,18 +107,15 @@ class Judge:
         return None
 
     def _by_text(self, order: int, said: Said) -> Judged:
-        world = self.world
-        own = next((d for d in world.defined if d.order == order), None)
-        reference = own.side if own else 0
-        pairs = [(reference, k) for k in range(len(said.sides)) if k != reference and not (own and k == 0)]
-        if own is None or own.side == 0:
-            # of what the equation was solved with it says nothing
-            pairs = [(0, k) for k in range(1, len(said.sides)) if own is None or k != own.against]
+        own = next((d for d in self.world.defined if d.order == order), None)
+        first = own.side if own else 0
+        # an equation says nothing of what it defines, and of what it was solved with
+        others = [k for k in range(1, len(said.sides)) if own is None or k not in (own.side, own.against)]
         if own is None and _CASE.search(said.before.rstrip("$[\\ \n").rpartition("\n\n")[2]):
-            pairs = [(1, k) for k in range(2, len(said.sides))]  # what an earlier equation says holds elsewhere
-        if not pairs:
+            first, others = 1, others[1:]  # what an earlier equation says holds elsewhere
+        if not others:
             return Judged(verdict=DEFINED, note=f"the text's own {own.letter}" if own else "")
-        said_all = [self._pair(order, said, i, k) for i, k in pairs]
+        said_all = [self._pair(order, said, first, k) for k in others]
         worst = next((v for v in said_all if v.verdict in (*FINDINGS, CARRIED)), None)
         if worst is not None:
             return worst

@@ -136,11 +136,7 @@ def converted_here_and_not_there(claims: Sequence[Claim]) -> Iterator[tuple[Clai
 def one_for_a_letter(claim: Claim) -> Row | None:
     """A power of 1 where the program has an l of its own that the formula does without: 1**2 for l**2."""
     for path, node in trees.walk(claim.tree):
-        if (
-            not trees.is_operation(node, ast.Pow)
-            or trees.value_of(node.left) != 1
-            or trees.value_of(node.right) is None
-        ):
+        if not trees.is_operation(node, ast.Pow) or trees.value_of(node.left) != 1:
             continue
         known = {*claim.values, *claim.parameters} - set(letters(claim.tree))
         letter = next((k for k in ("l", "I") if k in known), "")
@@ -154,8 +150,9 @@ def one_for_a_letter(claim: Claim) -> Row | None:
 def _otherwise(claim: Claim, right: Node, why: str) -> Row | None:
     """The row of a formula that should be another one; None where that makes no difference."""
     row, _ = asked_once(to_python(_safe(claim.tree)), _itself(right, right=_safe(right)), "right", {}, ())
-    found = row["verdict"] in ("misprint", "wrong")
-    return row | {"claim": "what its own letters give", "note": f"{why}; {row['note']}"} if found else None
+    if row["verdict"] not in ("misprint", "wrong"):
+        return None
+    return row | {"claim": "what its own letters give", "note": f"{why}; {row['note']}"}
 
 
 def _angle_of(node: Node) -> Iterator[tuple[str, bool]]:

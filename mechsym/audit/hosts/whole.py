@@ -14,7 +14,7 @@ from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.displays import Displayed
-from mechsym.audit.read.notebook import words_of_notebook
+from mechsym.audit.read.notebook import LONGEST, words_of_notebook
 from mechsym.audit.read.reader import joined
 from mechsym.audit.read.restructured import with_dollars
 from mechsym.audit.read.said import Said, read_text_whole
@@ -74,7 +74,7 @@ def coverage(rows: Sequence[Row]) -> Coverage:
 
 
 def _rows_of(file: Path) -> list[Row]:
-    text = read_any_text(file, _LARGEST)
+    text = read_any_text(file, LONGEST if file.suffix == ".ipynb" else _LARGEST)
     try:
         paper = read_text_whole(_PLAIN.get(file.suffix, str)(text), marked=file.suffix in _PLAIN)
     except BadInput as error:

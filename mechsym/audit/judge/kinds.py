@@ -79,11 +79,9 @@ class Kinds:
             return None
         if slope := _SLOPE.fullmatch(letter):
             above, below, times = self.of(slope[2]), self.of(slope[3]), int(slope[1] or 1)
-            return (
-                None
-                if above is None or below is None
-                else tuple(a - times * b for a, b in zip(above, below, strict=True))
-            )
+            if above is None or below is None:
+                return None
+            return tuple(a - times * b for a, b in zip(above, below, strict=True))
         if (rate := _RATE.fullmatch(letter)) and (still := self.of(rate[1])) is not None:
             # the dot on a mass or a heat may mean the angle
             return (*still[:2], still[2] - len(rate[2]), *still[3:]) if still in (PURE, _LENGTH) else None

@@ -19,6 +19,7 @@ from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
+from mechsym.audit.read.spelling import SPEEDS
 from mechsym.audit.read.tree import (
     Node,
     argument_of,
@@ -36,7 +37,6 @@ from mechsym.quantities import record
 
 _STATES = 48
 _CLOSE = 1e-9
-_RATES = ("omega", "Omega", "w")  # usual letters of an angular speed
 _ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
 _OPAQUE = re.compile(r"integral\w{8}|constant|function")
 _PRIME = re.compile(r"(\w+?)((?:prime)+)")
@@ -79,9 +79,9 @@ class World:
         # omega t under a sine, where time stands nowhere else: an angle, and omega its rate
         trees = [side for said in self.paper.said for side in said.sides]
         sines = [a for t in trees for _, n in walk(t) if (a := argument_of(n, "sin", "cos", "tan")) is not None]
-        rates = {k for a in sines if "t" in letters(a) for k in letters(a) if k in _RATES}
+        rates = {k for a in sines if "t" in letters(a) for k in letters(a) if k in SPEEDS}
         used = {n for tree in trees for n in letters(tree)}
-        angle = next(a for a in ("phi", "theta", "alpha", "gamma", "psi", "") if a not in used)
+        angle = next((a for a in _ANGLES[1:] if a not in used), "")
         if len(rates) != 1 or not angle:
             return
         rate = rates.pop()
@@ -123,7 +123,7 @@ class World:
                         n: f"{self.angle}{'d' * order}" for n in names if n != f"{self.angle}{'d' * order}"
                     }
         written = {n for said in self.paper.said for side in said.sides for n in letters(side)}
-        for usual in _RATES:
+        for usual in SPEEDS:
             about = self.paper.named.get(usual)
             fits = usual != "w" or about and about.unit == "rad/s"
             if self.angle and usual in written and f"{self.angle}d" not in self.aliases.values() and fits:

@@ -40,8 +40,9 @@ _TRAIL = re.compile(rf"(?:{_SPACE}|[.,;])+$")
 _GOES_ON = re.compile(rf"{_SPACE}*{_SIGN}")
 _OPEN = re.compile(rf"{_SIGN}\s*$")
 _WORDS = re.compile(
-    rf"[,;.]?{_SPACE}*(?<!_)(?<!_\{{)\\(?:text|mbox|intertext|textrm|mathrm)\s*\{{\s*(?:for|if|where|when|with|and|at|in|per|"
-    r"positive|negative|otherwise|as)\b[^{}]*\}.*$|[,;]\s*(?:\\q?quad|\\ )+\s*(?:for|if|where|with|when)\b.*$",
+    rf"[,;.]?{_SPACE}*(?<!_)(?<!_\{{)\\(?:text|mbox|intertext|textrm|mathrm)\s*\{{\s*"
+    r"(?:for|if|where|when|with|and|at|in|per|positive|negative|otherwise|as)\b[^{}]*\}.*$|"
+    r"[,;]\s*(?:\\q?quad|\\ )+\s*(?:for|if|where|with|when)\b.*$",
     re.DOTALL,
 )
 _TWO = re.compile(
@@ -50,14 +51,11 @@ _TWO = re.compile(
 )
 _LIMIT = re.compile(r"(?<![\\{]),[^=,]*(?:<|>|\\leq?\b|\\geq?\b|\\ll\b|\\gg\b)[^=]*$")
 _PROSE = re.compile(r"(?:^|\s)[A-Za-z]{3,}(?=[\s,.:;]|$)")  # a word, which no formula has
-_MARK = re.compile(
-    r"[$\\`<>\"]|==|^(?: {4}|\t)|^\s*(?:[-*+]\s|[|#!\[]|\d+\.\s)"
-)  # of a page's own language: no formula alone
+# signs of LaTeX and of a page's own language
+_MARK = re.compile(r"[$\\`<>\"]|==|^(?: {4}|\t)|^\s*(?:[-*+]\s|[|#!\[]|\d+\.\s)")
 _NUMBER = re.compile(r"\(?(\d{1,3}(?:\.\d+)*)\)?")
-#: A unit behind a number: 0.023\\,\\text{W/m}^3
-_DATA = re.compile(
-    rf"(=\s*-?\d[\d.,]*){_SPACE}*((?:\\(?:text|mathrm|mbox|rm)\s*\{{[^{{}}]*\}}(?:\^\{{?-?\d\}}?)?|/|\\cdot|{_SPACE})+)[.,;]?\s*$"
-)
+_UNIT = r"\\(?:text|mathrm|mbox|rm)\s*\{[^{}]*\}(?:\^\{?-?\d\}?)?"
+_DATA = re.compile(rf"(=\s*-?\d[\d.,]*){_SPACE}*((?:{_UNIT}|/|\\cdot|{_SPACE})+)[.,;]?\s*$")  # 3\,\text{W/m}^3
 BRACKET = re.compile(rf"{_SPACE}*(?:\\left)?\[([^\[\]]{{1,60}}?)(?:\\right)?\]{_SPACE}*[.,;]?\s*$")
 
 
@@ -132,10 +130,8 @@ def _blocks(text: str, at: int) -> Iterator[_Display]:
     while match := _OPENING.search(text, at):
         at = match.end()
         name, star = match["name"], match["star"] or ""
-        dollars = match[0].strip()
-        closing = (
-            "```" if "`" in dollars else dollars if "$" in dollars else rf"\end{{{name}{star}}}" if name else r"\]"
-        )
+        paired = {"$": "$", "$$": "$$", "```math": "```", r"\[": r"\]"}
+        closing = rf"\end{{{name}{star}}}" if name else paired[match[0].strip()]
         close = text.find(closing, at, at + _LONGEST)
         body = text[at:close] if close >= 0 else ""
         if not body.strip() or match[0] == "$$" and re.search(r"\n[ \t]*\n|\n#", body.strip() if "=" in body else body):

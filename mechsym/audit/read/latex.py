@@ -12,7 +12,7 @@ from fractions import Fraction
 from zlib import crc32
 
 from mechsym.audit.read.letter import ASKED, WORDS, Ambiguous, Cursor, Way, derivative, letter, place
-from mechsym.audit.read.spelling import typeset
+from mechsym.audit.read.spelling import SPEEDS, typeset
 from mechsym.audit.read.tree import MAX_DEPTH, Node, binary, call, letters, meaning, name, negative, number, piecewise
 from mechsym.errors import BadInput
 
@@ -369,11 +369,10 @@ def _run(cursor: Cursor, function: str) -> Node:
 
 def _is_turned(cursor: Cursor, tree: Node) -> bool:
     # sin omega t, cos n omega t: the time belongs to the speed
-    speeds = ("\\omega", "\\Omega")
     if cursor.peek() == "t":
-        return any(n.startswith(speed[1:]) for n in letters(tree) for speed in speeds)
+        return any(n.startswith(speed) for n in letters(tree) for speed in SPEEDS)
     after = cursor.peek(3) if cursor.peek(1) == "_" else cursor.peek(1)
-    return cursor.peek() in speeds and after == "t"
+    return cursor.peek().removeprefix("\\") in SPEEDS and after == "t"
 
 
 def _goes_on(cursor: Cursor, function: str, what: str) -> bool:

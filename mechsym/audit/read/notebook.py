@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from mechsym.errors import BadInput
 
+LONGEST = 50_000_000  #: Characters of a file, its pictures among them
 _CELL = re.compile(r'\s*"cell_type":\s*"(\w+)"')
 _SOURCE = re.compile(r'\s*"source":\s*\[\s*')
 

@@ -36,6 +36,7 @@ NAME = re.compile(rf"(?P<stem>{_STEMS})(?:{_INDEX})?(?P<dots>dd?)?")
 
 #: Letter by its name
 SYMBOLS = {name: sign for sign, name in _GREEK.items() if name.isalpha() and name != "sqrt" and sign != "ϕ"}
+SPEEDS = ("omega", "Omega", "w")  #: Usual letters of an angular speed
 _CALLS = "arcsin|arccos|arctan|asin|acos|atan|sqrt|sin|cos|tan|cot|tg|ctg|exp|log|ln"
 _BARE = re.compile(rf"\b({_CALLS})\s+((?:\d+(?:\.\d+)?\s*\*?\s*)?[^\W\d]\w*)(?!\s*\()")
 _POWERED = re.compile(rf"\b({_CALLS})\s*(?:(²|³|⁴)|(?:\^|\*\*)\s*\{{?\(?(-?\d)\)?\}}?)\s*(?=[^\W\d]|\()")

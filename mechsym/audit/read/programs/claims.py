@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 
+from mechsym.audit.read import notebook
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.grammars import GRAMMARS, read_grammar
 from mechsym.audit.read.programs.modelica import read_modelica
@@ -17,7 +18,7 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 ENDS = (".py", ".ipynb", ".mo", *GRAMMARS)  #: Of the names of files that are read
-_LONGEST, _LONGEST_NOTEBOOK = 1_000_000, 50_000_000  # characters; a notebook's pictures among them
+_LONGEST = 1_000_000  # characters
 # before the number of a name's later values: changed with regard to the one before, or given in branches alone
 _AGAIN, _ANEW = "__v", "__w"
 
@@ -62,7 +63,7 @@ def is_changed(letter: str) -> bool:
 
 def longest(suffix: str) -> int:
     """Characters of a file that are read at most."""
-    return _LONGEST_NOTEBOOK if suffix == ".ipynb" else _LONGEST
+    return notebook.LONGEST if suffix == ".ipynb" else _LONGEST
 
 
 def read_program(text: str, suffix: str) -> Reading:
