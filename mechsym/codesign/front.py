@@ -30,7 +30,7 @@ from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
 from mechsym.hinge.guide import setting_of
 from mechsym.hinge.springs.face import affine_energy
-from mechsym.periodic.roots import root
+from mechsym.periodic.roots import minimum, root
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import Array, Inertia, Pascal, Pure, RadPerSecond
@@ -188,9 +188,7 @@ def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
             missing = work[k] + fixed + p0 * by_p0
             return _ripple(points[k], missing - missing.mean(), own + flywheel)
 
-        bounds, options = (_FAR[0] * guess[k], _FAR[1] * guess[k]), {"xatol": 1e-5 * guess[k]}
-        optimum = scipy.optimize.minimize_scalar(at_pressure, bounds=bounds, method="bounded", options=options)
-        return float(optimum.x), float(optimum.fun)
+        return minimum(at_pressure, _FAR[0] * guess[k], _FAR[1] * guess[k], 1e-5 * guess[k])
 
     def excess(flywheel: float) -> float:
         return max(best(k, flywheel)[1] for k in range(len(points))) - task.ripple

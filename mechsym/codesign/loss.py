@@ -26,6 +26,8 @@ from mechsym.hinge.rollers import HingeLosses, LossTorques, contact_force
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.machine.loads import load_torque
+from mechsym.periodic.pieces import PPoly
+from mechsym.periodic.roots import minimum
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Newton, RadPerSecond, Scalar
 
@@ -119,9 +121,9 @@ def _beside(design: CoDesign, k: int, point: Point, given: HingeLosses) -> LossT
     return LossTorques(**taken)
 
 
-def _periodic(phi: np.ndarray, values: np.ndarray, period: float) -> "scipy.interpolate.PPoly":
+def _periodic(phi: np.ndarray, values: np.ndarray, period: float) -> PPoly:
     spline = scipy.interpolate.CubicSpline(np.append(phi, period), np.append(values, values[0]), bc_type="periodic")
-    return scipy.interpolate.PPoly(spline.c, spline.x, extrapolate="periodic")
+    return PPoly(spline.c, spline.x, extrapolate="periodic")
 
 
 _RESET = (0.7, 1.3)  # fills that are tried, by that of the schedule
@@ -151,8 +153,7 @@ def with_losses(design: CoDesign, k: int, given: HingeLosses) -> Lossy:
         motion = running.steady(real(machine, assumed, fill).machine)
         return _STOPPED if motion.speed_ripple is None else motion.speed_ripple
 
-    fill = 1.0 if inside else float(
-        scipy.optimize.minimize_scalar(ripple, bounds=_RESET, method="bounded", options={"xatol": 1e-4}).x)  # fmt: skip
+    fill = 1.0 if inside else minimum(ripple, *_RESET, 1e-4)[0]
     lossy = real(machine, assumed, fill).machine
     motion = running.steady(lossy)
     if motion.speed_ripple is None:

@@ -26,6 +26,7 @@ from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
 from mechsym.machine.record import Machine, acting, lever, only_gas
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import parse, quantity, record
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Array, Inertia, NewtonMetre, Pascal, Pure, Radian, RadPerSecond
@@ -130,9 +131,9 @@ def from_curve(
     )
     driving = periodic.fit(lambda x: spline((x - angle[0]) % period + angle[0]), angle, period, 1e-10)
     mean = periodic.mean(driving)
-    wanted = scipy.interpolate.PPoly(-driving.c, driving.x, extrapolate="periodic")
+    wanted = PPoly(-driving.c, driving.x, extrapolate="periodic")
     wanted.c[-1] += mean
-    constant = scipy.interpolate.PPoly(np.array([[inertia]]), np.array([0.0, period]), extrapolate="periodic")
+    constant = PPoly(np.array([[inertia]]), np.array([0.0, period]), extrapolate="periodic")
     return Point(omega=omega, load_torque=mean, law="constant", period=period, work=periodic.antiderivative(wanted),
                  inertia=constant, torque=driving, kinks=())  # fmt: skip
 

@@ -28,6 +28,7 @@ from mechsym.codesign.running import Running, TimeRun, spring_energy
 from mechsym.codesign.task import CoDesign, Track
 from mechsym.hinge.springs.face import affine_energy
 from mechsym.machine.loads import load_torque
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pure, RadPerSecond
 
@@ -92,7 +93,7 @@ def mirrored(track: Track, period: float) -> Track:
     z = track.z
     back = scipy.interpolate.BPoly.from_power_basis(scipy.interpolate.PPoly(z.c, z.x)).c[::-1, ::-1]
     turned = scipy.interpolate.PPoly.from_bernstein_basis(scipy.interpolate.BPoly(back, period - z.x[::-1]))
-    return dataclasses.replace(track, z=scipy.interpolate.PPoly(turned.c, turned.x, extrapolate="periodic"))
+    return dataclasses.replace(track, z=PPoly(turned.c, turned.x, extrapolate="periodic"))
 
 
 def governed(machine: Running, speed: RadPerSecond, turns: int) -> TimeRun:

@@ -10,10 +10,10 @@ from collections.abc import Callable, Sequence
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
+from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import root
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Inertia, Pure
@@ -34,8 +34,8 @@ class Point:
     law: str = choice("propeller", "constant", default="propeller", about="how the load follows the speed")
     weight: float = quantity("-", default=1.0, low=0, about="share of the time at this point")
     period: float = quantity("rad", above=0, about="period of the torque")
-    work: "scipy.interpolate.PPoly"  #: work W wanted from the hinge, from phi = 0 [J]
-    inertia: "scipy.interpolate.PPoly"  #: inertia I of the engine [kg*m^2]
+    work: PPoly  #: work W wanted from the hinge, from phi = 0 [J]
+    inertia: PPoly  #: inertia I of the engine [kg*m^2]
     torque: Function  #: gas and gravity over the angle [rad], as computed, not fitted [N*m]
     misfire: Function | None = None  #: the same for a turn without combustion [N*m]
     kinks: tuple[float, ...] = ()  #: angles where the torque is not smooth [rad]

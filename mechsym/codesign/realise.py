@@ -18,6 +18,7 @@ from mechsym.hinge.choices import ROOM, Station
 from mechsym.hinge.guide import setting_of
 from mechsym.hinge.rollers import HingeLosses, bearing_torque
 from mechsym.hinge.springs.face import affine_energy
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import Scalar
@@ -177,7 +178,7 @@ def _margins(design: CoDesign, at: Station) -> np.ndarray:
 def _track(old: Track, h: Hardware, z: np.ndarray, phi: np.ndarray, period: float) -> Track:
     """The new guide, with the pressures whose works are nearest to those of the old one."""
     spline = scipy.interpolate.CubicSpline(np.append(phi, period), np.append(z, z[0]), bc_type="periodic")
-    curve = scipy.interpolate.PPoly(spline.c, spline.x, extrapolate="periodic")
+    curve = PPoly(spline.c, spline.x, extrapolate="periodic")
     fixed, by_p0 = affine_energy(h.spring, z)
     wave, settings = by_p0 - by_p0.mean(), []
     for p in old.p0:

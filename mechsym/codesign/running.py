@@ -30,6 +30,7 @@ from mechsym.machine.loads import ConstantLoad, PropellerLoad, propeller_torque
 from mechsym.native.compiler import NoCompiler
 from mechsym.native.integrate import integrate
 from mechsym.native.runs import STATUS, Breaks, Level, Runs, Table
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Pure, Radian, Scalar, Second
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
@@ -52,9 +53,7 @@ class Running:
     load: ConstantLoad | PropellerLoad
     torque: Function  #: gas and gravity over the angle [N*m]
     kinks: tuple[float, ...]  #: of that torque [rad]
-    extra: "scipy.interpolate.PPoly | None" = (
-        None  #: torque of friction, and of a gas with heat beside the polytrope [N*m]
-    )
+    extra: PPoly | None = None  #: torque of friction, and of a gas with heat beside the polytrope [N*m]
 
 
 @record
@@ -197,7 +196,7 @@ def ripple_of_last_turn(motion: TimeRun, period: float) -> float | None:
 
 # the legs of a run share it
 @functools.lru_cache(maxsize=8)
-def _fitted(torque: Function, kinks: tuple[float, ...], period: float) -> "scipy.interpolate.PPoly":
+def _fitted(torque: Function, kinks: tuple[float, ...], period: float) -> PPoly:
     return periodic.fit(torque, kinks, period, 1e-10)
 
 
@@ -207,11 +206,11 @@ def bends(machine: Running) -> Radian[Array]:
     return np.unique(np.round(angles, 12))
 
 
-def tables_of(machine: Running) -> tuple["scipy.interpolate.PPoly", ...]:
+def tables_of(machine: Running) -> tuple[PPoly, ...]:
     """Over the angle: torque of the engine, extra torque, inertia, its slope, of each track z, z', z''."""
     point = machine.point
     driving = _fitted(machine.torque, machine.kinks, point.period)
-    extra = scipy.interpolate.PPoly([[0.0]], [0.0, point.period]) if machine.extra is None else machine.extra
+    extra = PPoly([[0.0]], [0.0, point.period]) if machine.extra is None else machine.extra
     closings = (p for t in machine.tracks for p in (t.z, t.z.derivative(), t.z.derivative(2)))
     return driving, extra, point.inertia, point.inertia.derivative(), *closings
 
@@ -237,7 +236,7 @@ class Turning:
     """A machine as its equation takes it, until it has turned so far or is too slow."""
 
     rates: ca.Function  #: (t, states, tables and held values) -> rates of the states, angle and speed first
-    tables: tuple["scipy.interpolate.PPoly", ...]  #: polynomials over the angle, by the rates
+    tables: tuple[PPoly, ...]  #: polynomials over the angle, by the rates
     held: tuple[float, ...] = ()  #: see `equation` [SI]
     kinks: np.ndarray  #: where a table is not smooth [rad]
     period: float  #: [rad]

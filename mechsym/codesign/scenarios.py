@@ -10,7 +10,6 @@ import dataclasses
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import scipy
 
 from mechsym.codesign import manoeuvres, running
 from mechsym.codesign.loss import machine_at
@@ -19,7 +18,7 @@ from mechsym.codesign.points import Function, Point
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
-from mechsym.periodic.roots import root
+from mechsym.periodic.roots import minimum, root
 from mechsym.quantities import quantity, record
 from mechsym.quantities.display import per_cent, quantity_text
 from mechsym.quantities.units import Inertia, Scalar
@@ -261,8 +260,8 @@ def _scavenge_step(design: CoDesign, machine: Running, scavenged: Point, k: int)
         ).speed_ripple
         return _STOPPED if motion is None else motion
 
-    best = scipy.optimize.minimize_scalar(ripple, bounds=(0.8, 1.2), method="bounded", options={"xatol": 1e-4})
-    words = f"ripple {per_cent(ripple(1.0))}, with {per_cent(best.x)} of the pressures {per_cent(best.fun)}"
+    best, least = minimum(ripple, 0.8, 1.2, 1e-4)
+    words = f"ripple {per_cent(ripple(1.0))}, with {per_cent(best)} of the pressures {per_cent(least)}"
     return told(name, about, k, start[1], run, lambda r: words)
 
 

@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-import scipy
 
 from mechsym.codesign.points import Point
 from mechsym.codesign.settings import FREE
@@ -18,6 +17,7 @@ from mechsym.errors import BadInput
 from mechsym.hinge.choices import CENTRE, Limits, Rows, Station, asked
 from mechsym.hinge.rollers import HingeLosses
 from mechsym.hinge.springs.face import Spring, lettered
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.records import Record
 from mechsym.quantities.results import part, result
@@ -133,7 +133,7 @@ class Track:
     """One guide of a co-design with its spring."""
 
     hardware: Hardware  #: with the values that were chosen; p0 is the largest of the schedule [Pa]
-    z: "scipy.interpolate.PPoly"  #: closing of the spring over the crank angle [m]
+    z: PPoly  #: closing of the spring over the crank angle [m]
     p0: np.ndarray  #: shape (k,), excess pressure at free height for each point [Pa]
 
 

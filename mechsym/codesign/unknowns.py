@@ -28,6 +28,7 @@ from mechsym.hinge.guide import setting_of
 from mechsym.hinge.rollers import HingeLosses, contact_force
 from mechsym.hinge.springs.air_thermal import AirThermal, gas_temperature, relaxation
 from mechsym.hinge.springs.face import lettered
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Scalar
 
@@ -71,7 +72,7 @@ def matrices(basis: Basis, phi: np.ndarray) -> tuple[ca.DM, ca.DM, ca.DM]:
     return columns[0], columns[1], columns[2]
 
 
-def curve(basis: Basis, coefficients: np.ndarray) -> "scipy.interpolate.PPoly":
+def curve(basis: Basis, coefficients: np.ndarray) -> PPoly:
     """The periodic piecewise polynomial of some coefficients, over [0, period) [rad]."""
     t, wrapped = _extended(basis), np.append(coefficients, coefficients[:_DEGREE])
     whole = scipy.interpolate.PPoly.from_spline(scipy.interpolate.BSpline(t, wrapped, _DEGREE))
@@ -79,7 +80,7 @@ def curve(basis: Basis, coefficients: np.ndarray) -> "scipy.interpolate.PPoly":
     first = basis.knots[0]
     inside = [i for i in inside if first - 1e-12 <= whole.x[i] < first + basis.period - 1e-12]
     breaks = np.append(whole.x[inside], first + basis.period)
-    return scipy.interpolate.PPoly(whole.c[:, inside], breaks, extrapolate="periodic")
+    return PPoly(whole.c[:, inside], breaks, extrapolate="periodic")
 
 
 def fitted(basis: Basis, values: np.ndarray, phi: np.ndarray) -> np.ndarray:

@@ -8,7 +8,6 @@ import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.codesign import running
@@ -19,6 +18,7 @@ from mechsym.codesign.task import CoDesign, Track, fine_path
 from mechsym.hinge.balance import ripple
 from mechsym.hinge.choices import CENTRE, GuideLimit, Station, asked
 from mechsym.hinge.rollers import side_force
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pure
 from mechsym.simulate.steady import Steady
@@ -65,7 +65,7 @@ def worst(design: CoDesign, off: dict[str, float]) -> float:
     return _worst(design, off, _lost(design))
 
 
-def _worst(design: CoDesign, off: dict[str, float], lost: "list[scipy.interpolate.PPoly | None]") -> float:
+def _worst(design: CoDesign, off: dict[str, float], lost: "list[PPoly | None]") -> float:
     tracks = [_changed(track, off) for track in design.tracks]
     flywheel = design.flywheel * (1 + off.get("flywheel", 0.0))
     rows = [_ripple(p, tracks, k, flywheel, off, extra) for k, (p, extra) in
@@ -73,7 +73,7 @@ def _worst(design: CoDesign, off: dict[str, float], lost: "list[scipy.interpolat
     return max(_UNCERTAINTY_STOPPED if r is None else r for r in rows)
 
 
-def _lost(design: CoDesign) -> "list[scipy.interpolate.PPoly | None]":
+def _lost(design: CoDesign) -> "list[PPoly | None]":
     """Torque of friction and heat at each point [N*m], where the programme had them."""
     return [machine_at(design, k).extra for k in range(len(design.task.points))]
 
@@ -84,7 +84,7 @@ def _ripple(
     k: int,
     flywheel: float,
     off: dict[str, float],
-    extra: scipy.interpolate.PPoly | None,
+    extra: PPoly | None,
 ) -> float | None:
     taken = 0.0 if extra is None else -periodic.mean(extra)
     gone = None if extra is None else extra.antiderivative()

@@ -11,7 +11,6 @@ from collections.abc import Mapping
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym import mechanisms
 from mechsym.cycle.chamber import Motion, check_motion, with_bottom
@@ -19,7 +18,7 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.roles import PistonRole
-from mechsym.periodic.roots import root
+from mechsym.periodic.roots import minimum, root
 from mechsym.quantities.records import Record
 from mechsym.quantities.units import Radian
 
@@ -87,9 +86,7 @@ def dead_centre(travel: ca.Function, sign: float) -> float:
     if slope(low) < 0 < slope(high):
         best = root(slope, low, high, xtol=1e-15)
     else:
-        best = float(
-            scipy.optimize.minimize_scalar(lambda a: sign * float(travel(a)[0]), bounds=(low, high), method="bounded").x
-        )
+        best, _ = minimum(lambda a: sign * float(travel(a)[0]), low, high)
     return best % _TURN if abs(best) > 1e-12 and abs(best - _TURN) > 1e-12 else 0.0
 
 

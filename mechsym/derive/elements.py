@@ -22,6 +22,7 @@ from mechsym.derive.refuse import file_of_declaration, refuse
 from mechsym.errors import BadInput
 from mechsym.files.inputs import sources
 from mechsym.files.tables import columns_of
+from mechsym.periodic.pieces import PPoly
 
 #: Units of what a motor is bought by, in N*m/A, ohm and V
 _ELECTRIC = {"k": {"N*m/A": 1.0, "mN*m/A": 1e-3, "V*s/rad": 1.0, "V*s": 1.0}, "R": {"ohm": 1.0, "mohm": 1e-3},
@@ -143,7 +144,7 @@ class Elements(Cams):
             refuse(f"{path}, line {at}: {wanted[0][0]} must rise row by row, and there must be two rows; mend the file")
         return x, y
 
-    def _piecewise(self, name: str, at: Expr, curve: "scipy.interpolate.PPoly", stored: bool = False) -> Expr:
+    def _piecewise(self, name: str, at: Expr, curve: PPoly, stored: bool = False) -> Expr:
         """Polynomials between breaks, the first below the second of them; or their integral from 0 on."""
         if stored:
             curve = curve.antiderivative()
@@ -157,7 +158,7 @@ class Elements(Cams):
         return value
 
 
-def _straight(curve: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
+def _straight(curve: PPoly) -> PPoly:
     """The same, gone on straight beyond its ends."""
     (a, b), far = curve.x[[0, -1]], 1.0
     ends = [
@@ -165,7 +166,7 @@ def _straight(curve: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
         for at, shift in ((a, far), (b, 0.0))
     ]
     c = np.column_stack([ends[0], curve.c, ends[1]])
-    return scipy.interpolate.PPoly(c, np.array([a - far, *curve.x, b + far]))
+    return PPoly(c, np.array([a - far, *curve.x, b + far]))
 
 
 def _electric(name: str, key: str, value: object) -> float:

@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym import mechanisms
 from mechsym.forces import textbook
@@ -18,6 +17,7 @@ from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.roles import CamRole
 from mechsym.page.finding import NOT_MET, Finding
+from mechsym.periodic.roots import minimum
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.results import Columns, part, quantity, result
 
@@ -90,11 +90,7 @@ def _numbers(turn: Turn, role: CamRole) -> CamNumbers:
     least, share = int(np.argmin(carried)), float(np.min(shares))
     if np.isfinite(share):
         near, step = phi[int(np.argmin(shares))], phi[1]
-        best = scipy.optimize.minimize_scalar(
-            lambda at: float(jump(np.array([at]))[0]), bounds=(near - step, near + step), method="bounded",
-            options={"xatol": 1e-10},
-        )  # fmt: skip
-        share = min(float(best.fun), share)
+        share = min(minimum(lambda at: float(jump(np.array([at]))[0]), near - step, near + step, 1e-10)[1], share)
     bend = shape["bend"]
     radius = amount(role.roller, mechanism.parameters) if role.roller is not None else 0.0
     undercut = bool((bend <= 0).any()) if role.flat else bool(radius and (bend < -1 / radius).any())

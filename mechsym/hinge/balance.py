@@ -24,13 +24,13 @@ import math
 from itertools import accumulate
 
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge.choices import BALANCES
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
+from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Inertia, Joule, NewtonMetre, Pure, Radian, RadPerSecond
@@ -48,9 +48,9 @@ class Balance:
     omega: float  #: Crank speed that it is for [rad/s]
     period: float  #: Period of the torque that the hinge gives [rad]
     #: That torque [N*m] and its integral from phi = 0 [J]
-    torque: "scipy.interpolate.PPoly"
-    work: "scipy.interpolate.PPoly"
-    rest: "scipy.interpolate.PPoly"  #: Torque that is left over [N*m]
+    torque: PPoly
+    work: PPoly
+    rest: PPoly  #: Torque that is left over [N*m]
     rest_swing: float  #: Largest minus smallest work of the rest [J]
     #: Speed ripple that the rest leaves; None if the crank would stop [-]
     ripple_constant_load: float | None
@@ -85,7 +85,7 @@ def balance(hinge: Hinge, kind: str) -> Balance:
     )
 
 
-def turn_mean(torque: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
+def turn_mean(torque: PPoly) -> PPoly:
     r"""Part of a torque that repeats every turn.
 
     .. math:: \bar M(\varphi) = \frac1k \sum_{i=0}^{k-1} M(\varphi + 2 \pi i)
@@ -97,9 +97,9 @@ def turn_mean(torque: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
     return periodic.fit(lambda phi: torque(phi + shifts).mean(axis=0), torque.x, _TURN, tol=1e-11)
 
 
-def _rest(torque: "scipy.interpolate.PPoly", part: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
+def _rest(torque: PPoly, part: PPoly) -> PPoly:
     if part is torque:
-        return scipy.interpolate.PPoly(np.zeros_like(torque.c), torque.x, extrapolate="periodic")
+        return PPoly(np.zeros_like(torque.c), torque.x, extrapolate="periodic")
     breaks = np.concatenate([torque.x, part.x, part.x + _TURN])
     return periodic.fit(lambda phi: torque(phi) - part(phi), breaks, torque.x[-1], tol=1e-9)
 

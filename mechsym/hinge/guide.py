@@ -40,6 +40,7 @@ from mechsym.machine.loads import settle
 from mechsym.machine.record import AngleForce, Machine
 from mechsym.mechanisms.shaft import with_torque
 from mechsym.periodic import even_angles
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.units import Array, Joule, Metre, NewtonMetre, Radian
@@ -57,7 +58,7 @@ class Guide:
     rollers: int  #: Rollers c that move the spring
     status: str  #: `cut`, or why not, see `TrackPath`
     reason: str
-    rho: "scipy.interpolate.PPoly | None"  #: Path over the angle theta of the guide's shaft [m]; None unless cut
+    rho: PPoly | None  #: Path over the angle theta of the guide's shaft [m]; None unless cut
     closure: float  #: Gap of the path after a period, before it is closed [m]
 
 
@@ -89,7 +90,7 @@ def refit(guide: Guide, spring: Spring) -> Guide:
     return replace(guide, spring=spring)
 
 
-def path(guide: Guide) -> "scipy.interpolate.PPoly":
+def path(guide: Guide) -> PPoly:
     """The path over the angle of the guide's shaft [m]. Raises BadInput: there is none; the message says why."""
     if guide.rho is None:
         raise BadInput(f"there is no guide: {guide.reason}")
@@ -124,12 +125,12 @@ def gas_turn(guide: Guide) -> GasTurn:
     return guide.spring.turn(closing(guide, rho(theta)), np.full(_POINTS, period / _POINTS), omega)
 
 
-def warmth(guide: Guide) -> "scipy.interpolate.PPoly":
+def warmth(guide: Guide) -> PPoly:
     """Its temperature by the wall's [-] over the angle of the guide's shaft."""
     rho, turn = path(guide), gas_turn(guide)
     values = np.append(turn.warmth, turn.warmth[0])
     curve = scipy.interpolate.CubicSpline(np.linspace(rho.x[0], rho.x[-1], _POINTS + 1), values, bc_type="periodic")
-    return scipy.interpolate.PPoly(curve.c, curve.x, extrapolate="periodic")
+    return PPoly(curve.c, curve.x, extrapolate="periodic")
 
 
 def kept_torque(guide: Guide) -> float:

@@ -11,7 +11,6 @@ and the load is lowered by the mean of what is lost. The fill of the spring is s
 import dataclasses
 
 import numpy as np
-import scipy
 
 from mechsym.cycle.pressure import unfired, unfired_kinks
 from mechsym.hinge import rollers as law
@@ -23,6 +22,7 @@ from mechsym.hinge.springs.face import GasTurn
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad
 from mechsym.machine.record import Firing, Machine, firings, lever
+from mechsym.periodic.roots import minimum
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import RadPerSecond
 from mechsym.simulate import angle
@@ -181,10 +181,8 @@ def _best_fill(
 
     if gas is None:
         return 1.0, motion(1.0).speed_ripple
-    best = scipy.optimize.minimize_scalar(
-        lambda f: motion(f).speed_ripple or _STOPPED, bounds=_RESET, method="bounded", options={"xatol": 1e-4}
-    )
-    return float(best.x), motion(float(best.x)).speed_ripple
+    best, _ = minimum(lambda f: motion(f).speed_ripple or _STOPPED, *_RESET, 1e-4)
+    return best, motion(best).speed_ripple
 
 
 def _lowered(load: Load, lost: float) -> Load:

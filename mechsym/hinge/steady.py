@@ -21,7 +21,6 @@ import functools
 from collections.abc import Callable
 
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
@@ -31,6 +30,7 @@ from mechsym.hinge.torque import Hinge
 from mechsym.hinge.trials import RealHinge, Trial, ready, run
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine
+from mechsym.periodic.roots import minimum
 from mechsym.quantities import record
 from mechsym.quantities.units import Pure
 from mechsym.simulate.angle import Panels, tabulate
@@ -137,10 +137,7 @@ def retuned(other: Machine, wanted: Hinge, hinge: RealHinge, turns: Pure) -> Ret
         value = with_guide(other, wanted, refit(guide, with_setting(guide.spring, setting))).speed_ripple
         return 2.0 if value is None else value
 
-    bounds = (0.8 * near, 1.25 * near)
-    best = float(
-        scipy.optimize.minimize_scalar(ripple, bounds=bounds, method="bounded", options={"xatol": 1e-4 * near}).x
-    )
+    best, _ = minimum(ripple, 0.8 * near, 1.25 * near, 1e-4 * near)
     spring = with_setting(guide.spring, best)
     steady = with_guide(other, wanted, refit(guide, spring))
     trial = None
@@ -202,17 +199,21 @@ def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
     # the constant of the work is free
     wanted, given = parts.work_wanted - parts.work_0, parts.work_1
     near = max(_projection(wanted - wanted.mean(), given - given.mean()), least)
+
+    def least_of(cost: Callable[[float], float]) -> float:
+        return minimum(cost, near / 2, near * 2, 1e-9 * near)[0]
+
     match criterion:
         case "least_squares_torque":
             setting = max(_projection(parts.torque_wanted - parts.torque_0, parts.torque_1), least)
         case "least_squares_work":
             setting = near
         case "least_work_swing":
-            setting = _minimum(lambda s: work_swing(parts, s), near)
+            setting = least_of(lambda s: work_swing(parts, s))
         case "least_ripple_constant_load":
-            setting = _minimum(lambda s: _or_more(_ripple_constant(parts, s), parts, s), near)
+            setting = least_of(lambda s: _or_more(_ripple_constant(parts, s), parts, s))
         case "least_ripple_propeller_load":
-            setting = _minimum(lambda s: _or_more(_ripple_propeller(parts, s), parts, s), near)
+            setting = least_of(lambda s: _or_more(_ripple_propeller(parts, s), parts, s))
         case _:
             raise BadInput(f"criterion {criterion!r} is not an option; options are {', '.join(CRITERIA)}")
     return at_setting(guide, hinge, setting, criterion)
@@ -240,13 +241,6 @@ def at_setting(guide: Guide, hinge: Hinge, setting: float, criterion: str = "giv
 
 def _projection(wanted: np.ndarray, given: np.ndarray) -> float:
     return float(np.dot(wanted, given) / np.dot(given, given))
-
-
-def _minimum(cost: Callable[[float], float], near: float) -> float:
-    optimum = scipy.optimize.minimize_scalar(
-        cost, bounds=(near / 2, near * 2), method="bounded", options={"xatol": 1e-9 * near}
-    )
-    return float(optimum.x)
 
 
 def _ripple_constant(parts: Affine, setting: float) -> float | None:

@@ -18,12 +18,12 @@ import functools
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.machine.loads import ConstantLoad
 from mechsym.machine.record import Machine, kinks_of, period_of, shaft_torque
 from mechsym.mechanisms.record import curves, evaluate
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.units import Pure, RadPerSecond
 
@@ -52,12 +52,12 @@ class Hinge:
     omega: float  #: Crank speed [rad/s]
     period: float  #: of the torque [rad]
     load_torque: float  #: Constant torque M_r that the engine can drive, the mean of F dx/dphi [N*m]
-    torque: "scipy.interpolate.PPoly"  #: M_h, the sum of the three parts [N*m]
-    inertia_part: "scipy.interpolate.PPoly"  #: omega^2 I'/2 [N*m]
-    gas_part: "scipy.interpolate.PPoly"  #: M_r - F x' [N*m]
-    gravity_part: "scipy.interpolate.PPoly"  #: -M_g [N*m]
-    inertia: "scipy.interpolate.PPoly"  #: I [kg*m^2]
-    work: "scipy.interpolate.PPoly"  #: W, integral of M_h from phi = 0 [J]
+    torque: PPoly  #: M_h, the sum of the three parts [N*m]
+    inertia_part: PPoly  #: omega^2 I'/2 [N*m]
+    gas_part: PPoly  #: M_r - F x' [N*m]
+    gravity_part: PPoly  #: -M_g [N*m]
+    inertia: PPoly  #: I [kg*m^2]
+    work: PPoly  #: W, integral of M_h from phi = 0 [J]
     mean_torque: float  #: Mean of M_h over a period [N*m]
     exists: bool  #: The mean is zero within 1e-9 of the peak, so that a spring can give the torque
     torque_min: float  #: Lowest M_h, with its sign [N*m]
@@ -119,13 +119,13 @@ def hinge_of(torques: EngineTorques, omega: RadPerSecond, tol: Pure = 1e-12) -> 
         tol,
     )
     inertia_part, gas_part, gravity_part = (
-        scipy.interpolate.PPoly(parts.c[..., i].copy(), parts.x, extrapolate="periodic") for i in range(3)
+        PPoly(parts.c[..., i].copy(), parts.x, extrapolate="periodic") for i in range(3)
     )
     load_torque = -periodic.mean(gas_part)
     if abs(load_torque) <= tol * float(np.abs(parts.c[-1]).max()):  # what no gas drives has no load, only rounding
         load_torque = 0.0
     gas_part.c[-1] += load_torque
-    total = scipy.interpolate.PPoly(inertia_part.c + gas_part.c + gravity_part.c, parts.x, extrapolate="periodic")
+    total = PPoly(inertia_part.c + gas_part.c + gravity_part.c, parts.x, extrapolate="periodic")
     work = periodic.antiderivative(total)
     low, _, high, _ = periodic.extremes(total)
     work_low, _, work_high, _ = periodic.extremes(work)
@@ -148,7 +148,7 @@ def hinge_of(torques: EngineTorques, omega: RadPerSecond, tol: Pure = 1e-12) -> 
     )
 
 
-def exists(torque: "scipy.interpolate.PPoly") -> bool:
+def exists(torque: PPoly) -> bool:
     """Whether a spring can give a periodic torque [N*m]: its mean is below 1e-9 of the peak."""
     low, _, high, _ = periodic.extremes(torque)
     return abs(periodic.mean(torque)) <= _MEAN_TOLERANCE * max(abs(low), abs(high))

@@ -23,7 +23,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from mechsym.hinge import rollers as laws
 from mechsym.hinge.guide import Guide, fitted, path, warmth
@@ -37,6 +36,7 @@ from mechsym.mechanisms import roles_of
 from mechsym.mechanisms.record import Mechanism, bind
 from mechsym.mechanisms.shaft import with_inertia
 from mechsym.periodic import even_angles
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.display import figure
 from mechsym.quantities.results import computed, part, quantity, result, seen
@@ -82,8 +82,8 @@ def with_real_hinge(problem: Problem, machine: Machine, hinge: RealHinge) -> Pro
     gas = kinks_of(machine)
     period = period_of(machine)
     own = float(rho.x[-1] - rho.x[0])
-    back = rho.derivative().roots(discontinuity=False, extrapolate=False)
-    once = np.concatenate([np.asarray(gas, dtype=float), back[np.isfinite(back)]]) % own
+    back = rho.derivative().zeros()
+    once = np.concatenate([np.asarray(gas, dtype=float), back]) % own
     every = np.sort(np.concatenate([once + k * own for k in range(max(1, round(period / own)))]))
     kinks = tuple(float(a) for i, a in enumerate(every) if i == 0 or a - every[i - 1] > _SAME)
     return replace(
@@ -97,16 +97,16 @@ def with_real_hinge(problem: Problem, machine: Machine, hinge: RealHinge) -> Pro
     )
 
 
-def _over_crank(rho: "scipy.interpolate.PPoly", ratio: float) -> "scipy.interpolate.PPoly":
+def _over_crank(rho: PPoly, ratio: float) -> PPoly:
     """The same path over the angle of the crank."""
     if ratio == 1:
         return rho
     powers = ratio ** np.arange(rho.c.shape[0] - 1, -1, -1)
-    return scipy.interpolate.PPoly(rho.c * powers[:, None], rho.x / ratio, extrapolate="periodic")
+    return PPoly(rho.c * powers[:, None], rho.x / ratio, extrapolate="periodic")
 
 
-def _curve(coordinate: str, poly: "scipy.interpolate.PPoly") -> Periodic:
-    curve = scipy.interpolate.PPoly(poly.c, poly.x, extrapolate="periodic")
+def _curve(coordinate: str, poly: PPoly) -> Periodic:
+    curve = PPoly(poly.c, poly.x, extrapolate="periodic")
     return Periodic(coordinate=coordinate, value=curve, period=float(poly.x[-1] - poly.x[0]))
 
 
@@ -195,7 +195,7 @@ def _stored(hinge: RealHinge, u: Scalar, curves: Sequence[Scalar], states: Seque
     return hinge.guide.spring.energy(_closing(hinge, curves[0]), states[0] if states else None)
 
 
-def _inertia(coordinate: str, hinge: RealHinge, rho: "scipy.interpolate.PPoly") -> tuple[Periodic, Periodic] | None:
+def _inertia(coordinate: str, hinge: RealHinge, rho: PPoly) -> tuple[Periodic, Periodic] | None:
     """Inertia of the moving masses on the crank [kg*m^2] and its derivative."""
     if hinge.rollers.moving_mass == 0:
         return None
@@ -204,7 +204,7 @@ def _inertia(coordinate: str, hinge: RealHinge, rho: "scipy.interpolate.PPoly") 
     drho = rho.derivative()
     c = _square(drho.c) / ratio**2
     squared = mass * (_square(rho.c) + np.vstack([np.zeros((2, c.shape[1])), c]))
-    poly = scipy.interpolate.PPoly(squared, rho.x, extrapolate="periodic")
+    poly = PPoly(squared, rho.x, extrapolate="periodic")
     return _curve(coordinate, poly), _curve(coordinate, poly.derivative())
 
 

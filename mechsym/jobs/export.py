@@ -31,6 +31,7 @@ from mechsym.mechanisms import listing
 from mechsym.mechanisms.drawing import Shapes, declared, drawn
 from mechsym.mechanisms.drawn_parts import turns_round
 from mechsym.mechanisms.turning import FRAMES, scene
+from mechsym.periodic.pieces import PPoly
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.constrained import LOCKED
 from mechsym.simulate.problem import Kinks, Periodic, Problem
@@ -99,7 +100,7 @@ def _splined(case: Case, problem: Problem) -> Problem:
             pieces = [_spline(part.value.value, a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
             rows = np.concatenate([p.c for p in pieces], axis=1)
             breaks = np.concatenate([*(p.x[:-1] for p in pieces), [period]])
-            table = scipy.interpolate.PPoly(rows, breaks, extrapolate="periodic")
+            table = PPoly(rows, breaks, extrapolate="periodic")
             kinks.setdefault(part.value.coordinate, set()).update(angles)
             part = dataclasses.replace(part, value=dataclasses.replace(part.value, value=table, kinks=angles))
         parts.append(part)
@@ -108,7 +109,7 @@ def _splined(case: Case, problem: Problem) -> Problem:
     return dataclasses.replace(problem, parts=tuple(parts), kinks=asked)
 
 
-def _spline(force: _Force, first: float, last: float) -> "scipy.interpolate.PPoly":
+def _spline(force: _Force, first: float, last: float) -> PPoly:
     """A smooth curve through a piece of the table: of degree 7, so that an integrator of order 8 keeps its order."""
     pieces = max(round((last - first) / _PIECE), 1)
     phi = np.linspace(first, last, _SAMPLES * pieces + 1)
@@ -116,7 +117,7 @@ def _spline(force: _Force, first: float, last: float) -> "scipy.interpolate.PPol
     asked[[0, -1]] += np.array([_INSIDE, -_INSIDE])  # the force may jump at an edge
     knots = np.concatenate([[first] * 7, np.linspace(first, last, pieces + 1), [last] * 7])
     poly = scipy.interpolate.PPoly.from_spline(scipy.interpolate.make_lsq_spline(phi, force(asked), knots, k=7))
-    return scipy.interpolate.PPoly(poly.c[:, 7:-7], poly.x[7:-7])
+    return PPoly(poly.c[:, 7:-7], poly.x[7:-7])
 
 
 def drawing(case: Case) -> Callable[[float], Shapes] | None:

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from mechsym import cases
 from mechsym.cases import Case
@@ -23,6 +22,7 @@ from mechsym.jobs.machine import kept_flywheel, machine
 from mechsym.jobs.problem import guide_of
 from mechsym.machine.record import Machine, kinks_of
 from mechsym.mechanisms import listing
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.units import Pascal, Pure
 
@@ -71,7 +71,7 @@ def workshop(case: Case, diagram: str | None = None) -> Workshop:
     for distance in (-ERROR, ERROR):  # cut too near to the axis, and too far from it
         rows_of_track = rho.c.copy()
         rows_of_track[-1] += distance
-        moved = scipy.interpolate.PPoly(rows_of_track, rho.x, extrapolate="periodic")
+        moved = PPoly(rows_of_track, rho.x, extrapolate="periodic")
         tracks.append(with_guide(engine, wanted, replace(guide, rho=moved)).speed_ripple)
     period = float(rho.x[-1])
     turns = range(round(2 * np.pi / period))

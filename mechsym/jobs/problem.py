@@ -16,7 +16,6 @@ from collections.abc import Hashable, Mapping
 from dataclasses import asdict, replace
 
 import numpy as np
-import scipy
 
 from mechsym import mechanisms
 from mechsym.cases import Case
@@ -46,6 +45,7 @@ from mechsym.mechanisms.own import letters_class
 from mechsym.mechanisms.record import Mechanism, form_of
 from mechsym.mechanisms.shaft import at_rest, with_torque
 from mechsym.periodic import fit
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import quantity, record
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.engine import at_angle, load_value, reduced
@@ -322,7 +322,7 @@ def _on_throws(case: Case, mechanism: Mechanism) -> Driving:
             f"{case.file}: throw = {[one.face.throw + 1 for one in acts]}: the twist between throws would change the "
             "volume of a gas that both cylinders share; put them on one throw"
         )
-    curves: dict[object, scipy.interpolate.PPoly] = {}  # cylinders that are equal share one
+    curves: dict[object, PPoly] = {}  # cylinders that are equal share one
     parts, bends = [], {mechanism.coordinates[throw]: set[float]() for throw in sorted(throws)}
     for number, one in enumerate(acts, 1):
         name, period = mechanism.coordinates[one.face.throw], one.gas.pressure.period
@@ -331,7 +331,7 @@ def _on_throws(case: Case, mechanism: Mechanism) -> Driving:
         alike, own = (id(one.gas), one.area, one.face.sense), replace(one, face=replace(one.face, fires=0.0))
         curve = curves.get(alike) or fit(own.force, one.gas.pressure.kinks, period, _FOLLOWED)
         curves[alike] = curve
-        fired = scipy.interpolate.PPoly(curve.c, curve.x + one.face.fires % period, extrapolate="periodic")
+        fired = PPoly(curve.c, curve.x + one.face.fires % period, extrapolate="periodic")
         value = Periodic(coordinate=name, value=fired, period=period, kinks=angles)
         parts.append(Part(name=f"gas_{number}", input=one.face.input, value=value))
     kinks = (Kinks(coordinate=q, angles=tuple(sorted(bent)), period=period) for q, bent in bends.items() if bent)

@@ -7,11 +7,11 @@ this way), or it would leave the motion it is on (a parallelogram that lies flat
 from collections.abc import Mapping
 
 import numpy as np
-import scipy
 
 from mechsym.mechanisms import loops, own
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
+from mechsym.periodic.roots import minimum
 from mechsym.quantities.records import Record
 
 _GRID = 720  # angles of a turn
@@ -37,11 +37,12 @@ def meets(mechanism: Mechanism) -> bool:
         # what comes down to 0 between two angles, as a parabola or as a V, is at most half of its neighbour
         low = (middle <= before) & (middle <= after) & (middle <= 0.55 * np.maximum(before, after))
         for k in np.flatnonzero(ends & low) + 1:
-            least = scipy.optimize.minimize_scalar(
-                lambda x, i=i: float(np.nan_to_num(roots(np.array([x]))[i, 0])),
-                bounds=(at[k - 1], at[k + 1]), method="bounded", options={"xatol": 1e-9},
-            )  # fmt: skip
-            if least.fun < _MEET * largest:
+
+            def length(x: float, i: int = i) -> float:
+                return float(np.nan_to_num(roots(np.array([x]))[i, 0]))
+
+            _, least = minimum(length, at[k - 1], at[k + 1], 1e-9)
+            if least < _MEET * largest:
                 return True
     return False
 

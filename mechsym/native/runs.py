@@ -29,7 +29,7 @@ class Table:
     held: int
     state: int
     #: For each run, or one for all: breaks (k + 1,) from the start to the end of one period, and coefficients (terms,
-    #: k) in the distance from the left break, highest power first, as in `scipy.interpolate.PPoly` [SI]
+    #: k) in the distance from the left break, highest power first, as in `PPoly` [SI]
     polynomials: tuple[tuple[np.ndarray, np.ndarray], ...]
 
 

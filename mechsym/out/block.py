@@ -22,6 +22,7 @@ from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad, 
 from mechsym.mechanisms import listing
 from mechsym.mechanisms.projected import projected
 from mechsym.mechanisms.record import Mechanism, acceleration_function, accelerations, bind, velocities
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.simulate import Part, Problem, constrained
 from mechsym.simulate.equations import fitted
@@ -45,7 +46,7 @@ class Curve:
     name: str
     state: int  #: index in x
     ratio: float = 1.0  #: argument per unit of the state [-]
-    poly: "scipy.interpolate.PPoly"
+    poly: PPoly
     periodic: bool = True
 
 
@@ -330,7 +331,7 @@ def load_law(part: str, load: Load, speed: int) -> Law:
             return Law(part=part, parameters=ports, value=propeller)
         case TableLoad():
             fitted = scipy.interpolate.PchipInterpolator(load.speeds, load.torques)
-            poly = scipy.interpolate.PPoly(fitted.c, fitted.x)
+            poly = PPoly(fitted.c, fitted.x)
             curve = Curve(name=part, state=speed, poly=poly, periodic=False)
             return Law(part=part, curves=(curve,), value=lambda at: at.curves[0][0])
     raise ValueError(f"load {load!r} is not settled")

@@ -8,9 +8,10 @@ breaks at the kinks and halves a piece until its polynomial is right, so pieces 
     ----|-|--|----|--------|----|--|-|-|--|----> phi
         0                                period
 
-What it returns is a `scipy.interpolate.PPoly` with ``extrapolate="periodic"``: it takes any real angle, and
+What it returns is a `PPoly` with ``extrapolate="periodic"``: it takes any real angle, and
 derivative and antiderivative are exact. `scalar` makes the fast function of one float that a time simulation needs.
 
+pieces.py  piecewise polynomials
 rises.py   laws by which something rises from 0 to 1: of cams and of driven motions
 roots.py   where a function of one number is zero
 """
@@ -20,10 +21,10 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterable
 
 import numpy as np
-import scipy
 from numpy.polynomial import chebyshev
 
 from mechsym.errors import BadInput
+from mechsym.periodic.pieces import PPoly, zeros_of_piece
 from mechsym.quantities.units import Array, Pure, Radian
 
 DEGREE = 9
@@ -126,7 +127,7 @@ def even_angles(period: Radian, count: int = 4096) -> Radian[Array]:
 
 def fit(
     function: Callable[[np.ndarray], np.ndarray], breaks: Iterable[Radian], period: Radian, tol: Pure = 1e-12
-) -> "scipy.interpolate.PPoly":
+) -> PPoly:
     """Periodic piecewise polynomial that follows a function within a tolerance.
 
     function: vectorised: angles of shape (n,) [rad] to values of shape (n,), or (parts, n) for several functions at
@@ -141,23 +142,23 @@ def fit(
     scale = width ** np.arange(DEGREE, -1, -1)[:, None]
     rows = rows / scale.reshape(scale.shape + (1,) * (rows.ndim - 2))
     order = np.argsort(left)
-    return scipy.interpolate.PPoly(rows[:, order], np.append(left[order], period), extrapolate="periodic")
+    return PPoly(rows[:, order], np.append(left[order], period), extrapolate="periodic")
 
 
-def mean(poly: "scipy.interpolate.PPoly") -> float:
+def mean(poly: PPoly) -> float:
     """Mean over a period [unit of the values]."""
     return float(_integral(poly)(poly.x[-1]) / (poly.x[-1] - poly.x[0]))
 
 
-def antiderivative(poly: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
+def antiderivative(poly: PPoly) -> PPoly:
     """Periodic integral of f - mean(f), exact, 0 at the first break: without the drift of a mean."""
-    level = scipy.interpolate.PPoly(poly.c.copy(), poly.x, extrapolate="periodic")
+    level = PPoly(poly.c.copy(), poly.x, extrapolate="periodic")
     level.c[-1] -= mean(poly)
     integral = _integral(level)
-    return scipy.interpolate.PPoly(integral.c, integral.x, extrapolate="periodic")
+    return PPoly(integral.c, integral.x, extrapolate="periodic")
 
 
-def scalar(poly: "scipy.interpolate.PPoly") -> Callable[[float], tuple[float, float]]:
+def scalar(poly: PPoly) -> Callable[[float], tuple[float, float]]:
     """Fast evaluation for one float at a time: the value and its derivative.
 
     poly: periodic piecewise polynomial with values of shape (n,). Returns function: phi, any real number [rad] ->
@@ -181,7 +182,7 @@ def scalar(poly: "scipy.interpolate.PPoly") -> Callable[[float], tuple[float, fl
     return value_and_slope
 
 
-def extremes(poly: "scipy.interpolate.PPoly") -> tuple[float, float, float, float]:
+def extremes(poly: PPoly) -> tuple[float, float, float, float]:
     """Smallest and largest value over a period and where they are.
 
     poly: periodic piecewise polynomial with values of shape (n,). Returns low, phi_low, high, phi_high: smallest value
@@ -192,13 +193,13 @@ def extremes(poly: "scipy.interpolate.PPoly") -> tuple[float, float, float, floa
     return low, phi_low, -high, phi_high
 
 
-def piece_points(poly: "scipy.interpolate.PPoly", count: int = 17) -> Radian[Array]:
+def piece_points(poly: PPoly, count: int = 17) -> Radian[Array]:
     """Angles on every piece with both of its ends, denser towards them, shape (pieces, count)."""
     u = (1 - np.cos(np.linspace(0, math.pi, count))) / 2
     return poly.x[:-1, None] + np.diff(poly.x)[:, None] * u
 
 
-def piece_values(poly: "scipy.interpolate.PPoly", phi: Radian[Array]) -> np.ndarray:
+def piece_values(poly: PPoly, phi: Radian[Array]) -> np.ndarray:
     """Values that take each break from the piece the point belongs to, so that both sides of a jump are seen.
 
     poly: periodic piecewise polynomial with values of shape (n,); phi: angles made by `piece_points` of a polynomial
@@ -211,15 +212,15 @@ def piece_values(poly: "scipy.interpolate.PPoly", phi: Radian[Array]) -> np.ndar
     return values
 
 
-def _integral(poly: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
-    return scipy.interpolate.PPoly(poly.c, poly.x, extrapolate=False).antiderivative()
+def _integral(poly: PPoly) -> PPoly:
+    return PPoly(poly.c, poly.x, extrapolate=False).antiderivative()
 
 
 def _smallest(rows: np.ndarray, x: np.ndarray) -> tuple[float, float]:
     width, powers = np.diff(x), np.arange(len(rows) - 1, -1, -1)[:, None]
     scaled = rows * width**powers
-    phi = piece_points(scipy.interpolate.PPoly(rows, x))
-    lowest = piece_values(scipy.interpolate.PPoly(rows, x), phi).min(axis=1)
+    phi = piece_points(PPoly(rows, x))
+    lowest = piece_values(PPoly(rows, x), phi).min(axis=1)
     # between two of its points a piece dips by less than gap**2 / 8 of its largest second derivative
     dip = (math.pi / 2 / (phi.shape[1] - 1)) ** 2 / 8 * (powers * (powers - 1) * np.abs(scaled)).sum(axis=0)
     pieces = np.flatnonzero(lowest - dip <= lowest.min())
@@ -230,8 +231,6 @@ def _smallest(rows: np.ndarray, x: np.ndarray) -> tuple[float, float]:
 
 def _smallest_of_piece(scaled: np.ndarray, points: np.ndarray) -> tuple[float, float]:
     """Smallest value over u in [0, 1] and its u; `points` are tried beside the roots of the derivative."""
-    roots = np.roots(np.polyder(scaled))
-    inside = roots.real[(np.abs(roots.imag) < 1e-6) & (roots.real > 0) & (roots.real < 1)]
-    u = np.concatenate([inside, points])
+    u = np.concatenate([zeros_of_piece(np.polyder(scaled)), points])
     values = np.polyval(scaled, u)
     return float(values.min()), float(u[values.argmin()])

@@ -1,4 +1,4 @@
-"""Where a function of one number is zero, without the second that it takes to load scipy's optimizers."""
+"""Where a function of one number is zero or least, without the time that it takes to load scipy's optimizers."""
 
 import math
 from collections.abc import Callable
@@ -6,6 +6,8 @@ from collections.abc import Callable
 from mechsym.quantities.units import Pure
 
 _ROUNDING = 2.0**-52
+_FLAT = math.sqrt(2.2e-16)  # of a number: nearer than that a least value does not change
+_GOLDEN = (3 - math.sqrt(5)) / 2
 _MOST = 200  # of steps; halves alone need sixty
 
 
@@ -48,3 +50,46 @@ def root(
         edge = tolerance / width / 2
         share = min(max(share, edge), 1 - edge)
     return best
+
+
+def minimum(function: Callable[[float], float], low: float, high: float, xtol: float = 1e-5) -> tuple[float, float]:
+    r"""Where a function of a number x is least between two ends, and its value, by Brent's method [unit of x, of f].
+
+    Steps to the vertex of a parabola through the three best points where they shrink fast enough, golden sections
+    elsewhere; the ends themselves are never asked. xtol: how near, beside the rounding that a least value leaves,
+
+    .. math:: |x - x_0| \le x_\mathrm{tol} + 3 \sqrt{\epsilon}\,|x|
+
+    Valid: one minimum between the ends; of several it gives one. Source: R. P. Brent, Algorithms for Minimization
+    without Derivatives, Prentice-Hall 1973, chapter 5.
+    """
+    x = second = third = low + _GOLDEN * (high - low)
+    f = f_second = f_third = float(function(x))
+    step = before = 0.0
+    for _ in range(_MOST):
+        middle, near = (low + high) / 2, _FLAT * abs(x) + xtol / 3
+        if abs(x - middle) <= 2 * near - (high - low) / 2:
+            break
+        r, q = (x - second) * (f - f_third), (x - third) * (f - f_second)
+        p, q = (x - third) * q - (x - second) * r, 2 * (q - r)
+        p, q = (-p if q > 0 else p), abs(q)
+        last, before = before, step
+        if abs(last) > near and abs(p) < abs(q * last / 2) and q * (low - x) < p < q * (high - x):
+            step = p / q
+            if min(x + step - low, high - x - step) < 2 * near:  # not right beside an end
+                step = math.copysign(near, middle - x)
+        else:
+            before = (low if x >= middle else high) - x
+            step = _GOLDEN * before
+        u = x + (step if abs(step) > near else math.copysign(near, step))
+        f_u = float(function(u))
+        if f_u <= f:
+            low, high = (x, high) if u >= x else (low, x)
+            third, f_third, second, f_second, x, f = second, f_second, x, f, u, f_u
+            continue
+        low, high = (u, high) if u < x else (low, u)
+        if f_u <= f_second or second == x:
+            third, f_third, second, f_second = second, f_second, u, f_u
+        elif f_u <= f_third or third in (x, second):
+            third, f_third = u, f_u
+    return x, f

@@ -12,11 +12,11 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.mechanisms.record import Mechanism, acceleration_function, velocities
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.units import Scalar, Second
 from mechsym.simulate.problem import Along, FormulaForce, Part, Periodic, Problem, Steps
@@ -162,9 +162,9 @@ def _asked(system: System, value: Periodic | Callable[..., float]) -> Callable[.
 
 
 @lru_cache(maxsize=64)
-def fitted(value: Periodic) -> "scipy.interpolate.PPoly":
+def fitted(value: Periodic) -> PPoly:
     """Periodic piecewise polynomial of a value, to round-off; one that is such a polynomial stays as it is."""
-    if isinstance(value.value, scipy.interpolate.PPoly):
+    if isinstance(value.value, PPoly):
         return value.value
     return periodic.fit(value.value, value.kinks, value.period)
 

@@ -6,8 +6,8 @@ Output samples say where a speed is about to turn; what it is there says the sol
 from collections.abc import Callable
 
 import numpy as np
-import scipy
 
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Pure, Radian, Second
 
@@ -104,5 +104,5 @@ def last_period(t: Second[Array], q: np.ndarray, u: np.ndarray, period: Radian, 
     if u[i] * u[i + 1] <= 0 or u[i] * (b - a) <= 0:  # it swings there
         return float(t[i] + (wanted - a) / (b - a) * (t[i + 1] - t[i]))
     way = np.sign(b - a)
-    inverse = scipy.interpolate.CubicHermiteSpline(way * np.array([a, b]), t[i : i + 2], way / u[i : i + 2])
+    inverse = PPoly.hermite(way * np.array([a, b]), t[i : i + 2], way / u[i : i + 2])
     return float(np.clip(inverse(way * wanted), t[i], t[i + 1]))

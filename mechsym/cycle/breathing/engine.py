@@ -32,6 +32,7 @@ from mechsym.cycle.source import ENGINE_PAGE, EngineParts, FiguresPage, Progress
 from mechsym.cycle.wiebe import BURNT, burnt_at
 from mechsym.errors import BadInput
 from mechsym.files import Json
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import RPM, record
 from mechsym.quantities.display import ratio_text
 from mechsym.quantities.units import Scalar
@@ -137,13 +138,13 @@ def _curve(breath: Breath) -> Callable[[Scalar], Scalar]:
     return periodic(_between(breath, np.append(p[:-1], p[0])), PERIOD, float(breath.phi[0]))
 
 
-def _between(breath: Breath, values: np.ndarray) -> scipy.interpolate.PPoly:
+def _between(breath: Breath, values: np.ndarray) -> PPoly:
     # a cubic spline from event to event, so that none rounds off a corner
     parts = [
         scipy.interpolate.CubicSpline(breath.phi[a : b + 1], values[a : b + 1])
         for a, b in itertools.pairwise(breath.marks)
     ]
-    return scipy.interpolate.PPoly(np.concatenate([part.c for part in parts], axis=1), breath.phi)
+    return PPoly(np.concatenate([part.c for part in parts], axis=1), breath.phi)
 
 
 def figures(breathed: BreathingRun) -> Json:

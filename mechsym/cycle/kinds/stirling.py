@@ -7,7 +7,6 @@ from pathlib import Path
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym.cycle.chamber import Chamber, motion_over, piston_area
 from mechsym.cycle.gas import Gas
@@ -27,6 +26,7 @@ from mechsym.cycle.plots import stirling_picture
 from mechsym.cycle.pressure import Pressure, periodic
 from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
 from mechsym.files import Json
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import RPM, record
 from mechsym.quantities.display import ratio_text
 
@@ -218,7 +218,7 @@ class StirlingGas:
         """Pressure over the shaft angle, by cubics with the exact slopes."""
         whole = self.engine(omega).turn
         once = np.append(True, np.diff(whole.phi) > 0)  # a cut stands twice among the nodes
-        curve = scipy.interpolate.CubicHermiteSpline(whole.phi[once], whole.p[once], whole.dp_dphi[once])
+        curve = PPoly.hermite(whole.phi[once], whole.p[once], whole.dp_dphi[once])
         best = int(np.argmax(whole.p))
         return Pressure(
             kind=self.kind,

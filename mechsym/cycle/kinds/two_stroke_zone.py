@@ -15,7 +15,6 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
-import scipy
 
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
@@ -25,6 +24,7 @@ from mechsym.cycle.kinds.two_stroke import burnt_angles, scavenging_pressure
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput
+from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import root
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Pure, Scalar
@@ -173,7 +173,7 @@ def _fuel(cycle: TwoStrokeZone, air: float, mean: Callable[[float], float]) -> f
 def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Scalar], Scalar]:
     once = np.append(np.diff(result.phi[0]) > 1e-12, True)
     nodes, p = result.phi[0, once], result.p[0, once]
-    closed = scipy.interpolate.CubicHermiteSpline(nodes, p, result.dp_dphi[0, once])
+    closed = PPoly.hermite(nodes, p, result.dp_dphi[0, once])
     p_evo, p_evc = float(p[-1]), scavenging_pressure(cycle.p_s)
 
     def one_turn(phi: Scalar) -> Scalar:

@@ -33,6 +33,7 @@ from mechsym.hinge.rollers import HingeLosses
 from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.hinge.springs.law_path import FULL, TrackPath, can_be_given, crossing, takes_work
 from mechsym.hinge.torque import Hinge
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Kelvin, Metre, Pascal, Pure, Radian, RadPerSecond, Scalar, Volume
 
@@ -298,8 +299,8 @@ def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParamete
     rho[-1] = rho[0]
     slope = (task.at - kept) / (count * force)
     slope[-1] = slope[0]
-    curve = scipy.interpolate.CubicHermiteSpline(theta, rho, slope)
-    path = scipy.interpolate.PPoly(curve.c, curve.x, extrapolate="periodic")
+    path = PPoly.hermite(theta, rho, slope)
+    path.extrapolate = "periodic"
     return TrackPath(status="cut", rho=path, closure=gap)
 
 

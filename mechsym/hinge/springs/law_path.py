@@ -4,12 +4,12 @@ import functools
 from typing import Protocol
 
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import ROLLERS, GuideParameters
 from mechsym.hinge.torque import Hinge, exists
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.units import Scalar
 
@@ -50,7 +50,7 @@ class TrackPath:
     status: str
     reason: str = ""
     #: Over the angle of the guide's shaft [m]; None unless cut
-    rho: "scipy.interpolate.PPoly | None" = None
+    rho: PPoly | None = None
     closure: float = 0.0  #: Gap of the path after a period, before it is closed [m]
 
 

@@ -12,10 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput, MissingExtra
+from mechsym.hinge.guide import path as path_of
 from mechsym.jobs.export import guide_named
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ class DrawnCurve:
     stated_error: float  #: of the length and area that the text states, the larger; nan where it states none [-]
 
 
-def measured(path: Path, rho: "scipy.interpolate.PPoly", radius: float) -> tuple[list[DrawnCurve], int]:
+def measured(path: Path, rho: PPoly, radius: float) -> tuple[list[DrawnCurve], int]:
     """Each spline of a file against the path and the roller radius [m]; and how many errors ezdxf's audit finds."""
     try:
         import ezdxf
@@ -63,9 +64,7 @@ def stated(texts: list[str]) -> dict[str, tuple[float, float]]:
     return {line[1]: (1e-3 * float(line[2]), 1e-6 * float(line[3])) for line in lines if line}
 
 
-def _curve(
-    entity: "Spline", rho: "scipy.interpolate.PPoly", radius: float, stated: dict[str, tuple[float, float]]
-) -> DrawnCurve:
+def _curve(entity: "Spline", rho: PPoly, radius: float, stated: dict[str, tuple[float, float]]) -> DrawnCurve:
     layer = entity.dxf.layer
     side, turned = _LAYERS[layer.removesuffix("_2")], math.pi if layer.endswith("_2") else 0.0
     tool = entity.construction_tool()
@@ -89,7 +88,7 @@ def _curve(
     )  # fmt: skip
 
 
-def distance(z: np.ndarray, rho: "scipy.interpolate.PPoly") -> np.ndarray:
+def distance(z: np.ndarray, rho: PPoly) -> np.ndarray:
     """Signed distance of points to the path, positive outside [m]."""
     first, second = rho.derivative(), rho.derivative(2)
     theta = np.angle(z)
@@ -104,7 +103,7 @@ def distance(z: np.ndarray, rho: "scipy.interpolate.PPoly") -> np.ndarray:
     return np.real(np.conj(outward) * (z - r * turn)) / np.abs(outward)
 
 
-def true_size(rho: "scipy.interpolate.PPoly", distance: float) -> tuple[float, float]:
+def true_size(rho: PPoly, distance: float) -> tuple[float, float]:
     """Length [m] and area [m^2] of the parallel curve at a distance [m], by Gauss points in the pieces of the path."""
     turns = round(2 * math.pi / float(rho.x[-1]))
     edges = np.concatenate([rho.x[:-1] + k * rho.x[-1] for k in range(turns)] + [[2 * math.pi]])
@@ -121,7 +120,7 @@ def main(arguments: list[str]) -> int:
     """Measure the file of the first argument against the guide of the case of the second."""
     path, name, *settings = arguments
     guide, rollers = guide_named(name, dict(text.split("=", 1) for text in settings))
-    rows, errors = measured(Path(path), guide.rho, rollers.radius)
+    rows, errors = measured(Path(path), path_of(guide), rollers.radius)
     print(f"audit: {errors} errors")
     for row in rows:
         print(

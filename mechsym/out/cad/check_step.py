@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.guide import path as centre_path
@@ -17,6 +16,7 @@ from mechsym.jobs.export import guide_named
 from mechsym.out.cad.check import distance
 from mechsym.out.cad.curve import tracks_of
 from mechsym.out.cad.step import kernel
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.units import Metre, Radian
 
@@ -85,9 +85,7 @@ def _measured(name: str, shape: object) -> StepBody:
     return StepBody(name=name, valid=valid, volume=volume, low=corners[0], high=corners[1], shape=shape)
 
 
-def wall_deviation(
-    body: StepBody, rho: "scipy.interpolate.PPoly", radius: Metre, turned: tuple[Radian, ...]
-) -> tuple[int, float]:
+def wall_deviation(body: StepBody, rho: PPoly, radius: Metre, turned: tuple[Radian, ...]) -> tuple[int, float]:
     """How many walls of grooves the disc has, and their largest distance from the true ones [m].
 
     radius: of the rollers; turned: angles of the tracks, that in the upper face first.

@@ -11,12 +11,12 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge.guide import Guide, path
 from mechsym.hinge.rollers import RollerParameters, curvature, parallel
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import Array, Metre, Radian
@@ -112,7 +112,7 @@ def tracks_of(guide: Guide) -> tuple[float, ...]:
     return (0.0, math.pi) if guide.parameters.arrangement == "two_tracks" else (0.0,)
 
 
-def offset(rho: "scipy.interpolate.PPoly", distance: float) -> Point:
+def offset(rho: PPoly, distance: float) -> Point:
     """The parallel curve at a distance [m]: points and tangents, shape (n, 2) each, by the angle [rad]."""
     first, second = rho.derivative(), rho.derivative(2)
 
@@ -184,7 +184,7 @@ def nurbs(path: CubicPath) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([path.points[:1], pairs.reshape(-1, 2), path.points[-1:]]), np.concatenate(knots)
 
 
-def _refuse_crossing(rho: "scipy.interpolate.PPoly", radius: float) -> None:
+def _refuse_crossing(rho: PPoly, radius: float) -> None:
     """The wall that the roller rests on must not cross itself: 1 + r kappa > 0 outside, 1 - r kappa > 0 inside."""
     theta = periodic.piece_points(rho, 65)
     values = [periodic.piece_values(p, theta).ravel() for p in (rho, rho.derivative(), rho.derivative(2))]

@@ -16,7 +16,6 @@ from pathlib import Path
 
 import casadi as ca
 import numpy as np
-from scipy.interpolate import PPoly
 
 import mechsym
 from mechsym import periodic
@@ -32,6 +31,7 @@ from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block, Curve, Port
 from mechsym.out.fmi.describe import build_description, description, identifier
 from mechsym.out.text.language_c import array, curve_tables, model
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result
 

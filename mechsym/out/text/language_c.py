@@ -80,7 +80,7 @@ def curve_tables(curves: Sequence[Curve]) -> str:
     lines, alike = [], dict[int, int]()  # equal cylinders have one table, each from its own angle on
     for i, curve in enumerate(curves):
         if alike.setdefault(id(curve.poly.c), i) == i:
-            lines += [array(f"breaks_{i}", curve.poly.x), array(f"rows_{i}", curve.poly.c.T.ravel())]
+            lines += [array(f"breaks_{i}", curve.poly.x.tolist()), array(f"rows_{i}", curve.poly.c.T.ravel().tolist())]
     of = [alike[id(curve.poly.c)] for curve in curves]
     entries = [
         f"    {{{c.state}, {len(c.poly.x) - 1}, {len(c.poly.c)}, {int(c.periodic)}, {number(C99, c.ratio)}, "
