@@ -27,7 +27,7 @@ from mechsym.codesign.running import added_inertia
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.unknowns import closing
 from mechsym.errors import BadInput
-from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
+from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, propeller_load_squares, ripple
 from mechsym.hinge.guide import setting_of
 from mechsym.hinge.springs.face import affine_energy
 from mechsym.periodic.roots import minimum, root
@@ -86,7 +86,8 @@ def ripple_map(design: CoDesign, loads: Sequence[Point], omega: RadPerSecond[Arr
         left = fc < fd
         a, b = np.where(left, a, c), np.where(left, d, b)
         c, d = np.where(left, b - _GOLDEN * (b - a), d), np.where(left, c, a + _GOLDEN * (b - a))
-        fc, fd = np.where(left, ripple(c), fd), np.where(left, fc, ripple(d))
+        new = ripple(np.where(left, c, d))
+        fc, fd = np.where(left, new, fd), np.where(left, fc, new)
     p0 = (a + b) / 2
     shape = (omega.size, load.size)
     return RippleMap(omega=omega, load=load, p0=p0.reshape(shape), ripple=ripple(p0).reshape(shape))
@@ -95,18 +96,9 @@ def ripple_map(design: CoDesign, loads: Sequence[Point], omega: RadPerSecond[Arr
 def _ripples(
     missing: np.ndarray, inertia: np.ndarray, omega: np.ndarray, torque: np.ndarray, period: float
 ) -> np.ndarray:
-    """Ripple of many motions at once under propeller load; the closed form of `mechsym.hinge.balance`, row by row."""
-    count = missing.shape[1]
-    rate = 2 * torque[:, None] / (inertia * omega[:, None] ** 2)
-    step = period / count * (rate + np.roll(rate, -1, axis=1)) / 2
-    decay, gain = np.exp(-step), -np.expm1(-step) * (missing + np.roll(missing, -1, axis=1)) / 2
-    g, forced = np.zeros(missing.shape[0]), np.empty_like(missing)
-    for i in range(count):
-        forced[:, i] = g
-        g = decay[:, i] * g + gain[:, i]
-    faded = np.exp(-np.cumsum(step, axis=1) + step)
-    g0 = g / -np.expm1(-step.sum(axis=1))
-    squares = 1 + 2 * (forced + faded * g0[:, None] - missing) / (inertia * omega[:, None] ** 2)
+    """Ripple of many motions at once under propeller load, in rows."""
+    speed = omega[:, None]
+    squares = propeller_load_squares(missing, inertia, speed, torque[:, None], period) / speed**2
     u = np.sqrt(np.maximum(squares, 1e-12))
     lowest, weak = squares.min(axis=1), np.ptp(u, axis=1) * np.mean(1 / u, axis=1)
     return np.where(lowest <= 0, _SCHEDULE_STOPPED - lowest, weak)

@@ -102,11 +102,16 @@ def governed(machine: Running, speed: RadPerSecond, turns: int) -> TimeRun:
     speed: at the start, at dead centre; turns: periods of the torque to run.
     """
     point, fuel, total, legs = machine.point, 1.0, 0.0, []
+    kinks = tuple(sorted({*machine.kinks, *point.misfire_kinks}))
+    unfired = point.misfire or _nothing
+    both = running.fitted(lambda phi: np.stack([machine.torque(phi), unfired(phi)]), kinks, point.period)
     inertia = float(np.mean(running.inertia(machine, np.linspace(0, point.period, 181))))
     # fuel, by that of the point, that one period needs to mend a whole speed
     one_turn = inertia * point.omega**2 / (abs(point.load_torque) * point.period)
     for _ in range(turns):
-        legs.append(running.run(_fuelled(machine, fuel), speed, point.period / (2 * np.pi)))
+        torque = PPoly(both.c @ [fuel, 1 - fuel], both.x, "periodic")
+        fuelled = dataclasses.replace(machine, torque=torque, kinks=kinks)
+        legs.append(running.run(fuelled, speed, point.period / (2 * np.pi)))
         speed = float(legs[-1].omega[-1])
         if legs[-1].stalled:
             break
@@ -114,12 +119,6 @@ def governed(machine: Running, speed: RadPerSecond, turns: int) -> TimeRun:
         total += error
         fuel = float(np.clip(1 + one_turn * (_PROPORTIONAL * error + _INTEGRAL * total), *_FUEL))
     return running.joined(legs)
-
-
-def _fuelled(machine: Running, fuel: float) -> Running:
-    fired, unfired = machine.torque, machine.point.misfire or _nothing
-    return dataclasses.replace(machine, torque=lambda phi: fuel * fired(phi) + (1 - fuel) * unfired(phi),
-                               kinks=tuple(sorted({*machine.kinks, *machine.point.misfire_kinks})))  # fmt: skip
 
 
 def _energy(machine: Running) -> tuple[np.ndarray, np.ndarray]:

@@ -11,12 +11,13 @@ from collections.abc import Callable, Sequence
 import casadi as ca
 import numpy as np
 
+from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
 from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import root
 from mechsym.quantities import choice, quantity, record
-from mechsym.quantities.units import Inertia, Pure
+from mechsym.quantities.units import Array, Inertia, Joule, Pure, Radian
 
 _STOPPED = 10.0  # stands for the ripple of a shaft that stops
 _EVEN = 1440  # angles for the closed forms of the motion
@@ -91,11 +92,20 @@ def motion(point: Point, missing: Function, inertia: Function) -> tuple[np.ndarr
 
     missing: angle to work that is wanted and missing [J]; inertia: angle to all inertia that turns [kg*m^2].
     """
-    phi = np.arange(_EVEN) * point.period / _EVEN
-    w, total = missing(phi), inertia(phi)
+    phi = even_angles(point)
+    return phi, speed(point, missing(phi), inertia(phi))
+
+
+def even_angles(point: Point) -> Radian[Array]:
+    """Angles of a period at which `motion` knows the speed."""
+    return periodic.even_angles(point.period, _EVEN)
+
+
+def speed(point: Point, missing: Joule[Array], inertia: Inertia[Array]) -> np.ndarray | None:
+    """The steady speed at those angles [rad/s], see `motion`."""
     if point.law == "constant":
-        return phi, constant_load_speed(w, total, point.omega)
-    return phi, propeller_load_speed(w, total, point.omega, point.load_torque, point.period)
+        return constant_load_speed(missing, inertia, point.omega)
+    return propeller_load_speed(missing, inertia, point.omega, point.load_torque, point.period)
 
 
 def bare_ripple(point: Point, flywheel: float) -> float | None:

@@ -32,7 +32,7 @@ from mechsym.native.integrate import integrate
 from mechsym.native.runs import STATUS, Breaks, Level, Runs, Table
 from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import quantity, record
-from mechsym.quantities.units import Array, Pure, Radian, Scalar, Second
+from mechsym.quantities.units import Array, Inertia, Metre, Pure, Radian, Scalar, Second
 from mechsym.simulate.angle import Panels, ReducedMachine, tabulate
 from mechsym.simulate.speed import Dense, last_period, speeds
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
@@ -98,8 +98,12 @@ def spring_energy(track: Track, p0: float, phi: Scalar) -> np.ndarray:
 
 def added_inertia(track: Track, phi: Scalar) -> np.ndarray:
     """Inertia of the rollers of one guide about the shaft [kg*m^2] at phi [rad]."""
-    h, dz = track.hardware, track.z.derivative()(phi)
-    path = path_of(h, h.rho0, track.z(phi), dz, 0 * dz)
+    return inertia_of(track.hardware, track.z(phi), track.z.derivative()(phi))
+
+
+def inertia_of(h: Hardware, z: Metre[Scalar], dz: Scalar) -> Inertia[Array]:
+    """The same of a spring that is closed by z, with its slope over the crank angle [m/rad]."""
+    path = path_of(h, h.rho0, z, dz, 0 * dz)
     return h.shaft_ratio**2 * roller_inertia(path.rho, path.drho, h.moving_mass, h.roller_inertia, h.radius, h.count)
 
 
@@ -196,8 +200,9 @@ def ripple_of_last_turn(motion: TimeRun, period: float) -> float | None:
 
 # the legs of a run share it
 @functools.lru_cache(maxsize=8)
-def _fitted(torque: Function, kinks: tuple[float, ...], period: float) -> PPoly:
-    return periodic.fit(torque, kinks, period, 1e-10)
+def fitted(torque: Function, kinks: tuple[float, ...], period: Radian) -> PPoly:
+    """Torque over the angle, or several at once, as polynomials [N*m]; what consists of them already stays as it is."""
+    return torque if isinstance(torque, PPoly) else periodic.fit(torque, kinks, period, _TOLERANCE)
 
 
 def bends(machine: Running) -> Radian[Array]:
@@ -209,7 +214,7 @@ def bends(machine: Running) -> Radian[Array]:
 def tables_of(machine: Running) -> tuple[PPoly, ...]:
     """Over the angle: torque of the engine, extra torque, inertia, its slope, of each track z, z', z''."""
     point = machine.point
-    driving = _fitted(machine.torque, machine.kinks, point.period)
+    driving = fitted(machine.torque, machine.kinks, point.period)
     extra = PPoly([[0.0]], [0.0, point.period]) if machine.extra is None else machine.extra
     closings = (p for t in machine.tracks for p in (t.z, t.z.derivative(), t.z.derivative(2)))
     return driving, extra, point.inertia, point.inertia.derivative(), *closings

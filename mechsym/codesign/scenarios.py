@@ -14,14 +14,15 @@ import numpy as np
 from mechsym.codesign import manoeuvres, running
 from mechsym.codesign.loss import machine_at
 from mechsym.codesign.manoeuvres import hold
-from mechsym.codesign.points import Function, Point
+from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
+from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import minimum, root
 from mechsym.quantities import quantity, record
 from mechsym.quantities.display import per_cent, quantity_text
-from mechsym.quantities.units import Inertia, Scalar
+from mechsym.quantities.units import Inertia
 
 _SETTLE = 20.0  # turns after which a start or a coast has told what there is to tell
 
@@ -183,12 +184,13 @@ def _scatter(machine: Running, k: int, share: float) -> Scenario:
     start = steady_speed(machine)
     if start is None:
         return not_running(name, about, k)
+    whole = running.fitted(machine.torque, machine.kinks, machine.point.period)
     factors = 1 + share * np.random.default_rng(20).standard_normal(20)
     speed = start[0]
     legs: list[TimeRun] = []
     for factor in factors:
-        torque = _scaled(machine.torque, float(factor))
-        leg = running.run(dataclasses.replace(machine, torque=torque), speed, machine.point.period / (2 * np.pi))
+        scaled = dataclasses.replace(machine, torque=PPoly(factor * whole.c, whole.x, "periodic"))
+        leg = running.run(scaled, speed, machine.point.period / (2 * np.pi))
         legs.append(leg)
         speed = float(leg.omega[-1])
         if leg.stalled:
@@ -215,13 +217,6 @@ def _vented(machine: Running, k: int) -> Scenario:
 
 def _heavier(load: ConstantLoad | PropellerLoad, factor: float) -> ConstantLoad | PropellerLoad:
     return dataclasses.replace(load, torque=factor * (load.torque or 0.0))
-
-
-def _scaled(torque: Function, factor: float) -> Function:
-    def scaled(phi: Scalar) -> Scalar:
-        return factor * torque(phi)
-
-    return scaled
 
 
 _LEAK, _OFF = 0.10, 0.10  # share of the pressure that is lost, or off when a controller begins

@@ -12,13 +12,12 @@ import numpy as np
 from mechsym import periodic
 from mechsym.codesign import running
 from mechsym.codesign.loss import in_time, machine_at
-from mechsym.codesign.points import Point, motion
-from mechsym.codesign.running import added_inertia, spring_energy
+from mechsym.codesign.points import Point, even_angles, speed
+from mechsym.codesign.running import inertia_of
 from mechsym.codesign.task import CoDesign, Track, fine_path
 from mechsym.hinge.balance import ripple
 from mechsym.hinge.choices import CENTRE, GuideLimit, Station, asked
 from mechsym.hinge.rollers import side_force
-from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pure
 from mechsym.simulate.steady import Steady
@@ -52,60 +51,60 @@ def spread(design: CoDesign, count: int = 200, errors: dict[str, Pure] | None = 
     first, *others = design.task.hardware.spring.sensitive
     sigma = {first: _SETTING, **dict.fromkeys(others, _OTHER), **_ERRORS, **(errors or {})}
     draws = np.random.default_rng(_SEED).standard_normal((count, len(sigma)))
-    lost = _lost(design)
-    samples = [_worst(design, dict(zip(sigma, row * list(sigma.values()), strict=True)), lost) for row in draws]
-    alone = {
-        name: (_worst(design, {name: -2 * s}, lost), _worst(design, {name: 2 * s}, lost)) for name, s in sigma.items()
-    }
+    seen = _Seen.of(design)
+    samples = [seen.worst(dict(zip(sigma, row * list(sigma.values()), strict=True))) for row in draws]
+    alone = {name: (seen.worst({name: -2 * s}), seen.worst({name: 2 * s})) for name, s in sigma.items()}
     return Spread(samples=np.sort(samples), alone=alone, errors=sigma)
 
 
 def worst(design: CoDesign, off: dict[str, float]) -> float:
     """Largest ripple of all points with errors by name [-]; 2 where the shaft stops."""
-    return _worst(design, off, _lost(design))
+    return _Seen.of(design).worst(off)
 
 
-def _worst(design: CoDesign, off: dict[str, float], lost: "list[PPoly | None]") -> float:
-    tracks = [_changed(track, off) for track in design.tracks]
-    flywheel = design.flywheel * (1 + off.get("flywheel", 0.0))
-    rows = [_ripple(p, tracks, k, flywheel, off, extra) for k, (p, extra) in
-            enumerate(zip(design.task.points, lost, strict=True))]  # fmt: skip
-    return max(_UNCERTAINTY_STOPPED if r is None else r for r in rows)
+@record
+class _Seen:
+    """A co-design at even angles: what no error of it changes is asked for once."""
 
+    design: CoDesign
+    left: tuple[Point, ...]  #: the points, with the load that friction and heat leave
+    work: np.ndarray  #: wanted by all but the engine's masses, shape (k, n) [J]
+    lost: np.ndarray  #: by friction and heat beside their mean, shape (k, n) [J]
+    inertia: np.ndarray  #: of the engine, shape (k, n) [kg*m^2]
+    closed: tuple[tuple[np.ndarray, np.ndarray], ...]  #: of each guide z and its slope, shape (n,) each [m, m/rad]
 
-def _lost(design: CoDesign) -> "list[PPoly | None]":
-    """Torque of friction and heat at each point [N*m], where the programme had them."""
-    return [machine_at(design, k).extra for k in range(len(design.task.points))]
+    @classmethod
+    def of(cls, design: CoDesign) -> "_Seen":
+        points, work, lost, left = design.task.points, [], [], []
+        phi = even_angles(points[0])
+        for k, point in enumerate(points):
+            # of friction and heat, where the programme had them
+            extra = machine_at(design, k).extra
+            taken = 0.0 if extra is None else -periodic.mean(extra)
+            lost.append(0.0 * phi if extra is None else extra.antiderivative()(phi) + taken * phi)
+            work.append(point.work(phi) - point.omega**2 / 2 * point.inertia(phi))
+            left.append(dataclasses.replace(point, load_torque=point.load_torque - taken))
+        return cls(
+            design=design, left=tuple(left), work=np.array(work), lost=np.array(lost),
+            inertia=np.array([p.inertia(phi) for p in points]),
+            closed=tuple((t.z(phi), t.z.derivative()(phi)) for t in design.tracks),
+        )  # fmt: skip
 
-
-def _ripple(
-    point: Point,
-    tracks: list[Track],
-    k: int,
-    flywheel: float,
-    off: dict[str, float],
-    extra: PPoly | None,
-) -> float | None:
-    taken = 0.0 if extra is None else -periodic.mean(extra)
-    gone = None if extra is None else extra.antiderivative()
-    half, load = point.omega**2 / 2, 1 + off.get("load", 0.0)
-
-    def missing(phi: np.ndarray) -> np.ndarray:
-        # more load is more work of the gas, not of the engine's masses
-        own = half * point.inertia(phi)
-        w = own + load * (point.work(phi) - own)
-        for track in tracks:
-            p0 = float(track.p0[k]) * (1 + off.get(track.hardware.spring.setting[0], 0.0))
-            w = w + spring_energy(track, p0, phi) + half * added_inertia(track, phi)
-        if gone is not None:
-            w = w - gone(phi) - taken * phi
-        return np.asarray(w - w.mean())
-
-    def total(phi: np.ndarray) -> np.ndarray:
-        return np.asarray(point.inertia(phi) + flywheel + sum(added_inertia(t, phi) for t in tracks))
-
-    left = dataclasses.replace(point, load_torque=point.load_torque - taken)
-    return ripple(motion(left, missing, total)[1])
+    def worst(self, off: dict[str, float]) -> float:
+        """Largest ripple of all points with errors by name [-]; 2 where the shaft stops."""
+        tracks = [_changed(track, off) for track in self.design.tracks]
+        rollers = sum(inertia_of(t.hardware, *at) for t, at in zip(tracks, self.closed, strict=True))
+        flywheel, largest = self.design.flywheel * (1 + off.get("flywheel", 0.0)), 0.0
+        for k, point in enumerate(self.left):
+            # more load is more work of the gas, not of the engine's masses
+            gas = self.work[k] * (1 + off.get("load", 0.0)) - self.lost[k]
+            missing = gas + point.omega**2 / 2 * (self.inertia[k] + rollers)
+            for track, (z, _) in zip(tracks, self.closed, strict=True):
+                p0 = float(track.p0[k]) * (1 + off.get(track.hardware.spring.setting[0], 0.0))
+                missing = missing + track.hardware.charged(p0).energy(z)
+            uneven = ripple(speed(point, missing - missing.mean(), self.inertia[k] + flywheel + rollers))
+            largest = max(largest, _UNCERTAINTY_STOPPED if uneven is None else uneven)
+        return largest
 
 
 def _changed(track: Track, off: dict[str, float]) -> Track:

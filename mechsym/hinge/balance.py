@@ -21,7 +21,6 @@ numbers are reported for the engine as built; a test holds the two together.
 
 import functools
 import math
-from itertools import accumulate
 
 import numpy as np
 
@@ -33,7 +32,7 @@ from mechsym.periodic import even_angles
 from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import root
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, Inertia, Joule, NewtonMetre, Pure, Radian, RadPerSecond
+from mechsym.quantities.units import Array, Inertia, Joule, NewtonMetre, Pure, Radian, RadPerSecond, Scalar
 from mechsym.simulate.speed import Speed
 
 _TURN = 2 * math.pi
@@ -144,19 +143,32 @@ def propeller_load_speed(
     """
     if load_torque <= 0:
         return constant_load_speed(missing, inertia, omega)
-    rate = 2 * load_torque / (inertia * omega**2)
-    step = period / missing.size * (rate + np.roll(rate, -1)) / 2
-    # over one step g relaxes towards the mean of w; -expm1 keeps the digits of short steps
-    gain = -np.expm1(-step) * (missing + np.roll(missing, -1)) / 2
-    whole = np.concatenate([[0.0], np.cumsum(step)])
-    if whole[-1] < _FADES:
-        forced = np.exp(-whole) * np.concatenate([[0.0], np.cumsum(np.exp(whole[1:]) * gain)])
-    else:
-        steps = zip(np.exp(-step).tolist(), gain.tolist(), strict=True)
-        forced = np.array([*accumulate(steps, lambda g, s: s[0] * g + s[1], initial=0.0)])
-    g = forced[:-1] + np.exp(-whole[:-1]) * forced[-1] / -np.expm1(-whole[-1])
-    squares = omega**2 + 2 * (g - missing) / inertia
+    squares = propeller_load_squares(missing, inertia, omega, load_torque, period)
     return None if squares.min() <= 0 else np.sqrt(squares)
+
+
+def propeller_load_squares(
+    missing: Joule[Array], inertia: Inertia[Array], omega: Scalar, load_torque: Scalar, period: Radian
+) -> np.ndarray:
+    """Squares of that speed [rad^2/s^2], not positive where the crank would stop, of one motion or of many in rows.
+
+    missing, inertia: shape (..., n); omega, load_torque: [rad/s], [N*m], of a number or of shape (..., 1).
+    """
+    rate = 2 * load_torque / (inertia * omega**2)
+    step = period / missing.shape[-1] * (rate + np.roll(rate, -1, axis=-1)) / 2
+    # over one step g relaxes towards the mean of w; -expm1 keeps the digits of short steps
+    gain = -np.expm1(-step) * (missing + np.roll(missing, -1, axis=-1)) / 2
+    whole, forced = np.zeros((2, *missing.shape[:-1], missing.shape[-1] + 1))
+    np.cumsum(step, axis=-1, out=whole[..., 1:])
+    if whole.max() < _FADES:
+        np.cumsum(np.exp(whole[..., 1:]) * gain, axis=-1, out=forced[..., 1:])
+        forced *= np.exp(-whole)
+    else:
+        decay = np.exp(-step)
+        for i in range(missing.shape[-1]):
+            forced[..., i + 1] = decay[..., i] * forced[..., i] + gain[..., i]
+    g = forced[..., :-1] + np.exp(-whole[..., :-1]) * forced[..., -1:] / -np.expm1(-whole[..., -1:])
+    return np.asarray(omega**2 + 2 * (g - missing) / inertia)
 
 
 def mean_speed(phid: RadPerSecond[Array]) -> RadPerSecond:
