@@ -1,4 +1,4 @@
-"""Roots of continuous functions: enclosed as closely as asked, as scipy's, and refused where there is none."""
+"""Roots and least values of continuous functions: as close as asked, as scipy's, and refused where there is none."""
 
 import math
 
@@ -7,7 +7,7 @@ import scipy
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mechsym.periodic.roots import root
+from mechsym.periodic.roots import minimum, root
 
 SHAPES = {
     "a cube that is flat at its root": lambda x: x**3 + 1e-3 * x,
@@ -43,3 +43,37 @@ def test_roots_at_the_ends():
 def test_what_encloses_no_root_is_refused(function):
     with pytest.raises(ValueError, match="no root|not a number"):
         root(function, 0.5, 2.0)
+
+
+BOWLS = {
+    "a parabola": lambda x: x * x,
+    "flat at its least": lambda x: x**4,
+    "a V": abs,
+    "lopsided": lambda x: math.expm1(x) - x,
+    "tiny": lambda x: 1e-300 * x * x,
+}
+
+
+@pytest.mark.parametrize("bowl", BOWLS)
+@given(at=st.floats(-3, 3), left=st.floats(0.01, 5), right=st.floats(0.01, 5))
+def test_the_least_value_is_where_it_is(bowl, at, left, right):
+    asked = []
+
+    def function(x):
+        asked.append(x)
+        return BOWLS[bowl](x - at)
+
+    x, value = minimum(function, at - left, at + right, xtol=1e-9)
+    assert value == min(map(BOWLS[bowl], (a - at for a in asked))) and len(asked) < 120
+    assert at - left < min(asked) and max(asked) < at + right  # where it may have no value
+    # rounding leaves a parabola flat within half of the digits, a fourth power within a quarter
+    assert abs(x - at) <= {"flat at its least": 1e-3, "tiny": 1e-6}.get(bowl, 1e-7 * (1 + abs(at)))
+    bounds, near = (at - left, at + right), {"xatol": 1e-9}
+    there = scipy.optimize.minimize_scalar(function, bounds=bounds, method="bounded", options=near)
+    assert value == pytest.approx(there.fun, abs=1e-7)
+
+
+@pytest.mark.parametrize("slope", [1.0, -1.0])
+def test_a_least_value_at_an_end_is_approached(slope):
+    x, value = minimum(lambda x: slope * x, 0.0, 2.0, xtol=1e-6)
+    assert x == pytest.approx(0.0 if slope > 0 else 2.0, abs=2e-6) and value == slope * x

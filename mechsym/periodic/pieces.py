@@ -14,9 +14,8 @@ class PPoly:
 
     .. math:: f(x) = \sum_{j=0}^{k-1} c_{j,i}\,(x - x_i)^{k-1-j}, \qquad x_i \le x < x_{i+1}
 
-    c: coefficients, highest power first, shape (k, m, ...); x: breaks, ascending, shape (m + 1,). extrapolate: whether
-    the outer pieces go on beyond the ends (without that there is no number there), or "periodic". A spline of
-    `scipy.interpolate` that has c and x serves wherever one of these is read.
+    c: coefficients, highest power first, shape (k, m, ...) [any unit]; x: breaks, ascending, shape (m + 1,).
+    extrapolate: whether the outer pieces go on beyond the ends (else there is no number there), or "periodic".
     """
 
     __slots__ = ("c", "extrapolate", "x")
@@ -28,7 +27,7 @@ class PPoly:
 
     @classmethod
     def hermite(cls, x: np.ndarray, y: np.ndarray, slope: np.ndarray) -> "PPoly":
-        """Cubics through values y with slopes at breaks x, each of shape (m + 1,)."""
+        """Cubics through values y [any unit] with slopes [its unit by that of x] at breaks x, shape (m + 1,) each."""
         width, mean = np.diff(x), np.diff(y) / np.diff(x)
         bend = (slope[:-1] + slope[1:] - 2 * mean) / width
         return cls(np.stack([bend / width, (mean - slope[:-1]) / width - bend, slope[:-1], y[:-1]]), x)
@@ -71,7 +70,7 @@ class PPoly:
         return PPoly(c, self.x, False if self.extrapolate == "periodic" else self.extrapolate)
 
     def zeros(self) -> np.ndarray:
-        """Where values of shape (n,) are zero, piece by piece; a piece that is zero throughout has none."""
+        """Where values of shape (n,) are zero, piece by piece [unit of x]; a piece that is zero throughout has none."""
         width = np.diff(self.x)
         scaled = self.c * width ** np.arange(len(self.c) - 1, -1, -1)[:, None]
         near = np.flatnonzero(np.abs(scaled[-1]) <= np.abs(scaled[:-1]).sum(axis=0))
