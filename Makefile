@@ -2,6 +2,8 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
+# without compiled modules every start takes twice as long
+unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: setup setup-all record compare records derive check-derive pictures audit certificates reproduce proof demo docs test test-slow test-heavy test-step bench fuzz nearby slips hostile mutate faults interrupts audit-deps house dist lint format clean
 
