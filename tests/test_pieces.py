@@ -70,3 +70,25 @@ def test_cubics_have_the_values_and_slopes_that_they_were_given(seed):
     curve = PPoly.hermite(x, y, slope)
     assert curve(x) == pytest.approx(y, abs=1e-12) and curve(x, 1) == pytest.approx(slope, abs=1e-11)
     np.testing.assert_allclose(curve.c, scipy.interpolate.CubicHermiteSpline(x, y, slope).c, atol=1e-9)
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+@given(seed=st.integers(0, 2**32), count=st.sampled_from((2, 3, 4, 5, 40)))
+def test_splines_are_scipys(periodic, seed, count):
+    rng = np.random.default_rng(seed)
+    count = max(count, 4) if periodic else count
+    x, y = np.cumsum(10 ** rng.uniform(-1, 1, count)), rng.normal(size=count)
+    if periodic:
+        y[-1] = y[0]
+    ours = PPoly.spline(x, y, periodic)
+    theirs = scipy.interpolate.CubicSpline(x, y, bc_type="periodic" if periodic else "not-a-knot")
+    asked = np.linspace(x[0], x[-1], 50)
+    np.testing.assert_allclose(ours(asked), theirs(asked), rtol=0, atol=1e-11 * np.abs(theirs(asked)).max())
+    assert ours(x[-1] + 0.1) == pytest.approx(theirs(x[0] + 0.1 if periodic else x[-1] + 0.1), rel=1e-8, abs=1e-10)
+
+
+def test_a_spline_through_a_cubic_is_the_cubic():
+    x = np.array([0.0, 0.3, 1.0, 1.2, 2.0, 3.5])
+    curve = PPoly.spline(x, x**3 - x)
+    asked = np.linspace(0, 3.5, 30)
+    assert curve(asked) == pytest.approx(asked**3 - asked, abs=1e-12)

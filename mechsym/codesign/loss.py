@@ -14,7 +14,6 @@ from collections.abc import Sequence
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym.codesign import running
 from mechsym.codesign.points import Point
@@ -122,8 +121,7 @@ def _beside(design: CoDesign, k: int, point: Point, given: HingeLosses) -> LossT
 
 
 def _periodic(phi: np.ndarray, values: np.ndarray, period: float) -> PPoly:
-    spline = scipy.interpolate.CubicSpline(np.append(phi, period), np.append(values, values[0]), bc_type="periodic")
-    return PPoly(spline.c, spline.x, extrapolate="periodic")
+    return PPoly.spline(np.append(phi, period), np.append(values, values[0]), periodic=True)
 
 
 _RESET = (0.7, 1.3)  # fills that are tried, by that of the schedule

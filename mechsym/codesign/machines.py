@@ -11,7 +11,6 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.codesign.points import Function, Point
@@ -126,10 +125,8 @@ def from_curve(
         raise BadInput("a torque curve needs ascending angles, at least eight, and as many torques")
     if angle[-1] - angle[0] >= period:
         raise BadInput(f"the angles span {np.degrees(angle[-1] - angle[0]):g} deg; leave the end of the period out")
-    spline = scipy.interpolate.CubicSpline(
-        np.append(angle, angle[0] + period), np.append(value, value[0]), bc_type="periodic"
-    )
-    driving = periodic.fit(lambda x: spline((x - angle[0]) % period + angle[0]), angle, period, 1e-10)
+    spline = PPoly.spline(np.append(angle, angle[0] + period), np.append(value, value[0]), periodic=True)
+    driving = periodic.fit(spline, angle, period, 1e-10)
     mean = periodic.mean(driving)
     wanted = PPoly(-driving.c, driving.x, extrapolate="periodic")
     wanted.c[-1] += mean

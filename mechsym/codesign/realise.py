@@ -177,8 +177,7 @@ def _margins(design: CoDesign, at: Station) -> np.ndarray:
 
 def _track(old: Track, h: Hardware, z: np.ndarray, phi: np.ndarray, period: float) -> Track:
     """The new guide, with the pressures whose works are nearest to those of the old one."""
-    spline = scipy.interpolate.CubicSpline(np.append(phi, period), np.append(z, z[0]), bc_type="periodic")
-    curve = PPoly(spline.c, spline.x, extrapolate="periodic")
+    curve = PPoly.spline(np.append(phi, period), np.append(z, z[0]), periodic=True)
     fixed, by_p0 = affine_energy(h.spring, z)
     wave, settings = by_p0 - by_p0.mean(), []
     for p in old.p0:

@@ -7,7 +7,6 @@ from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
-import scipy
 
 from mechsym.cycle.chamber import Chamber, chamber, piston_force, travel, volume
 from mechsym.cycle.closed.model import ClosedEngine, check_blowdown, closed_period, open_period
@@ -22,6 +21,7 @@ from mechsym.cycle.pressure import periodic, pressure_over
 from mechsym.cycle.source import ENGINE_PAGE, EngineParts, Progress, otto_bound, unseen
 from mechsym.errors import BadInput
 from mechsym.files import Json
+from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import root
 from mechsym.quantities import RPM
 from mechsym.quantities.display import quantity_text
@@ -139,7 +139,7 @@ def gas_of_engine(engine: ClosedEngine, omega: RadPerSecond) -> Gas:
     if engine.blowdown is not None:
         exchange = open_period(partial(closed_period, engine), {"omega": np.array([omega])}, warm[-1:])
         once = np.append(np.diff(exchange.phi[0]) > 0, True)
-        behind = scipy.interpolate.CubicSpline(exchange.phi[0, once], exchange.p[0, once])
+        behind = PPoly.spline(exchange.phi[0, once], exchange.p[0, once])
         left, gamma, last = float(exchange.p[0, -1]), float(exchange.gamma[0]), float(exchange.phi[0, -1])
         events = (*events, 2 * math.pi, _drawn_from(room, left / charge.intake_pressure, gamma))
         against, before = (quantity_text(value, "Pa") for value in (engine.blowdown.pressure, charge.intake_pressure))

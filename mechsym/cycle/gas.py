@@ -6,13 +6,13 @@ from collections.abc import Callable
 
 import casadi as ca
 import numpy as np
-import scipy
 from numpy.polynomial import Chebyshev
 
 from mechsym.cycle.chamber import Chamber, motion_over
 from mechsym.cycle.motion import dead_centre
 from mechsym.cycle.pressure import Pieces, Pressure, peak
 from mechsym.page import Shown
+from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import root
 from mechsym.quantities import record
 from mechsym.quantities.units import Newton, Radian, Scalar
@@ -129,7 +129,7 @@ def _phases(motion: ca.Function) -> tuple[_Shift, _Shift, float]:
 def _shifted(x: np.ndarray, y: np.ndarray) -> _Shift:
     """The function of an angle that goes a turn further where the angle does, through samples of one turn."""
     ends, beyond = np.append(x, x[0] + 2 * math.pi), np.append(y - x, y[0] - x[0])
-    by = scipy.interpolate.CubicSpline(ends, beyond, bc_type="periodic")
+    by = PPoly.spline(ends, beyond, periodic=True)
     return lambda at: np.asarray(at + by(at))
 
 

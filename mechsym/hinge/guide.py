@@ -28,7 +28,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from mechsym import periodic
 from mechsym.errors import BadInput
@@ -129,8 +128,7 @@ def warmth(guide: Guide) -> PPoly:
     """Its temperature by the wall's [-] over the angle of the guide's shaft."""
     rho, turn = path(guide), gas_turn(guide)
     values = np.append(turn.warmth, turn.warmth[0])
-    curve = scipy.interpolate.CubicSpline(np.linspace(rho.x[0], rho.x[-1], _POINTS + 1), values, bc_type="periodic")
-    return PPoly(curve.c, curve.x, extrapolate="periodic")
+    return PPoly.spline(np.linspace(rho.x[0], rho.x[-1], _POINTS + 1), values, periodic=True)
 
 
 def kept_torque(guide: Guide) -> float:

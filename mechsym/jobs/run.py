@@ -7,7 +7,6 @@ from dataclasses import asdict, replace
 from typing import Annotated
 
 import numpy as np
-import scipy
 
 from mechsym import mechanisms
 from mechsym.cases import Case
@@ -34,6 +33,7 @@ from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.roles import ShaftRole
 from mechsym.mechanisms.shaft import elastic as shaft_of
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities.display import quantity_text
 from mechsym.simulate import Result, Settings, simulate, simulate_many
 from mechsym.simulate.angle import tabulate
@@ -186,7 +186,7 @@ def _lifted(case: Case, result: Result) -> list[str]:
     t = np.linspace(result.t[0], result.t[-1], min(50 * result.steps, _CAM_POINTS))
     at = dict(result.dense(t)) | constants(case)
     for q in mechanism.coordinates:
-        at[f"{q}dd"] = scipy.interpolate.CubicSpline(t, at[f"{q}d"])(t, 1)
+        at[f"{q}dd"] = PPoly.spline(t, at[f"{q}d"])(t, 1)
     reactions = mechanism.functions["reactions"]
     forces = along(reactions, {n: at[n] for n in reactions.name_in() if n in at})
     pulled = ((cam.name, forces[cam.force]) for cam in cams)

@@ -18,10 +18,10 @@ from collections.abc import Callable, Mapping
 from functools import lru_cache
 
 import numpy as np
-import scipy
 
 from mechsym.errors import BadInput, suggest
 from mechsym.files.tables import numbers_of, split_table, text_of
+from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import parse, quantity, record
 from mechsym.quantities.units import Pure, RadPerSecond
 
@@ -127,8 +127,7 @@ def _spline(path: str, phi: np.ndarray, torque: np.ndarray, period: float) -> Fu
             raise BadInput(f"{path}: the torque does not repeat: {torque[0]:g} N*m, a period later {torque[-1]:g} N*m")
         phi, torque = phi[:-1], torque[:-1]
     knots = np.append(phi, phi[0] + period)
-    spline = scipy.interpolate.CubicSpline(knots, np.append(torque, torque[0]), bc_type="periodic")
-    return lambda at: np.asarray(spline(phi[0] + np.remainder(np.asarray(at, dtype=float) - phi[0], period)))
+    return PPoly.spline(knots, np.append(torque, torque[0]), periodic=True)
 
 
 def torque_at(table: TorqueTable, omega: RadPerSecond, load: Pure, dinertia: Function) -> Function:

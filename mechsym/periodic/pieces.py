@@ -32,6 +32,35 @@ class PPoly:
         bend = (slope[:-1] + slope[1:] - 2 * mean) / width
         return cls(np.stack([bend / width, (mean - slope[:-1]) / width - bend, slope[:-1], y[:-1]]), x)
 
+    @classmethod
+    def spline(cls, x: np.ndarray, y: np.ndarray, periodic: bool = False) -> "PPoly":
+        """The cubic spline through values y [any unit] at breaks x, shape (m + 1,) each.
+
+        The first two pieces are one cubic and so are the last two; of two or three points it is a line or a parabola.
+        periodic: y ends as it begins, and so do slope and curvature; at least four points.
+        """
+        width = np.diff(x)
+        mean = np.diff(y) / width
+        if periodic:
+            before, left = np.roll(width, 1), np.roll(mean, 1)
+            slope = _around(width, 2 * (before + width), before, 3 * (width * left + before * mean))
+            return cls(cls.hermite(x, y, np.append(slope, slope[0])).c, x, "periodic")
+        if len(x) < 4:
+            inner = (width[1:] * mean[:-1] + width[:-1] * mean[1:]) / (width[:-1] + width[1:])
+            beside = inner if inner.size else mean
+            return cls.hermite(x, y, np.concatenate([2 * mean[:1] - beside, inner, 2 * mean[-1:] - beside]))
+        ends = []
+        for h, s in ((width, mean), (width[::-1], mean[::-1])):
+            both = h[0] + h[1]
+            ends.append((h[1], both, ((h[0] + 2 * both) * h[1] * s[0] + h[0] ** 2 * s[1]) / both))
+        (first, above, start), (last, below, end) = ends
+        inner = 3 * (width[1:] * mean[:-1] + width[:-1] * mean[1:])
+        slope = _tridiagonal(
+            np.append(width[1:], below), np.concatenate([[first], 2 * (width[:-1] + width[1:]), [last]]),
+            np.append(above, width[:-1]), np.concatenate([[start], inner, [end]]),
+        )  # fmt: skip
+        return cls.hermite(x, y, slope)
+
     def __call__(self, x: Scalar, nu: int = 0) -> np.ndarray:
         """Values at any numbers, or those of the derivative of an order nu; shape of x, then what c has beyond two."""
         x = np.asarray(x, dtype=float)
@@ -90,3 +119,30 @@ def _falling(count: int, nu: int) -> np.ndarray:
 
 def _column(factors: np.ndarray, c: np.ndarray) -> np.ndarray:
     return factors.reshape((-1,) + (1,) * (c.ndim - 1))
+
+
+def _tridiagonal(below: np.ndarray, middle: np.ndarray, above: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solution of a system with three diagonals, by Thomas' elimination without pivots."""
+    share, value = [above[0] / middle[0]], [right[0] / middle[0]]
+    # in floats: numpy's numbers cost ten times as much
+    rows = (below.tolist(), middle[1:].tolist(), [*above[1:].tolist(), 0.0], right[1:].tolist())
+    for b, m, a, r in zip(*rows, strict=True):
+        pivot = m - b * share[-1]
+        share.append(a / pivot)
+        value.append((r - b * value[-1]) / pivot)
+    for i in range(len(value) - 2, -1, -1):
+        value[i] -= share[i] * value[i + 1]
+    return np.array(value)
+
+
+def _around(below: np.ndarray, middle: np.ndarray, above: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """The same where the first row and the last are neighbours too, by the formula of Sherman and Morrison."""
+    corner = -middle[0]
+    column = np.zeros_like(right)
+    column[0], column[-1] = corner, above[-1]
+    inner = middle.copy()
+    inner[0] -= corner
+    inner[-1] -= below[0] * above[-1] / corner
+    one, other = (_tridiagonal(below[1:], inner, above[:-1], r) for r in (right, column))
+    tail = below[0] / corner
+    return np.asarray(one - other * (one[0] + tail * one[-1]) / (1 + other[0] + tail * other[-1]))

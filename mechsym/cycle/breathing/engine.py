@@ -16,7 +16,6 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-import scipy
 
 from mechsym.cycle.breathing.flow import PERIOD, Breath, Breathing, GasExchange, HeatSink, Surroundings, charge
 from mechsym.cycle.breathing.run import Cylinder, breathe
@@ -140,10 +139,7 @@ def _curve(breath: Breath) -> Callable[[Scalar], Scalar]:
 
 def _between(breath: Breath, values: np.ndarray) -> PPoly:
     # a cubic spline from event to event, so that none rounds off a corner
-    parts = [
-        scipy.interpolate.CubicSpline(breath.phi[a : b + 1], values[a : b + 1])
-        for a, b in itertools.pairwise(breath.marks)
-    ]
+    parts = [PPoly.spline(breath.phi[a : b + 1], values[a : b + 1]) for a, b in itertools.pairwise(breath.marks)]
     return PPoly(np.concatenate([part.c for part in parts], axis=1), breath.phi)
 
 

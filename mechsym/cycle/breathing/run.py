@@ -27,7 +27,6 @@ from collections.abc import Callable, Sequence
 
 import casadi as ca
 import numpy as np
-import scipy
 
 from mechsym.cycle.breathing.flow import (
     PERIOD,
@@ -351,7 +350,7 @@ def _leaving(cylinder: Cylinder, outside: np.ndarray, phi: np.ndarray, p: np.nda
     behind = (float(outside[2]), float(outside[1]))
     flow = ca.Function("flow", [state], [orifice_flow(1.0, (state[0], state[1]), behind, c.gamma, c.R)])
     out = np.maximum(np.asarray(flow(np.vstack([p, T]))).ravel(), 0.0)
-    return float(scipy.integrate.trapezoid(out * T, phi) / scipy.integrate.trapezoid(out, phi))
+    return float(np.trapezoid(out * T, phi) / np.trapezoid(out, phi))
 
 
 _ROUNDS, _BESIDE, _WORTH = 12, 1e-6, 0.5
