@@ -76,9 +76,9 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
     if by not in letters(whole):
         return None
     try:
-        rate = derivative(_safe(whole), lambda k: trees.number(int(k == safe(by))))
-        theory = _itself(whole, of_itself=_safe(whole), slope=rate)
-        printed = _safe(slope)
+        rate = derivative(with_safe_names(whole), lambda k: trees.number(int(k == safe(by))))
+        theory = itself(whole, of_itself=with_safe_names(whole), slope=rate)
+        printed = with_safe_names(slope)
         trees.check(printed)
         met = compared(Formula(tree=printed), Probes(theory), "slope")
     except (BadInput, RecursionError):
@@ -149,7 +149,9 @@ def one_for_a_letter(claim: Claim) -> Row | None:
 
 def _otherwise(claim: Claim, right: Node, why: str) -> Row | None:
     """The row of a formula that should be another one; None where that makes no difference."""
-    row, _ = asked_once(to_python(_safe(claim.tree)), _itself(right, right=_safe(right)), "right", {}, ())
+    row, _ = asked_once(
+        to_python(with_safe_names(claim.tree)), itself(right, right=with_safe_names(right)), "right", {}, ()
+    )
     if row["verdict"] not in ("misprint", "wrong"):
         return None
     return row | {"claim": "what its own letters give", "note": f"{why}; {row['note']}"}
@@ -188,7 +190,7 @@ def _is_once(factors: Mapping[str, float], factor: float) -> bool:
     return len(factors) == 1 and all(math.isclose(own, factor, rel_tol=1e-6) for own in factors.values())
 
 
-def _itself(tree: Node, **quantities: Node) -> Theory:
+def itself(tree: Node, **quantities: Node) -> Theory:
     """A theory of a program's own formulas, whose letters are all free."""
     # no two alike, so that none cancels another where the data are looked at
     free = {safe(k): Letter(unit="-", value=1 + 0.37 * i) for i, k in enumerate(letters(tree)) if k != "pi"}
@@ -196,7 +198,7 @@ def _itself(tree: Node, **quantities: Node) -> Theory:
     return Theory(name="itself", letters=free, tape=tape, results=tuple(quantities), data="the program itself")
 
 
-def _safe(tree: Node) -> Node:
+def with_safe_names(tree: Node) -> Node:
     return trees.substitute(
         tree, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
     )

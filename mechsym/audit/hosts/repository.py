@@ -8,6 +8,7 @@ from dataclasses import field
 from functools import cache
 from pathlib import Path
 
+from mechsym.audit.hosts.described import descriptions
 from mechsym.audit.hosts.itself import (
     converted_here_and_not_there,
     converted_twice,
@@ -99,7 +100,8 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
         for row in (outcome, own):
             if row is not None and row["verdict"] in _FOUND:
                 rows.append(_placed(row, claim, shown))
-    for claim, row in (*slopes(reading), *converted_here_and_not_there(reading.claims)):
+    beside = (*slopes(reading), *converted_here_and_not_there(reading.claims), *descriptions(reading))
+    for claim, row in beside:
         matched, judged = matched + 1, judged + 1
         if row["verdict"] in _FOUND:
             rows.append(_placed(row, claim, shown))

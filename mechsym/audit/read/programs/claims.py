@@ -49,6 +49,7 @@ class Reading:
     assigned: int  #: Assignments and returned values, numbers and what is no arithmetic among them
     claims: Sequence[Claim]
     functions: Mapping[str, tuple[tuple[str, ...], Node]]
+    described: Mapping[str, str]  #: By the name of a scope that is the only one of its name: what describes it
 
 
 def base(letter: str) -> str:
@@ -100,8 +101,14 @@ def _reading(program: ProgramText) -> Reading:
         if scope is program.scopes[0]:
             globals_ = build
         claims += _with_last(build.claims)
-    assigned = sum(_count(scope.body) for scope in program.scopes)
-    return Reading(names=[s.name for s in program.scopes], assigned=assigned, claims=claims, functions=functions)
+    times = Counter(scope.name for scope in program.scopes)
+    return Reading(
+        names=[s.name for s in program.scopes],
+        assigned=sum(_count(scope.body) for scope in program.scopes),
+        claims=claims,
+        functions=functions,
+        described={s.name: s.about for s in program.scopes if s.about and times[s.name] == 1},
+    )
 
 
 def _with_last(claims: Sequence[Claim]) -> Sequence[Claim]:

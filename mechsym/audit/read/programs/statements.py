@@ -45,6 +45,7 @@ class Scope:
     parameters: Sequence[str]
     body: Sequence["Statement"]
     within: str = ""  #: Function around it
+    about: str = ""  #: What its description says
 
 
 Statement = Let | Branch | Repeated

@@ -1,0 +1,122 @@
+"""A function beside the formula in its own description: one of the two is wrong where a slip is all that parts them."""
+
+import ast
+import re
+from collections.abc import Collection, Iterator, Sequence
+from fractions import Fraction
+
+from mechsym.audit.hosts.itself import itself, with_safe_names
+from mechsym.audit.hosts.slips import asked_once, renamed_to
+from mechsym.audit.judge.nearness import Probes, compared, of_units
+from mechsym.audit.read import tree as trees
+from mechsym.audit.read.programs.claims import Claim, Reading, base, inlined
+from mechsym.audit.read.programs.statements import OF
+from mechsym.audit.read.reader import Formula
+from mechsym.audit.read.restructured import with_dollars
+from mechsym.audit.read.said import read_text_whole
+from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.row import Row
+from mechsym.audit.verdict import PASSED
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+_MATH = re.compile(r"math::|:math:`|\$")
+_INLINE = re.compile(r"(?m)(?<!\$)\$([^$\n]*=[^$\n]*)\$(?!\$)(?=[ \t]*[.,;]?[ \t]*$)")
+_RETURNED = re.compile(r"Returns?\s*\n\s*-+\s*\n\s*([A-Za-z_]\w*)\s*:")  # what is given back, as numpy's pages name it
+_ROUNDED = 1e-3  # by which numbers that are rounded, and what keeps a divisor from 0, move a formula [-]
+_ZEROS = {Fraction(k) for k in ("273.15", "273", "273.16", "459.67", "32")}  # of scales of temperature
+_FEWEST = 2  # letters that a formula and a function have in common: of one, any formula is a slip of any other
+# letters as programs spell them
+_GREEK = {"lambda": "lam", "lambd": "lam", "lamda": "lam", "epsilon": "eps", "varepsilon": "eps", "varphi": "phi"}
+
+
+@record
+class _Told:
+    """A formula of a description."""
+
+    left: str  #: Letter that it gives; empty where it is the logarithm or the slope of one
+    right: Node
+
+
+def descriptions(reading: Reading) -> Iterator[tuple[Claim, Row]]:
+    """What each function gives that its description has a formula of, in the same letters."""
+    for scope, text in reading.described.items():
+        if _MATH.search(text) is None:
+            continue
+        claims = [c for c in reading.claims if c.scope == scope and not c.case]
+        told = [*_formulas(text, {base(k) for c in claims for k in (c.name, *letters(c.tree))})]
+        names = {_plain(c.name) for c in claims}
+        given = _RETURNED.search(text)
+        best: dict[int, tuple[Claim, Row]] = {}
+        for claim in claims:
+            called = _plain(given[1] if given and claim.name == "return" else claim.name)
+            same = [t for t in told if t.left == called or (called == "return" and t.left and t.left not in names)]
+            if (met := _beside(claim, same)) is not None:
+                one, row = met
+                if id(one) not in best or row["verdict"] == "agrees":
+                    best[id(one)] = claim, row
+        yield from best.values()
+
+
+def _formulas(text: str, names: Collection[str]) -> Iterator[_Told]:
+    """The formulas of a description; names of the program are letters in them as well."""
+    words = "|".join(sorted((k for k in names if k.isalpha() and len(k) > 1), key=len, reverse=True))
+    text = _INLINE.sub(r"$$\1$$", with_dollars(text))
+    text = re.sub(r"\\Delta\s*([A-Za-z])(?![A-Za-z])", r"\\text{delta\1}", text)
+    if words:
+        text = re.sub(rf"(?<![A-Za-z\\{{])(?:{words})(?![A-Za-z])", r"\\text{\g<0>}", text)
+    try:
+        said = read_text_whole(text).said
+    except (BadInput, RecursionError):
+        return
+    for one in said:
+        for left, right in zip(one.sides, one.sides[1:], strict=False):
+            yield _Told(left=_plain(left.id) if isinstance(left, ast.Name) else "", right=right)
+
+
+def _plain(letter: str) -> str:
+    """A letter without the signs by which texts and programs differ."""
+    word = base(letter).rpartition(OF)[2]
+    return "".join(_GREEK.get(part, part) for part in re.split(r"_+", word))
+
+
+def _beside(claim: Claim, told: Sequence[_Told]) -> tuple[_Told, Row] | None:
+    """The formula that has the letters of a claim, what stands for its other variables put in, with its row."""
+    met: tuple[_Told, Row] | None = None
+    for one in told:
+        theirs = {_plain(k): k for k in letters(one.right) if k != "pi"}
+        kept = {k: 1 for k in claim.values if _plain(k) in theirs}
+        own = inlined(claim.tree, claim.values, kept)
+        called = {_plain(k): k for k in letters(own) if k != "pi"} if own is not None else {}
+        if own is None or len(called) < _FEWEST or theirs.keys() != called.keys():
+            continue
+        row = _compared(own, one.right, {theirs[k]: called[k] for k in theirs})
+        met = met if row is None else (one, row)
+        if row is not None and row["verdict"] == "agrees":
+            break  # a description may have several forms of a formula, and others beside it
+    return met
+
+
+def _compared(own: Node, told: Node, names: dict[str, str]) -> Row | None:
+    printed, right = with_safe_names(own), with_safe_names(trees.substitute(told, lambda n: renamed_to(n, names)))
+    try:
+        theory = itself(own, described=right)
+        met = compared(Formula(tree=printed), Probes(theory), "described")
+        if met is None or of_units(met.ratio):
+            return None if met is None else {"verdict": "agrees"}
+        row, _ = asked_once(to_python(printed), theory, "described", {}, ())
+    except (BadInput, RecursionError):
+        return None
+    if row["verdict"] in (*PASSED, "untestable") or met.away < _ROUNDED or _scaled(own, told):
+        return row | {"verdict": "agrees"}
+    why = f"its description gives {to_python(told)}; one of the two is wrong"
+    verdict = "misprint" if row["verdict"] == "misprint" else "wrong"
+    note = f"{why}; {row['note']}" if row["note"] else why
+    return row | {"verdict": verdict, "claim": "what its description says", "note": note}
+
+
+def _scaled(own: Node, told: Node) -> bool:
+    """Whether a function turns temperatures to another scale, which its description leaves to its words."""
+    numbers = [{trees.value_of(n) for _, n in trees.walk(tree)} for tree in (own, told)]
+    return bool((numbers[0] - numbers[1]) & _ZEROS)

@@ -1,0 +1,28 @@
+"""Functions beside the formulas of their own descriptions, and the list of slips that was written before."""
+
+import textwrap
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from mechsym.audit.hosts.described import descriptions
+from mechsym.audit.read.programs.claims import read_program
+
+LIST = tomllib.loads((Path(__file__).parent / "described.toml").read_text())
+
+
+def said_of(row):
+    about = textwrap.indent(row["about"], "    ")
+    text = f'def f({row["given"]}):\n    r"""What it gives.\n\n{about}\n    """\n    return {row["gives"]}\n'
+    return [found["verdict"] for _, found in descriptions(read_program(text, ".py"))]
+
+
+@pytest.mark.parametrize("row", LIST["slips"], ids=lambda row: row["gives"])
+def test_a_slip_is_told(row):
+    assert said_of(row) in (["misprint"], ["wrong"])
+
+
+@pytest.mark.parametrize("row", LIST["peace"], ids=lambda row: row["gives"])
+def test_what_agrees_or_is_another_thing_is_left_in_peace(row):
+    assert set(said_of(row)) <= {"agrees", ""}
