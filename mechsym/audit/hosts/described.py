@@ -1,14 +1,17 @@
 """A function beside the formula in its own description: one of the two is wrong where a slip is all that parts them."""
 
 import ast
+import contextlib
+import math
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 
 from mechsym.audit.hosts.itself import itself, with_safe_names
 from mechsym.audit.hosts.slips import asked_once, renamed_to
 from mechsym.audit.judge.nearness import Probes, compared, of_units
 from mechsym.audit.read import tree as trees
+from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.programs.claims import Claim, Reading, base, inlined
 from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import Formula
@@ -23,9 +26,14 @@ from mechsym.quantities import record
 
 _MATH = re.compile(r"math::|:math:`|\$")
 _INLINE = re.compile(r"(?m)(?<!\$)\$([^$\n]*=[^$\n]*)\$(?!\$)(?=[ \t]*[.,;]?[ \t]*$)")
+# `:param name: what it is` and `name : type` with what it is in the lines below, up to the next one
+_PARAMETER = re.compile(r"(?m)^[ \t]*(?::param (?:\w+ )?)?(\w+) ?:((?:.*\n?)(?:(?!^[ \t]*(?::|\w+ ?:)).*\S.*\n?)*)")
 _RETURNED = re.compile(r"Returns?\s*\n\s*-+\s*\n\s*([A-Za-z_]\w*)\s*:")  # what is given back, as numpy's pages name it
 _ROUNDED = 1e-3  # by which numbers that are rounded, and what keeps a divisor from 0, move a formula [-]
 _ZEROS = {Fraction(k) for k in ("273.15", "273", "273.16", "459.67", "32")}  # of scales of temperature
+# from degrees, and of thousands
+_CONVERSIONS = (math.pi / 180, 180 / math.pi, *(10.0**k for k in (-9, -6, -3, 3, 6, 9)))
+_INDICES = {*"ijkn"}
 _FEWEST = 2  # letters that a formula and a function have in common: of one, any formula is a slip of any other
 # letters as programs spell them
 _GREEK = {"lambda": "lam", "lambd": "lam", "lamda": "lam", "epsilon": "eps", "varepsilon": "eps", "varphi": "phi"}
@@ -45,7 +53,8 @@ def descriptions(reading: Reading) -> Iterator[tuple[Claim, Row]]:
         if _MATH.search(text) is None:
             continue
         claims = [c for c in reading.claims if c.scope == scope and not c.case]
-        told = [*_formulas(text, {base(k) for c in claims for k in (c.name, *letters(c.tree))})]
+        signs = _signs(text)
+        told = [*_formulas(text, {base(k) for c in claims for k in (c.name, *letters(c.tree))}, signs)]
         names = {_plain(c.name) for c in claims}
         given = _RETURNED.search(text)
         best: dict[int, tuple[Claim, Row]] = {}
@@ -59,7 +68,19 @@ def descriptions(reading: Reading) -> Iterator[tuple[Claim, Row]]:
         yield from best.values()
 
 
-def _formulas(text: str, names: Collection[str]) -> Iterator[_Told]:
+def _signs(text: str) -> dict[str, str]:
+    """The letters of a description by which it calls the parameters, and their names in the program."""
+    signs: dict[str, str] = {}
+    for name, about in _PARAMETER.findall(with_dollars(text)):
+        for sign in re.findall(r"\$([^$=\n]{1,30})\$", about)[:1]:
+            with contextlib.suppress(BadInput, RecursionError):
+                tree = read_latex(sign, whole=True)[0]
+                if isinstance(tree, ast.Name):
+                    signs.setdefault(tree.id, name)
+    return {k: v for k, v in signs.items() if list(signs.values()).count(v) == 1}
+
+
+def _formulas(text: str, names: Collection[str], signs: Mapping[str, str]) -> Iterator[_Told]:
     """The formulas of a description; names of the program are letters in them as well."""
     words = "|".join(sorted((k for k in names if k.isalpha() and len(k) > 1), key=len, reverse=True))
     text = _INLINE.sub(r"$$\1$$", with_dollars(text))
@@ -72,7 +93,8 @@ def _formulas(text: str, names: Collection[str]) -> Iterator[_Told]:
         return
     for one in said:
         for left, right in zip(one.sides, one.sides[1:], strict=False):
-            yield _Told(left=_plain(left.id) if isinstance(left, ast.Name) else "", right=right)
+            named = trees.substitute(right, lambda n: renamed_to(n, signs))
+            yield _Told(left=_plain(left.id) if isinstance(left, ast.Name) else "", right=named)
 
 
 def _plain(letter: str) -> str:
@@ -90,6 +112,8 @@ def _beside(claim: Claim, told: Sequence[_Told]) -> tuple[_Told, Row] | None:
         own = inlined(claim.tree, claim.values, kept)
         called = {_plain(k): k for k in letters(own) if k != "pi"} if own is not None else {}
         if own is None or len(called) < _FEWEST or theirs.keys() != called.keys():
+            continue
+        if _INDICES & called.keys() - {*claim.parameters}:  # of a loop, which a program counts from 0
             continue
         row = _compared(own, one.right, {theirs[k]: called[k] for k in theirs})
         met = met if row is None else (one, row)
@@ -110,10 +134,53 @@ def _compared(own: Node, told: Node, names: dict[str, str]) -> Row | None:
         return None
     if row["verdict"] in (*PASSED, "untestable") or met.away < _ROUNDED or _scaled(own, told):
         return row | {"verdict": "agrees"}
+    plain = compared(
+        Formula(tree=_unconverted(printed)), Probes(itself(own, described=_unconverted(right))), "described"
+    )
+    if plain is not None and of_units(plain.ratio):
+        return {"verdict": "agrees"}
     why = f"its description gives {to_python(told)}; one of the two is wrong"
     verdict = "misprint" if row["verdict"] == "misprint" else "wrong"
     note = f"{why}; {row['note']}" if row["note"] else why
     return row | {"verdict": verdict, "claim": "what its description says", "note": note}
+
+
+def _unconverted(tree: Node) -> Node:
+    """A formula without factors that turn one unit into another, which a description leaves to its words."""
+    return trees.substitute(tree, _without_units)
+
+
+def _without_units(node: Node) -> Node | None:
+    if not trees.is_operation(node, ast.Mult, ast.Div):
+        return None
+    number = 1.0
+    rest: Node = node
+    above: list[Node] = []
+    below: list[Node] = []
+    while trees.is_operation(rest, ast.Mult, ast.Div):
+        over = isinstance(rest.op, ast.Div)
+        value = _number(rest.right)
+        if value is None:
+            (below if over else above).append(rest.right)
+        else:
+            number *= 1 / value if over else value
+        rest = rest.left
+    first = _number(rest)
+    number *= 1.0 if first is None else first
+    above += [rest] if first is None else []
+    if not above or not any(math.isclose(number, unit, rel_tol=1e-5) for unit in _CONVERSIONS):
+        return None
+    product, *others = [_unconverted(one) for one in reversed(above)]
+    for one in others:
+        product = trees.binary(ast.Mult, product, one)
+    for one in below:
+        product = trees.binary(ast.Div, product, _unconverted(one))
+    return product
+
+
+def _number(node: Node) -> float | None:
+    value = math.pi if isinstance(node, ast.Name) and node.id == "pi" else trees.value_of(node)
+    return None if not value else float(value)
 
 
 def _scaled(own: Node, told: Node) -> bool:

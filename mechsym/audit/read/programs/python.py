@@ -74,8 +74,8 @@ def _scopes(body: Sequence[ast.stmt], within: str) -> Iterator[Scope]:
     for node in body:
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
             names = [a.arg for a in (*node.args.posonlyargs, *node.args.args) if a.arg not in ("self", "cls")]
-            about, body = ast.get_docstring(node) or "", _statements(node.body)
-            yield Scope(name=node.name, line=node.lineno, parameters=names, body=body, within=within, about=about)
+            inside, about = _statements(node.body), ast.get_docstring(node) or ""
+            yield Scope(name=node.name, line=node.lineno, parameters=names, body=inside, within=within, about=about)
             yield from _scopes(node.body, node.name)
         elif isinstance(node, ast.ClassDef):
             yield Scope(name=node.name, line=node.lineno, parameters=(), body=_statements(node.body))
