@@ -161,6 +161,16 @@ def main() -> None:
     print(
         f"Coding_Project: a rod of {rods.min():.3f} to {rods.max():.3f} as written; at rest for {still:.0%} of a turn"
     )
+    print("fluids: a loss {:.2f} times as large".format((1.56 / 1.156) ** 2))
+    above, crest, wide, g = 0.3, 0.4, 2.0, 9.80665
+    flow = 2 / 3 * np.sqrt(2 * g)
+    rehbock = flow * (0.602 + 0.0832 * above / crest) * wide * (above + 0.00125) ** 1.5
+    carter = flow * (0.602 + 0.075 * above / crest) * (wide - 0.001) * (above + 0.001) ** 1.5
+    share, low = 0.5 * (above / (above + crest)) ** 2, 0.615 + 0.000615 / (above + 0.0016)
+    rule = flow * low * (1 + share) * wide * above**1.5
+    written = flow * low * wide * np.sqrt(1.0) * above + share * wide * np.sqrt(g) * above**1.5
+    print(f"fluids: {rehbock:.3f} m^3/s by the description, {carter:.3f} by the program")
+    print(f"fluids: {written:.3f} m^3/s as written, {rule:.3f} by the rule")
 
 
 if __name__ == "__main__":

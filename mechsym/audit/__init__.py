@@ -13,8 +13,8 @@ repair/    what each part would have to be (required.py), slips, what was left o
            which order
 verdict.py the decision
 hosts/     where formulas come from: the user (formula.py), papers by a theory (paper.py) or by themselves (whole.py),
-           a function (program.py), a repository (repository.py, neighbours.py, slips.py, findings.py; itself.py without
-           a theory), sources (sources.py) with errata
+           a function (program.py), a repository (repository.py, neighbours.py, slips.py, findings.py; itself.py and
+           described.py without a theory), sources (sources.py) with errata
 
 How far it can be trusted is tried in benchmarks/auditor.
 """

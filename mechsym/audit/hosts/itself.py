@@ -199,6 +199,7 @@ def itself(tree: Node, **quantities: Node) -> Theory:
 
 
 def with_safe_names(tree: Node) -> Node:
+    """A program's formula with names that no theory has a use of its own for."""
     return trees.substitute(
         tree, lambda n: trees.name(safe(n.id)) if isinstance(n, ast.Name) and n.id != "pi" else None
     )
