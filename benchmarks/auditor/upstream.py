@@ -161,7 +161,7 @@ def main() -> None:
     print(
         f"Coding_Project: a rod of {rods.min():.3f} to {rods.max():.3f} as written; at rest for {still:.0%} of a turn"
     )
-    print("fluids: a loss {:.2f} times as large".format((1.56 / 1.156) ** 2))
+    print(f"fluids: a loss {(1.56 / 1.156) ** 2:.2f} times as large")
     above, crest, wide, g = 0.3, 0.4, 2.0, 9.80665
     flow = 2 / 3 * np.sqrt(2 * g)
     rehbock = flow * (0.602 + 0.0832 * above / crest) * wide * (above + 0.00125) ** 1.5
