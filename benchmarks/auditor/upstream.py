@@ -171,6 +171,12 @@ def main() -> None:
     written = flow * low * wide * np.sqrt(1.0) * above + share * wide * np.sqrt(g) * above**1.5
     print(f"fluids: {rehbock:.3f} m^3/s by the description, {carter:.3f} by the program")
     print(f"fluids: {written:.3f} m^3/s as written, {rule:.3f} by the rule")
+    ground, lapse, height, power = 288.15, -0.0065, 1000.0, 9.80665 * 0.0289644 / (8.31432 * -0.0065)
+    pressures = [101325 * (ground / below) ** power for below in ((ground + lapse) * height, ground + lapse * height)]
+    print("pysolar: {:.1e} Pa by the description, {:.2e} by the program".format(*pressures))
+    print(
+        f"py_fatigue: {40 * (1 + 0.2) / 2:.0f} MPa by the description, {40 * (1 + 0.2) / (1 - 0.2):.0f} by the program"
+    )
 
 
 if __name__ == "__main__":

@@ -1,10 +1,8 @@
 """Formulas out of one function of a program: its assignments and what it returns, its own variables put in."""
 
-import ast
 from collections.abc import Collection
 from pathlib import Path
 
-from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import (
     ENDS,
     Claim,
@@ -13,10 +11,11 @@ from mechsym.audit.read.programs.claims import (
     is_changed,
     longest,
     read_program,
+    with_base_names,
 )
 from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.spelling import to_python
-from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.read.tree import letters
 from mechsym.errors import BadInput
 from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record
@@ -66,14 +65,8 @@ def _assigned(claim: Claim, later: list[Claim], own: Collection[str]) -> Assigne
     inner = any(base(k) == claim.name for other in later for k in letters(other.tree))
     return Assigned(
         name=claim.name.replace(OF, "_"),
-        text=to_python(_plain(tree)),
+        text=to_python(with_base_names(tree)),
         about=claim.about or (claim.scope if claim.name == "return" else ""),
         inner=inner,
         unfollowed=tuple(dict.fromkeys(base(k) for k in letters(tree) if is_changed(k))),
-    )
-
-
-def _plain(tree: Node) -> Node:
-    return trees.substitute(
-        tree, lambda n: trees.name(base(n.id).replace(OF, "_")) if isinstance(n, ast.Name) else None
     )

@@ -12,9 +12,9 @@ from mechsym.audit.hosts.slips import asked_once, renamed_to
 from mechsym.audit.judge.nearness import Probes, compared, of_units
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.latex import read_latex
-from mechsym.audit.read.programs.claims import Claim, Reading, base, inlined
+from mechsym.audit.read.programs.claims import Claim, Reading, base, inlined, with_base_names
 from mechsym.audit.read.programs.statements import OF
-from mechsym.audit.read.reader import Formula
+from mechsym.audit.read.reader import Formula, read_expression
 from mechsym.audit.read.restructured import with_dollars
 from mechsym.audit.read.said import read_text_whole
 from mechsym.audit.read.spelling import to_python
@@ -24,10 +24,12 @@ from mechsym.audit.verdict import PASSED
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
-_MATH = re.compile(r"math::|:math:`|\$")
+_MATH = re.compile("=")
 _INLINE = re.compile(r"(?m)(?<!\$)\$([^$\n]*=[^$\n]*)\$(?!\$)(?=[ \t]*[.,;]?[ \t]*$)")
 # `:param name: what it is` and `name : type` with what it is in the lines below, up to the next one
 _PARAMETER = re.compile(r"(?m)^[ \t]*(?::param (?:\w+ )?)?(\w+) ?:((?:.*\n?)(?:(?!^[ \t]*(?::|\w+ ?:)).*\S.*\n?)*)")
+# a formula that stands alone in plain text, behind a colon at most
+_LINE = re.compile(r"(?m)^[ \t]*(?:[A-Z][\w ,\-]{2,40}:[ \t]*)?([A-Za-z_]\w*) ?= ?([^=$\n]{3,200}?)[ \t]*[.,;]?[ \t]*$")
 _RETURNED = re.compile(r"Returns?\s*\n\s*-+\s*\n\s*([A-Za-z_]\w*)\s*:")  # what is given back, as numpy's pages name it
 _ROUNDED = 1e-3  # by which numbers that are rounded, and what keeps a divisor from 0, move a formula [-]
 _ZEROS = {Fraction(k) for k in ("273.15", "273", "273.16", "459.67", "32")}  # of scales of temperature
@@ -82,6 +84,9 @@ def _signs(text: str) -> dict[str, str]:
 
 def _formulas(text: str, names: Collection[str], signs: Mapping[str, str]) -> Iterator[_Told]:
     """The formulas of a description; names of the program are letters in them as well."""
+    for match in _LINE.finditer(text):
+        with contextlib.suppress(BadInput, RecursionError):
+            yield _Told(left=_plain(match[1]), right=read_expression(match[2], names)[0])
     words = "|".join(sorted((k for k in names if k.isalpha() and len(k) > 1), key=len, reverse=True))
     text = _INLINE.sub(r"$$\1$$", with_dollars(text))
     text = re.sub(r"\\Delta\s*([A-Za-z])(?![A-Za-z])", r"\\text{delta\1}", text)
@@ -113,9 +118,12 @@ def _beside(claim: Claim, told: Sequence[_Told]) -> tuple[_Told, Row] | None:
         called = {_plain(k): k for k in letters(own) if k != "pi"} if own is not None else {}
         if own is None or len(called) < _FEWEST or theirs.keys() != called.keys():
             continue
+        if len(called) < len({*letters(own)} - {"pi"}):  # a name with two values
+            continue
         if _INDICES & called.keys() - {*claim.parameters}:  # of a loop, which a program counts from 0
             continue
-        row = _compared(own, one.right, {theirs[k]: called[k] for k in theirs})
+        names = {theirs[k]: base(called[k]).replace(OF, "_") for k in theirs}
+        row = _compared(with_base_names(own), one.right, names)
         met = met if row is None else (one, row)
         if row is not None and row["verdict"] == "agrees":
             break  # a description may have several forms of a formula, and others beside it
@@ -140,9 +148,9 @@ def _compared(own: Node, told: Node, names: dict[str, str]) -> Row | None:
     if plain is not None and of_units(plain.ratio):
         return {"verdict": "agrees"}
     why = f"its description gives {to_python(told)}; one of the two is wrong"
-    verdict = "misprint" if row["verdict"] == "misprint" else "wrong"
-    note = f"{why}; {row['note']}" if row["note"] else why
-    return row | {"verdict": verdict, "claim": "what its description says", "note": note}
+    # no repair: it would be one towards the description
+    nothing = {"correction": None, "corrected_max_rel_error": None}
+    return row | nothing | {"verdict": "wrong", "claim": "what its description says", "note": why}
 
 
 def _unconverted(tree: Node) -> Node:

@@ -104,7 +104,7 @@ def summary(total: Mapping[str, int]) -> str:
     """The coverage in one line."""
     return (
         f"{total['read']} of {total['files']} files read, {total['scopes']} functions and scripts, "
-        f"{total['formulas']} formulas of two letters or more; {total['matched']} fit a theory, "
+        f"{total['formulas']} formulas of two letters or more; {total['matched']} fit a theory or a description, "
         f"{total['judged']} judged, {total['findings']} findings"
     )
 

@@ -86,7 +86,7 @@ def _vocabularies(theory: str, case: str) -> tuple[Lexicon, ...]:
 
 
 def _judged(shown: str, reading: Reading, asked: Asked) -> File:
-    matched = judged = 0
+    matched, judged = set[int](), set[int]()  # claims by identity: the same one may be held against several things
     rows = []
     claims = [c for c in reading.claims if len(letters(c.tree)) > 1]
     words = {base(k) for c in reading.claims for k in (*letters(c.tree), c.name)}
@@ -95,14 +95,17 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
     for claim in reading.claims:
         outcome = neighbours.outcome(claim)
         own = slope_beside(claim, claims) or converted_twice(claim) or one_for_a_letter(claim)
-        matched += outcome is not None or own is not None
-        judged += bool(outcome and outcome["verdict"] != "") or bool(own)
+        if outcome is not None or own is not None:
+            matched.add(id(claim))
+        if own or (outcome is not None and outcome["verdict"] != ""):
+            judged.add(id(claim))
         for row in (outcome, own):
             if row is not None and row["verdict"] in _FOUND:
                 rows.append(_placed(row, claim, shown))
     beside = (*slopes(reading), *converted_here_and_not_there(reading.claims), *descriptions(reading))
     for claim, row in beside:
-        matched, judged = matched + 1, judged + 1
+        matched.add(id(claim))
+        judged.add(id(claim))
         if row["verdict"] in _FOUND:
             rows.append(_placed(row, claim, shown))
     return File(
@@ -110,8 +113,8 @@ def _judged(shown: str, reading: Reading, asked: Asked) -> File:
         scopes=len(reading.names),
         assigned=reading.assigned,
         formulas=len(claims),
-        matched=matched,
-        judged=judged,
+        matched=len(matched),
+        judged=len(judged),
         rows=_once(rows),
     )
 

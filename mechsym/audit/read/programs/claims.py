@@ -12,7 +12,7 @@ from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.grammars import GRAMMARS, read_grammar
 from mechsym.audit.read.programs.modelica import read_modelica
 from mechsym.audit.read.programs.python import code_of_notebook, read_python
-from mechsym.audit.read.programs.statements import Let, Opaque, ProgramText, Repeated, Scope, Spelled, Statement
+from mechsym.audit.read.programs.statements import OF, Let, Opaque, ProgramText, Repeated, Scope, Spelled, Statement
 from mechsym.audit.read.tree import Node
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -55,6 +55,13 @@ class Reading:
 def base(letter: str) -> str:
     """The name in the program of a letter in a claim."""
     return letter.partition(_AGAIN)[0].partition(_ANEW)[0]
+
+
+def with_base_names(tree: Node) -> Node:
+    """A formula in the names of the program; a part of something is joined to it by a line."""
+    return trees.substitute(
+        tree, lambda n: trees.name(base(n.id).replace(OF, "_")) if isinstance(n, ast.Name) else None
+    )
 
 
 def is_changed(letter: str) -> bool:
