@@ -152,7 +152,7 @@ def propeller_load_squares(
 ) -> np.ndarray:
     """Squares of that speed [rad^2/s^2], not positive where the crank would stop, of one motion or of many in rows.
 
-    missing, inertia: shape (..., n); omega, load_torque: [rad/s], [N*m], of a number or of shape (..., 1).
+    missing, inertia: shape (..., n); omega [rad/s], load_torque [N*m]: numbers, or of shape (..., 1).
     """
     rate = 2 * load_torque / (inertia * omega**2)
     step = period / missing.shape[-1] * (rate + np.roll(rate, -1, axis=-1)) / 2

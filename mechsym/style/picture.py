@@ -14,17 +14,10 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mechsym.files import write_text
-from mechsym.style.panels import DARK, INK
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from mechsym.files import Json
+from mechsym.files import Json, write_text
+from mechsym.style.panels import DARK, INK
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

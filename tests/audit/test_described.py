@@ -38,3 +38,38 @@ def test_the_command_says_what_the_description_says(tmp_path):
     done = CliRunner().invoke(mechsym, ["audit", "--code", str(path)])
     assert done.exit_code == 1
     assert "is not what its description says" in done.stdout and "one of the two is wrong" in done.stdout
+
+
+PROGRAMS = {
+    ".m": """function x = travel(r, l, theta)
+% x = r*(1 - cos(theta)) + l*(1 - sqrt(1 - (r/l*sin(theta))^2))
+x = r*(1 - cos(theta)) + l*(1 - sqrt(1 - {});
+end
+""",
+    ".cpp": r"""/// Travel of a piston:
+/// \f[ x = r (1 - \cos\theta) + l \left(1 - \sqrt{1 - \left(\frac{r}{l} \sin\theta\right)^2}\right) \f]
+double travel(double r, double l, double theta) {
+    return r*(1 - cos(theta)) + l*(1 - sqrt(1 - {});
+}
+""",
+    ".jl": """# x = r*(1 - cos(theta)) + l*(1 - sqrt(1 - (r/l*sin(theta))^2))
+function travel(r, l, theta)
+    return r*(1 - cos(theta)) + l*(1 - sqrt(1 - {})
+end
+""",
+}
+
+
+@pytest.mark.parametrize("ends", PROGRAMS)
+@pytest.mark.parametrize(
+    ("root", "verdict"), [("(r*sin(theta)/l)*(r*sin(theta)/l))", "agrees"), ("r*sin(theta)/l)", "wrong")]
+)
+def test_comments_at_the_head_of_a_function_describe_it(ends, root, verdict):
+    reading = read_program(PROGRAMS[ends].replace("{}", root), ends)
+    assert [row["verdict"] for _, row in descriptions(reading)] == [verdict]
+
+
+def test_what_one_branch_gives_settles_a_formula():
+    text = 'def f(a, b, c):\n    r"""$F = \\frac{a b}{c}$"""\n'
+    text += "    if a > c:\n        return a * b / c\n    return a * b * c\n"
+    assert [row["verdict"] for _, row in descriptions(read_program(text, ".py"))] == ["agrees"]

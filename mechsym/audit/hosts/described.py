@@ -1,4 +1,4 @@
-"""A function beside the formula in its own description: one of the two is wrong where a slip is all that parts them."""
+"""A function beside the formula in its own description: where they differ one of the two is wrong."""
 
 import ast
 import contextlib
@@ -24,7 +24,7 @@ from mechsym.audit.verdict import PASSED
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
-_MATH = re.compile("=")
+_DOXYGEN = re.compile(r"[\\@]f([$\[\]])")
 _INLINE = re.compile(r"(?m)(?<!\$)\$([^$\n]*=[^$\n]*)\$(?!\$)(?=[ \t]*[.,;]?[ \t]*$)")
 # `:param name: what it is` and `name : type` with what it is in the lines below, up to the next one
 _PARAMETER = re.compile(r"(?m)^[ \t]*(?::param (?:\w+ )?)?(\w+) ?:((?:.*\n?)(?:(?!^[ \t]*(?::|\w+ ?:)).*\S.*\n?)*)")
@@ -52,9 +52,9 @@ class _Told:
 def descriptions(reading: Reading) -> Iterator[tuple[Claim, Row]]:
     """What each function gives that its description has a formula of, in the same letters."""
     for scope, text in reading.described.items():
-        if _MATH.search(text) is None:
+        if "=" not in text:
             continue
-        claims = [c for c in reading.claims if c.scope == scope and not c.case]
+        claims = [c for c in reading.claims if c.scope == scope]
         signs = _signs(text)
         told = [*_formulas(text, {base(k) for c in claims for k in (c.name, *letters(c.tree))}, signs)]
         names = {_plain(c.name) for c in claims}
@@ -65,7 +65,8 @@ def descriptions(reading: Reading) -> Iterator[tuple[Claim, Row]]:
             same = [t for t in told if t.left == called or (called == "return" and t.left and t.left not in names)]
             if (met := _beside(claim, same)) is not None:
                 one, row = met
-                if id(one) not in best or row["verdict"] == "agrees":
+                # what a branch gives may have a formula that another branch has not
+                if row["verdict"] == "agrees" or (id(one) not in best and not claim.case):
                     best[id(one)] = claim, row
         yield from best.values()
 
@@ -84,6 +85,7 @@ def _signs(text: str) -> dict[str, str]:
 
 def _formulas(text: str, names: Collection[str], signs: Mapping[str, str]) -> Iterator[_Told]:
     """The formulas of a description; names of the program are letters in them as well."""
+    text = _DOXYGEN.sub(lambda m: "$" if m[1] == "$" else "$$", text)
     for match in _LINE.finditer(text):
         with contextlib.suppress(BadInput, RecursionError):
             yield _Told(left=_plain(match[1]), right=read_expression(match[2], names)[0])
@@ -140,7 +142,9 @@ def _compared(own: Node, told: Node, names: dict[str, str]) -> Row | None:
         row, _ = asked_once(to_python(printed), theory, "described", {}, ())
     except (BadInput, RecursionError):
         return None
-    if row["verdict"] in (*PASSED, "untestable") or met.away < _ROUNDED or _scaled(own, told):
+    if row["verdict"] == "untestable":
+        return None
+    if row["verdict"] in PASSED or met.away < _ROUNDED or _scaled(own, told):
         return row | {"verdict": "agrees"}
     plain = compared(
         Formula(tree=_unconverted(printed)), Probes(itself(own, described=_unconverted(right))), "described"
@@ -193,5 +197,8 @@ def _number(node: Node) -> float | None:
 
 def _scaled(own: Node, told: Node) -> bool:
     """Whether a function turns temperatures to another scale, which its description leaves to its words."""
-    numbers = [{trees.value_of(n) for _, n in trees.walk(tree)} for tree in (own, told)]
-    return bool((numbers[0] - numbers[1]) & _ZEROS)
+    ours, theirs = (
+        {trees.value_of(n.right) for _, n in trees.walk(tree) if trees.is_operation(n, ast.Add, ast.Sub)}
+        for tree in (own, told)
+    )
+    return bool((ours - theirs) & _ZEROS)

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
+from itertools import count, takewhile
 
 from mechsym.audit.read import notebook
 from mechsym.audit.read import tree as trees
@@ -49,7 +50,7 @@ class Reading:
     assigned: int  #: Assignments and returned values, numbers and what is no arithmetic among them
     claims: Sequence[Claim]
     functions: Mapping[str, tuple[tuple[str, ...], Node]]
-    described: Mapping[str, str]  #: By the name of a scope that is the only one of its name: what describes it
+    described: Mapping[str, str]  #: By the name of a function that is the only one of its name: what describes it
 
 
 def base(letter: str) -> str:
@@ -114,8 +115,17 @@ def _reading(program: ProgramText) -> Reading:
         assigned=sum(_count(scope.body) for scope in program.scopes),
         claims=claims,
         functions=functions,
-        described={s.name: s.about for s in program.scopes if s.about and times[s.name] == 1},
+        described={s.name: _description(program, s) for s in program.scopes if s.name and times[s.name] == 1},
     )
+
+
+def _description(program: ProgramText, scope: Scope) -> str:
+    """What a docstring says, or the lines of comment right above and below where a function begins."""
+    if scope.about:
+        return scope.about
+    above = [*takewhile(program.alone.__contains__, range(scope.line - 1, 0, -1))][::-1]
+    below = takewhile(program.alone.__contains__, count(scope.line + 1))
+    return "\n".join(program.comments[line] for line in (*above, *below))
 
 
 def _with_last(claims: Sequence[Claim]) -> Sequence[Claim]:
