@@ -153,7 +153,7 @@ def _compared(own: Node, told: Node, names: dict[str, str]) -> Row | None:
         return {"verdict": "agrees"}
     why = f"its description gives {to_python(told)}; one of the two is wrong"
     # no repair: it would be one towards the description
-    nothing = {"correction": None, "corrected_max_rel_error": None}
+    nothing = {"correction": None, "corrected_max_rel_error": None, "max_rel_error": met.away}
     return row | nothing | {"verdict": "wrong", "claim": "what its description says", "note": why}
 
 

@@ -124,8 +124,8 @@ def compared(form: Formula, states: Probes, quantity: str) -> Nearness | None:
     p, e = printed[good], expected[good]
     with np.errstate(all="ignore"):
         ratios = p / e
-    middle = float(np.median(ratios))
-    constant = bool(np.all(np.abs(ratios - middle) <= _SAME * abs(middle))) and middle != 0
+        middle = float(np.median(ratios))
+        constant = bool(np.all(np.abs(ratios - middle) <= _SAME * abs(middle))) and middle != 0
     away = min(float(np.max(np.abs(p - e))), float(np.max(np.abs(p + e)))) / float(np.max(np.abs(e)))
     return Nearness(
         away=away,
