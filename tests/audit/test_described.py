@@ -73,3 +73,15 @@ def test_what_one_branch_gives_settles_a_formula():
     text = 'def f(a, b, c):\n    r"""$F = \\frac{a b}{c}$"""\n'
     text += "    if a > c:\n        return a * b / c\n    return a * b * c\n"
     assert [row["verdict"] for _, row in descriptions(read_program(text, ".py"))] == ["agrees"]
+
+
+@pytest.mark.parametrize(("number", "verdict"), [("0.5005", "agrees"), ("0.51", "wrong")])
+def test_a_rounded_number_is_the_program_s_own(number, verdict):
+    text = f'def f(m, v, h):\n    r"""$E = \\frac{{1}}{{2}} m v^2 + h$"""\n    return {number} * m * v**2 + h\n'
+    assert [row["verdict"] for _, row in descriptions(read_program(text, ".py"))] == [verdict]
+
+
+@pytest.mark.parametrize("factor", ["1e-9", "1e-6", "1e-3", "1e3", "1e6", "1e9"])
+def test_thousands_in_one_term_are_units(factor):
+    text = f'def f(a, b, c):\n    r"""$F = a b + c$"""\n    return {factor} * a * b + c\n'
+    assert [row["verdict"] for _, row in descriptions(read_program(text, ".py"))] == ["agrees"]

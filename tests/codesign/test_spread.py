@@ -63,8 +63,9 @@ def test_flywheel_and_pressure(design):
 
 def test_numbers_of_the_spring_by_their_share_and_an_index_by_what_it_is_off(design):
     hardware = design.tracks[0].hardware
-    other = hardware.changed({"H": 1.02 * hardware.spring.H})
-    assert worst(design, {"H": 0.02}) == pytest.approx(made(design, other), rel=2e-3)
+    for name in ("A", "H"):
+        other = hardware.changed({name: 1.02 * getattr(hardware.spring, name)})
+        assert worst(design, {name: 0.02}) == pytest.approx(made(design, other), rel=2e-3)
     other = hardware.changed({"n": hardware.spring.n + 0.03})
     assert worst(design, {"n": 0.03}) == pytest.approx(made(design, other), rel=2e-3)
 
