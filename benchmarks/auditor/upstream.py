@@ -114,6 +114,26 @@ def screw() -> tuple[float, float]:
     return 32 * moment / (3.1416 * core * core), moment * core / 2 / area
 
 
+def descriptions() -> None:
+    """Print what descriptions give that are not those of their programs."""
+    print(f"fluids: a loss {(1.56 / 1.156) ** 2:.2f} times as large")
+    above, crest, wide, g = 0.3, 0.4, 2.0, 9.80665
+    flow = 2 / 3 * np.sqrt(2 * g)
+    rehbock = flow * (0.602 + 0.0832 * above / crest) * wide * (above + 0.00125) ** 1.5
+    carter = flow * (0.602 + 0.075 * above / crest) * (wide - 0.001) * (above + 0.001) ** 1.5
+    print(f"fluids: {rehbock:.3f} m^3/s by the description, {carter:.3f} by the program")
+    share, low = 0.5 * (above / (above + crest)) ** 2, 0.615 + 0.000615 / (above + 0.0016)
+    rule = flow * low * (1 + share) * wide * above**1.5
+    written = flow * low * wide * above + share * wide * np.sqrt(g) * above**1.5
+    print(f"fluids: {written:.3f} m^3/s as written, {rule:.3f} by the rule")
+    ground, lapse, height, power = 288.15, -0.0065, 1000.0, 9.80665 * 0.0289644 / (8.31432 * -0.0065)
+    pressures = [101325 * (ground / below) ** power for below in ((ground + lapse) * height, ground + lapse * height)]
+    print("pysolar: {:.1e} Pa by the description, {:.2e} by the program".format(*pressures))
+    amplitude, ratio = 40.0, 0.2
+    means = amplitude * (1 + ratio) / 2, amplitude * (1 + ratio) / (1 - ratio)
+    print("py_fatigue: {:.0f} MPa by the description, {:.0f} by the program".format(*means))
+
+
 def main() -> None:
     """Print the numbers in the order of the page."""
     for target in (25, 35):
@@ -161,22 +181,7 @@ def main() -> None:
     print(
         f"Coding_Project: a rod of {rods.min():.3f} to {rods.max():.3f} as written; at rest for {still:.0%} of a turn"
     )
-    print(f"fluids: a loss {(1.56 / 1.156) ** 2:.2f} times as large")
-    above, crest, wide, g = 0.3, 0.4, 2.0, 9.80665
-    flow = 2 / 3 * np.sqrt(2 * g)
-    rehbock = flow * (0.602 + 0.0832 * above / crest) * wide * (above + 0.00125) ** 1.5
-    carter = flow * (0.602 + 0.075 * above / crest) * (wide - 0.001) * (above + 0.001) ** 1.5
-    share, low = 0.5 * (above / (above + crest)) ** 2, 0.615 + 0.000615 / (above + 0.0016)
-    rule = flow * low * (1 + share) * wide * above**1.5
-    written = flow * low * wide * np.sqrt(1.0) * above + share * wide * np.sqrt(g) * above**1.5
-    print(f"fluids: {rehbock:.3f} m^3/s by the description, {carter:.3f} by the program")
-    print(f"fluids: {written:.3f} m^3/s as written, {rule:.3f} by the rule")
-    ground, lapse, height, power = 288.15, -0.0065, 1000.0, 9.80665 * 0.0289644 / (8.31432 * -0.0065)
-    pressures = [101325 * (ground / below) ** power for below in ((ground + lapse) * height, ground + lapse * height)]
-    print("pysolar: {:.1e} Pa by the description, {:.2e} by the program".format(*pressures))
-    print(
-        f"py_fatigue: {40 * (1 + 0.2) / 2:.0f} MPa by the description, {40 * (1 + 0.2) / (1 - 0.2):.0f} by the program"
-    )
+    descriptions()
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from mechsym.periodic.pieces import PPoly
 from tests import codesigns
 
 POINT = 2
+NEAR = 5e-5  # 720 even angles pass a peak of the speed by up to a quarter of a degree; measured: 2e-5
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +35,7 @@ def design():
     )  # fmt: skip
 
 
-def made(design, hardware=None, flywheel=1.0, pressure=1.0):
+def ripple_of(design, hardware=None, flywheel=1.0, pressure=1.0):
     """The ripple of a machine with other numbers, by collocation over the angle."""
     (track,), (point,) = design.tracks, design.task.points
     other = dataclasses.replace(track, hardware=hardware or track.hardware, p0=pressure * track.p0)
@@ -42,7 +43,7 @@ def made(design, hardware=None, flywheel=1.0, pressure=1.0):
 
 
 def test_nothing_off_leaves_what_the_masses_of_the_rollers_do(design):
-    assert worst(design, {}) == pytest.approx(made(design), rel=2e-3) and worst(design, {}) > 1e-3
+    assert worst(design, {}) == pytest.approx(ripple_of(design), rel=NEAR) and worst(design, {}) > 1e-3
     (track,) = design.tracks
     light = track.hardware.changed({"moving_mass": 0.0, "roller_inertia": 0.0})
     massless = dataclasses.replace(design, tracks=(dataclasses.replace(track, hardware=light),))
@@ -53,21 +54,21 @@ def test_nothing_off_leaves_what_the_masses_of_the_rollers_do(design):
 def test_the_mass_on_the_rollers(design, share):
     hardware = design.tracks[0].hardware
     other = hardware.changed({"moving_mass": (1 + share) * hardware.moving_mass})
-    assert worst(design, {"moving_mass": share}) == pytest.approx(made(design, other), rel=2e-3)
+    assert worst(design, {"moving_mass": share}) == pytest.approx(ripple_of(design, other), rel=NEAR)
 
 
 def test_flywheel_and_pressure(design):
-    assert worst(design, {"flywheel": -0.2}) == pytest.approx(made(design, flywheel=0.8), rel=2e-3)
-    assert worst(design, {"p0": 0.05}) == pytest.approx(made(design, pressure=1.05), rel=2e-3)
+    assert worst(design, {"flywheel": -0.2}) == pytest.approx(ripple_of(design, flywheel=0.8), rel=NEAR)
+    assert worst(design, {"p0": 0.05}) == pytest.approx(ripple_of(design, pressure=1.05), rel=NEAR)
 
 
 def test_numbers_of_the_spring_by_their_share_and_an_index_by_what_it_is_off(design):
     hardware = design.tracks[0].hardware
     for name in ("A", "H"):
         other = hardware.changed({name: 1.02 * getattr(hardware.spring, name)})
-        assert worst(design, {name: 0.02}) == pytest.approx(made(design, other), rel=2e-3)
+        assert worst(design, {name: 0.02}) == pytest.approx(ripple_of(design, other), rel=NEAR)
     other = hardware.changed({"n": hardware.spring.n + 0.03})
-    assert worst(design, {"n": 0.03}) == pytest.approx(made(design, other), rel=2e-3)
+    assert worst(design, {"n": 0.03}) == pytest.approx(ripple_of(design, other), rel=NEAR)
 
 
 def test_more_load_is_more_work_of_the_gas_and_not_of_the_masses(design):

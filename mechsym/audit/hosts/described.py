@@ -17,7 +17,7 @@ from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import Formula, read_expression
 from mechsym.audit.read.restructured import with_dollars
 from mechsym.audit.read.said import read_text_whole
-from mechsym.audit.read.spelling import to_python
+from mechsym.audit.read.spelling import ALIASES, to_python
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.row import Row
 from mechsym.audit.verdict import PASSED
@@ -37,12 +37,11 @@ _ZEROS = {Fraction(k) for k in ("273.15", "273", "273.16", "459.67", "32")}  # o
 _CONVERSIONS = (math.pi / 180, 180 / math.pi, *(10.0**k for k in (-9, -6, -3, 3, 6, 9)))
 _INDICES = {*"ijkn"}
 _FEWEST = 2  # letters that a formula and a function have in common: of one, any formula is a slip of any other
-# letters as programs spell them
-_GREEK = {"lambda": "lam", "lambd": "lam", "lamda": "lam", "epsilon": "eps", "varepsilon": "eps", "varphi": "phi"}
+_GREEK = ALIASES | {"lambd": "lam", "lamda": "lam", "eps": "epsilon"}  # letters as programs spell them
 
 
 @record
-class _Told:
+class _Described:
     """A formula of a description."""
 
     left: str  #: Letter that it gives; empty where it is the logarithm or the slope of one
@@ -56,13 +55,13 @@ def descriptions(reading: Reading) -> Iterator[tuple[Claim, Row]]:
             continue
         claims = [c for c in reading.claims if c.scope == scope]
         signs = _signs(text)
-        told = [*_formulas(text, {base(k) for c in claims for k in (c.name, *letters(c.tree))}, signs)]
+        formulas = [*_formulas(text, {base(k) for c in claims for k in (c.name, *letters(c.tree))}, signs)]
         names = {_plain(c.name) for c in claims}
         given = _RETURNED.search(text)
         best: dict[int, tuple[Claim, Row]] = {}
         for claim in claims:
             called = _plain(given[1] if given and claim.name == "return" else claim.name)
-            same = [t for t in told if t.left == called or (called == "return" and t.left and t.left not in names)]
+            same = [t for t in formulas if t.left == called or (called == "return" and t.left and t.left not in names)]
             if (met := _beside(claim, same)) is not None:
                 one, row = met
                 # what a branch gives may have a formula that another branch has not
@@ -83,12 +82,12 @@ def _signs(text: str) -> dict[str, str]:
     return {k: v for k, v in signs.items() if list(signs.values()).count(v) == 1}
 
 
-def _formulas(text: str, names: Collection[str], signs: Mapping[str, str]) -> Iterator[_Told]:
+def _formulas(text: str, names: Collection[str], signs: Mapping[str, str]) -> Iterator[_Described]:
     """The formulas of a description; names of the program are letters in them as well."""
     text = _DOXYGEN.sub(lambda m: "$" if m[1] == "$" else "$$", text)
     for match in _LINE.finditer(text):
         with contextlib.suppress(BadInput, RecursionError):
-            yield _Told(left=_plain(match[1]), right=read_expression(match[2], names)[0])
+            yield _Described(left=_plain(match[1]), right=read_expression(match[2], names)[0])
     words = "|".join(sorted((k for k in names if k.isalpha() and len(k) > 1), key=len, reverse=True))
     text = _INLINE.sub(r"$$\1$$", with_dollars(text))
     text = re.sub(r"\\Delta\s*([A-Za-z])(?![A-Za-z])", r"\\text{delta\1}", text)
@@ -101,7 +100,7 @@ def _formulas(text: str, names: Collection[str], signs: Mapping[str, str]) -> It
     for one in said:
         for left, right in zip(one.sides, one.sides[1:], strict=False):
             named = trees.substitute(right, lambda n: renamed_to(n, signs))
-            yield _Told(left=_plain(left.id) if isinstance(left, ast.Name) else "", right=named)
+            yield _Described(left=_plain(left.id) if isinstance(left, ast.Name) else "", right=named)
 
 
 def _plain(letter: str) -> str:
@@ -110,10 +109,10 @@ def _plain(letter: str) -> str:
     return "".join(_GREEK.get(part, part) for part in re.split(r"_+", word))
 
 
-def _beside(claim: Claim, told: Sequence[_Told]) -> tuple[_Told, Row] | None:
+def _beside(claim: Claim, formulas: Sequence[_Described]) -> tuple[_Described, Row] | None:
     """The formula that has the letters of a claim, what stands for its other variables put in, with its row."""
-    met: tuple[_Told, Row] | None = None
-    for one in told:
+    met: tuple[_Described, Row] | None = None
+    for one in formulas:
         theirs = {_plain(k): k for k in letters(one.right) if k != "pi"}
         kept = {k: 1 for k in claim.values if _plain(k) in theirs}
         own = inlined(claim.tree, claim.values, kept)
@@ -132,8 +131,8 @@ def _beside(claim: Claim, told: Sequence[_Told]) -> tuple[_Told, Row] | None:
     return met
 
 
-def _compared(own: Node, told: Node, names: dict[str, str]) -> Row | None:
-    printed, right = with_safe_names(own), with_safe_names(trees.substitute(told, lambda n: renamed_to(n, names)))
+def _compared(own: Node, theirs: Node, names: dict[str, str]) -> Row | None:
+    printed, right = with_safe_names(own), with_safe_names(trees.substitute(theirs, lambda n: renamed_to(n, names)))
     try:
         theory = itself(own, described=right)
         met = compared(Formula(tree=printed), Probes(theory), "described")
@@ -144,14 +143,14 @@ def _compared(own: Node, told: Node, names: dict[str, str]) -> Row | None:
         return None
     if row["verdict"] == "untestable":
         return None
-    if row["verdict"] in PASSED or met.away < _ROUNDED or _scaled(own, told):
+    if row["verdict"] in PASSED or met.away < _ROUNDED or _scaled(own, theirs):
         return row | {"verdict": "agrees"}
     plain = compared(
         Formula(tree=_unconverted(printed)), Probes(itself(own, described=_unconverted(right))), "described"
     )
     if plain is not None and of_units(plain.ratio):
         return {"verdict": "agrees"}
-    why = f"its description gives {to_python(told)}; one of the two is wrong"
+    why = f"its description gives {to_python(theirs)}; one of the two is wrong"
     # no repair: it would be one towards the description
     nothing = {"correction": None, "corrected_max_rel_error": None, "max_rel_error": met.away}
     return row | nothing | {"verdict": "wrong", "claim": "what its description says", "note": why}
@@ -195,10 +194,10 @@ def _number(node: Node) -> float | None:
     return None if not value else float(value)
 
 
-def _scaled(own: Node, told: Node) -> bool:
+def _scaled(own: Node, theirs: Node) -> bool:
     """Whether a function turns temperatures to another scale, which its description leaves to its words."""
-    ours, theirs = (
-        {trees.value_of(n.right) for _, n in trees.walk(tree) if trees.is_operation(n, ast.Add, ast.Sub)}
-        for tree in (own, told)
-    )
-    return bool((ours - theirs) & _ZEROS)
+    added, described = (
+        {trees.value_of(side) for _, n in trees.walk(tree) if trees.is_operation(n, ast.Add, ast.Sub)
+         for side in (n.left, n.right)} for tree in (own, theirs)
+    )  # fmt: skip
+    return bool((added - described) & _ZEROS)

@@ -19,22 +19,8 @@ from mechsym.quantities import record
 _POINTS, _TURNS, _STEPS = 24, 4, 7  # states at which numbers are compared, and of turns
 _SAME = 1e-9
 # factors by which units differ: degrees, minutes, hours, days and years, inches and feet, thousands
-_SCALES = (
-    1.0,
-    np.pi / 180,
-    60.0,
-    3600.0,
-    86400.0,
-    31536000.0,
-    31557600.0,
-    2 * np.pi,
-    np.pi / 30,
-    12.0,
-    25.4,
-    0.3048,
-    25.4**2,
-    25.4**3,
-)
+_TIMES = (60.0, 3600.0, 86400.0, 31536000.0, 31557600.0)
+_SCALES = (1.0, np.pi / 180, *_TIMES, 2 * np.pi, np.pi / 30, 12.0, 25.4, 0.3048, 25.4**2, 25.4**3)
 _UNITS = tuple(
     sign * 10.0**n * scale**power
     for n in (-9, -6, -3, -2, -1, 0, 1, 2, 3, 5, 6, 9)

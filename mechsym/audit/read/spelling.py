@@ -17,7 +17,7 @@ _GREEK = {
     "Ψ": "Psi", "Ω": "Omega", "Γ": "Gamma", "Θ": "Theta", "Λ": "Lambda", "ℓ": "ell", "·": "*", "×": "*", "−": "-",
     "√": "sqrt", **{c: f"**{n}" for n, c in enumerate(RAISED)}, **{c: f"_{n}" for n, c in enumerate(LOWERED)},
 }  # fmt: skip
-_ALIASES = {"lambda": "lam", "varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho"}
+ALIASES = {"lambda": "lam", "varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho"}
 _LATEX = {
     "lam": r"\lambda", "phi": r"\varphi", "epsilon": r"\varepsilon", **{
         n: rf"\{n}" for n in (
@@ -89,7 +89,7 @@ def _argument_end(text: str, start: int) -> int:
 def from_greek(text: str) -> str:
     """Greek letters and typographic signs as Python reads them: `phi` for φ, `lam` for λ and `lambda`."""
     text = "".join(f"{_GREEK[c]}" if c in _GREEK else c for c in text)
-    return _WORD.sub(lambda m: _ALIASES.get(m[0], m[0]), text)
+    return _WORD.sub(lambda m: ALIASES.get(m[0], m[0]), text)
 
 
 _MARKS = {"−": "-", "–": "-", "′": "'", "’": "'", "″": "''"}
@@ -114,7 +114,7 @@ def undotted(text: str) -> str:
 
 def plain(base: str, subscript: str = "", dots: int = 0) -> str:
     """A letter's plain name from what LaTeX spells out; p_i is not the constant, and l_n no logarithm."""
-    stem, index = _ALIASES.get(base, base), re.sub(r"[\W_]", "", subscript)
+    stem, index = ALIASES.get(base, base), re.sub(r"[\W_]", "", subscript)
     apart = "_" if index and re.fullmatch(rf"pi|{_CALLS}", stem + index) else ""
     return f"{stem}{apart}{index}{'d' * dots}"
 
