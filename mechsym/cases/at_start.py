@@ -32,28 +32,28 @@ def of_start(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]
     """
     if not own.is_file(case.mechanism) or mechanism.dependents:
         return
-    at = {name: float(column[0]) for name, column in columns.items()}
+    acts = dataclasses.asdict(case.need("inputs")) if "inputs" in case.sections else {}
+    rotors = roles_of(case.mechanism).rotors
+    if rotors and rotors[0].drive:
+        acts[rotors[0].drive] = acts.get(rotors[0].drive, 0.0) + value(case.sections, "drive", "torque")
+    acts = {name: acting for name, acting in acts.items() if acting and isinstance(acting, float)}
+    at = {name: float(column[0]) for name, column in columns.items()} | acts
     listing = plan_of(case.mechanism).listing(None)
     if listing.get("springs"):
-        yield from _swinging(case, mechanism, at)
+        yield from _swinging(case, mechanism, at, columns)
     for spring in listing.get("stretches", ()):
         yield from _stretched(spring, listing["parameters"], mechanism, columns)
     yield from of_inertia(case, mechanism, at)
-    yield from _acting(case, mechanism, columns)
+    yield from _acting(acts, mechanism, columns)
 
 
-def _acting(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
+def _acting(acts: Mapping[str, float], mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
     r"""What each input and the drive do in a run beside all else that acts, along the coordinate where they do most.
 
     .. math:: \operatorname{med}_t |Q(u) - Q(0)| / \operatorname{med}_t |Q(0) - b|
 
     The middle of all times, so that a moment at which something falls or strikes hides nothing.
     """
-    acts = dataclasses.asdict(case.need("inputs")) if "inputs" in case.sections else {}
-    rotors = roles_of(case.mechanism).rotors
-    if rotors and rotors[0].drive:
-        acts[rotors[0].drive] = acts.get(rotors[0].drive, 0.0) + value(case.sections, "drive", "torque")
-    acts = {name: acting for name, acting in acts.items() if acting and isinstance(acting, float)}
     dynamics, last = mechanism.functions["dynamics"], len(columns[mechanism.coordinates[0]]) - 1
     some = np.unique(np.linspace(0, last, _STATES).astype(int))
     states = {name: columns[name][None, some] for name in dynamics.name_in() if name in columns}
@@ -90,8 +90,10 @@ def _stretched(
         yield from proportion("start_speeds", what, abs(sum(rates)) / float(np.max(np.abs(rates))))
 
 
-def _swinging(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iterator[Doubt]:
-    """Accelerations along what slides, and the fastest vibration by the time between two results."""
+def _swinging(
+    case: Case, mechanism: Mechanism, at: Mapping[str, float], columns: Mapping[str, np.ndarray]
+) -> Iterator[Doubt]:
+    """Accelerations along what slides, and by the time between two results what acts and the fastest vibration."""
     dynamics, n = mechanism.functions["dynamics"], len(mechanism.coordinates)
     given = [ca.SX.sym(name) for name in dynamics.name_in()]
     mass, bias, force = dynamics(*given)
@@ -101,7 +103,11 @@ def _swinging(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iter
     for q, acceleration in zip(mechanism.coordinates, first.ravel(), strict=True):
         if mechanism.units.get(q) == "m":
             yield from proportion("start_push", f"acceleration along {q} at the start", abs(float(acceleration)))
-    step = case.need("simulation").output_step
+    step = case.need("simulation").output_step or 0.0
+    for q, acceleration in zip(mechanism.coordinates, first.ravel(), strict=True):
+        if (fastest := float(np.nanmax(np.abs(columns[f"{q}d"]), initial=0.0))) > 0:
+            what = f"change of {q}d between two results at the start / its largest in the run"
+            yield from proportion("start_jolt", what, abs(float(acceleration)) * step / fastest)
     if not step or not np.isfinite(slope).all():
         return
     rates = np.linalg.eigvals(np.vstack([np.eye(n, 2 * n, n), slope]))

@@ -112,6 +112,10 @@ def _sizes(sections: Records, sizes: Proportions, bore: float | None) -> tuple[D
             doubts += moving_mass(f"parameters.{part.letters}", part.mass, area, bore, sizes.stroke)
     if spring is not None and bore:
         doubts += proportion("spring_area", "spring.A / piston area", spring / (math.pi / 4 * bore**2))
+        if mean := value(sections, "cycle", "mean_indicated_pressure"):
+            force = spring * value(sections, "spring", "p0") / (mean * math.pi / 4 * bore**2)
+            what = "spring.p0 * A / (cycle.mean_indicated_pressure * piston area)"
+            doubts += proportion("spring_force", what, force) if force else ()
     return doubts
 
 
@@ -214,11 +218,13 @@ def _inertias(sections: Records, sizes: Proportions) -> Iterator[_Told]:
     if scale <= 0:
         return
     about = "(moving mass * half stroke^2)"
-    for letter, inertia in sizes.shafts.items():
-        yield "inertia", f"parameters.{letter} / {about}", inertia / scale
+    kept = value(sections, "flywheel", "inertia") / scale
+    beside = kept > 1 or sizes.shafts.get(sizes.flywheel, 0.0) > scale
+    for letter, inertia in sizes.shafts.items():  # a crank with a flywheel beside it carries none
+        code = "crank_inertia" if beside and letter != sizes.flywheel else "inertia"
+        yield code, f"parameters.{letter} / {about}", inertia / scale
     for letter, moment in sizes.unbalances.items():
         yield "unbalance", f"parameters.{letter} / (moving mass * half stroke)", abs(moment) * sizes.stroke / 2 / scale
-    kept = value(sections, "flywheel", "inertia") / scale
     if kept > 1:  # a small one is as good as none
         yield "inertia", f"flywheel.inertia / {about}", kept
     if (turning := sum(sizes.shafts.values())) > 0:
@@ -265,7 +271,9 @@ def _areas(sections: Records, sizes: Proportions, bore: float) -> Iterator[_Told
         about = f"closing.{name} * bore / (1 MPa * piston area)"
         yield "joint_stiffness", about, value(sections, "closing", name) * bore / (1e6 * area)
     if sizes.pitch is not None:
-        yield "cylinder_pitch", "least distance of two cylinders / bore", sizes.pitch / bore or 1e-9
+        least, largest = sizes.pitch
+        yield "cylinder_pitch", "least distance of two cylinders / bore", least / bore or 1e-9
+        yield "cylinder_pitch", "largest distance of a cylinder from its next / bore", largest / bore or 1e-9
 
 
 def _valves(sections: Records, bore: float) -> Iterator[_Told]:

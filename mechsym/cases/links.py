@@ -29,6 +29,7 @@ _STEEL = 7850.0  # its density [kg/m^3]
 _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
 _OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its joints, by its length [-]
+_SWINGS = 8.0  # inertia of what swings about its joint by mass and the longest link squared [-]
 _CARRIES = 5.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
 _BEHIND_GEARS = 1e4  # inertia of a load by that of its motor, seen through the gear [-]
 
@@ -61,13 +62,17 @@ def by_links(
     forces = max(pushes, default=0.0), max(turns, default=0.0)
     slides = "m" in listing["coordinates"].values()
     long = [length for link in links if len(link["points"]) > 1 and (length := _length(link, letters)) > 0]
-    spread = proportion("link_spread", "longest link / shortest", max(long) / min(long)) if long else ()
+    of = "link"
+    if not links:
+        of, long = "letter", [abs(letters[name]) for name, unit in units.items() if unit == "m" and letters[name]]
+    spread = proportion("link_spread", f"longest {of} / shortest", max(long) / min(long)) if long else ()
     together = (
         *spread,
-        *_masses(links, letters, units, slides),
+        *_masses(links, letters, units, slides, rotors),
         *_stress(links, letters, *forces),
         *_carried(listing, letters, speeds),
-        *_turning(listing, letters, forces[1]),
+        *_solids(listing, letters, rotors),
+        *_turning(listing, letters, forces[1], max(long, default=1.0) / min(long, default=1.0) if links else 1.0),
     )
     for doubt in (*of_links, *together):
         if doubt.code not in worst or far(doubt) > far(worst[doubt.code]):
@@ -106,23 +111,37 @@ def _carried(listing: "Listing", letters: Mapping[str, float], speeds: Mapping[s
         yield from proportion("point_speed", f"speed of {name}", fastest)
 
 
-def _turning(listing: "Listing", letters: Mapping[str, float], torque: float) -> Iterator[Doubt]:
-    """How far the largest torque winds up the softest spring that turns, M/k, and inertias beside one another."""
+def _solids(listing: "Listing", letters: Mapping[str, float], rotors: Collection[str]) -> Iterator[Doubt]:
+    """Inertias of bodies that are no links by their mass and the longest letter squared."""
+    longest = max((abs(letters[name]) for name, unit in listing["parameters"].items() if unit == "m"), default=0.0)
+    for mass, inertia, angle in listing.get("solids", ()) if longest > 0 else ():
+        ratio = value_of(inertia, letters) / (value_of(mass, letters) * longest**2)
+        if ratio > 1:
+            what = f"inertia {inertia} / ({mass} * (longest letter)^2)"
+            yield from proportion("link_inertia", what, ratio, _WHEEL if angle in rotors else _SWINGS)
+
+
+def _turning(listing: "Listing", letters: Mapping[str, float], torque: float, longer: float) -> Iterator[Doubt]:
+    """How far the largest torque winds up the softest spring that turns, M/k, and inertias beside one another.
+
+    longer: longest of its links by the shortest [-].
+    """
     units = listing["parameters"]
     springs = [letters[text] for text in listing.get("springs", ()) if units.get(text) == "N*m/rad"]
     if any(k > 0 for k in springs):
         what = "largest torque of [drive] and [inputs] / softest spring that turns"
         yield from proportion("spring_wound", what, torque / min(k for k in springs if k > 0))
     inertias = [letters[name] for name, unit in units.items() if unit == "kg*m^2" and letters[name] > 0]
-    if len(inertias) > 1 and not listing.get("links"):  # which have inertias of all sizes
+    if len(inertias) > 1:
         ratios = [letters[name] for name, unit in units.items() if unit == "-" and letters[name] > 0]
         geared = max((max(ratio, 1 / ratio) for ratio in ratios), default=1.0)
-        spread = max(inertias) / min(inertias)
+        spread = max(inertias) / min(inertias) / longer**2
+        by = " / (longest link / shortest)^2" if longer > 1 else ""
         if geared > 1:  # a motor turns by the ratio faster than its load
-            what = "largest inertia / (smallest * square of the ratio)"
+            what = f"largest inertia / (smallest * square of the ratio){by}"
             yield from proportion("inertia_spread", what, spread / geared**2, _BEHIND_GEARS)
         else:
-            yield from proportion("inertia_spread", "largest inertia / smallest", spread)
+            yield from proportion("inertia_spread", f"largest inertia / smallest{by}", spread)
 
 
 def _length(link: Json, letters: Mapping[str, float]) -> float:
@@ -133,15 +152,21 @@ def _length(link: Json, letters: Mapping[str, float]) -> float:
 
 
 def _masses(
-    links: Sequence[Json], letters: Mapping[str, float], units: Mapping[str, str], slides: bool
+    links: Sequence[Json],
+    letters: Mapping[str, float],
+    units: Mapping[str, str],
+    slides: bool,
+    rotors: Collection[str],
 ) -> Iterator[Doubt]:
-    """Letters in kg by the longest link, or twice the longest letter: none is heavier than a cube of steel of it, and
-    by one another.
+    """Letters in kg by the longest link, or twice the longest crank or letter: none is heavier than a cube of steel of
+    it, and by one another.
 
     A body that slides where its coordinate says is as wide as no letter tells.
     """
     lengths = [] if slides else [2 * abs(letters[name]) for name, unit in units.items() if unit == "m"]
-    longest = max([_length(link, letters) for link in links] or lengths, default=0.0)
+    # what a crank moves may be as long as its stroke
+    sizes = [_length(link, letters) * (1 + (link["turns"] in rotors)) for link in links]
+    longest = max(sizes or lengths, default=0.0)
     for name, unit in units.items() if longest > 0 else ():
         if unit == "kg" and letters[name] > 0:
             what = f"parameters.{name} / ({'longest link' if links else 'twice the longest letter'})^3"
@@ -176,6 +201,7 @@ def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]
         for text in texts:
             yield from proportion(f"{kind}_sign", f"{kind} {text}", value_of(text, letters))
     yield from _swinging(listing, letters)
+    yield from _falling(listing.get("weight", ()), letters)
     for name, (xx, yy, zz, xy, xz, yz) in listing.get("tensors", {}).items():
         rows = [[value_of(entry, letters) for entry in row] for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
         moments = np.linalg.eigvalsh(rows)
@@ -184,6 +210,17 @@ def by_sign(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]
             yield from proportion("principal_moments", about, moments[2] / (moments[0] + moments[1]))
     if joints := listing.get("open_sides", ()):
         yield from proportion("open_side", f"loops of pins whose side nobody chose ({', '.join(joints)})", len(joints))
+
+
+def _falling(weight: Sequence[str], letters: Mapping[str, float]) -> Iterator[Doubt]:
+    """Free fall of a declaration: how fast, and whether up, y or in space z; a letter g is judged by itself."""
+    if not weight:
+        return
+    fall = [value_of(text, letters) for text in weight]
+    if "weight" in "".join(weight):  # the letters of numbers
+        yield from proportion("weight", "free fall of the declaration", math.hypot(*fall))
+    if fall[-1] > 0 and not any(fall[:-1]):
+        yield from proportion("weight_up", "share of the weight that points up", 1.0)
 
 
 def _swinging(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doubt]:
@@ -221,7 +258,8 @@ def _of(
             yield from proportion("link_needle", about, inertia / (mass * length**2))
             about, wide = f"inertia of {name} / (mass * (longest link)^2)", inertia / (mass * longest**2)
             if wide > 1:  # a wheel as wide as the machine; a flywheel is not so much wider
-                yield from proportion("link_inertia", about, wide, _WHEEL)
+                hangs = link["centre"] != list(link["pivot"] or ()) and link["turns"] not in rotors
+                yield from proportion("link_inertia", about, wide, _SWINGS if hangs else _WHEEL)
         return
     share = inertia / (moving * length**2) if moving > 0 and not mass else 0.0
     if link["turns"] in rotors and 0 < share < 1:  # a crank that is given by its inertia alone, and no heavy flywheel
@@ -229,6 +267,8 @@ def _of(
     if link["turns"] in rotors and mass > 0 and inertia > mass * longest**2:
         about = f"inertia of {name} / (mass * (longest link)^2)"
         yield from proportion("link_inertia", about, inertia / (mass * longest**2), _WHEEL)
+    if inertia > 0 and not mass:  # of a flywheel any, but not less than a thread's
+        yield from proportion("link_thread", f"inertia of {name} / (distance of its joints)^5", inertia / length**5)
     if link["turns"] in rotors or link["turns"] and link["centre"] == list(link["pivot"] or ()):
         inertia = 0.0  # of a flywheel
     # webs, discs and counterweights of a crank are wider than its throw

@@ -166,6 +166,8 @@ def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
     driven = "drive" in work or "cycle" in case.sections  # what swings by itself goes either way
     if driven and (getattr(wanted, "speed_start", None) or 0.0) >= 0:
         doubts += proportion("backwards", "mean speed at the end of the run", run.speed_mean)
+        if (start := getattr(wanted, "speed_start", None)) and run.speed_mean >= 0 and work.get("drive", 0.0) > 0:
+            doubts += proportion("stall", "mean speed at the end of the run / at its start", run.speed_mean / start)
     return doubts + (proportion("drive_work", "work of [drive] in the run", work["drive"]) if "drive" in work else ())
 
 

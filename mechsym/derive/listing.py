@@ -6,7 +6,7 @@ from typing import NotRequired, TypedDict, cast
 
 from sympy import Eq, Expr, Function, Integer, Mul, Symbol, cos, latex, mathml, sin
 
-from mechsym.derive.declare import Declaration, Element
+from mechsym.derive.declare import Body, Declaration, Element
 from mechsym.derive.emit import groups
 from mechsym.derive.lagrange import Equations
 from mechsym.derive.linkage import Link, LinkPoint
@@ -52,6 +52,8 @@ class Listing(TypedDict):
     sketch: NotRequired[list[Json]]
     links: NotRequired[list[Json]]
     bodies: NotRequired[dict[str, list[str]]]  #: Centres of what is no link, by coordinates and parameters
+    solids: NotRequired[list[list[str]]]  #: Mass, inertia and angle of bodies that are no links
+    weight: NotRequired[list[str]]  #: Acceleration of free fall along each axis
     springs: NotRequired[list[str]]
     dampers: NotRequired[list[str]]
     stretches: NotRequired[list[list[str]]]  #: Stiffness and stretch of springs, by coordinates and parameters
@@ -100,6 +102,8 @@ def _own(m: Declaration) -> Json:
         "sketch": m.sketches,
         "links": [link for link in (*map(partial(_link, m), m.links), *_in_space(m)) if link],
         "bodies": _bodies(m),
+        "solids": [[str(b.mass), str(b.inertia), str(b.turns)] for b in _loose(m) if b.inertia != 0],
+        "weight": [*map(str, m.gravity)] if any(m.gravity) else [],
         "springs": _constants(m, m.springs),
         "dampers": _constants(m, m.dampers),
         "stretches": [[str(s.value), *short] for s in m.springs if (short := _short(m, [s.along]))],
@@ -119,11 +123,13 @@ def _constants(m: Declaration, elements: Sequence[Element]) -> list[str]:
 
 def _bodies(m: Declaration) -> dict[str, list[str]]:
     """Centres that move as a short formula of coordinates says; links are told by themselves."""
-    links, centres = {link.name for link in m.links}, {}
-    for body in (b for b in m.bodies if b.name not in links and b.mass != 0):
-        if place := _short(m, body.at):
-            centres[body.name] = place
-    return centres
+    return {body.name: place for body in _loose(m) if (place := _short(m, body.at))}
+
+
+def _loose(m: Declaration) -> list[Body]:
+    """Bodies with a mass that are no links."""
+    links = {link.name for link in m.links}
+    return [body for body in m.bodies if body.name not in links and body.mass != 0]
 
 
 def _short(m: Declaration, formulas: Sequence[Expr]) -> list[str]:
@@ -174,7 +180,7 @@ def _body(m: SpatialDeclaration, body: SpaceLink) -> Json:
     points = list(dict.fromkeys(tuple(map(str, side.at)) for _, side, _ in held))
     free = {s for _, side, _ in held for x in side.at for s in x.free_symbols}
     inertia = body.inertia[2][2] if body.flat else sum(body.inertia[i][i] for i in range(3)) / 2
-    if body.mass == inertia == 0 or len(points) < 2 or not free <= {*m.parameter_list}:
+    if body.mass == inertia == 0 or not points or not free <= {*m.parameter_list}:
         return {}
     ground = [(joint, side) for joint, side, other in held if other.link is m.frame]
     turns = [q for joint, _ in ground for q in joint.given if q in m.q and q not in m.dependent_list]

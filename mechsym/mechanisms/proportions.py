@@ -31,13 +31,14 @@ class Proportions:
     mass: float = quantity("kg", default=0.0, low=0, about="all that moves with crank and piston")
     #: Inertia about a shaft's axis by its letter [kg*m^2]
     shafts: Mapping[str, float] = field(default_factory=dict)
+    flywheel: str = ""  #: Letter of the shaft's inertia that is one
     #: Inertia about a part's own centre by its letter, and the part's mass by its length squared [kg*m^2]
     parts: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     unbalances: Mapping[str, float] = field(default_factory=dict)  #: By their letter [kg*m]
     pistons: int = 1  #: How many drive its shaft
     unequal: Mapping[str, float] = field(default_factory=dict)  #: Largest over least of a list, by its letter [-]
-    #: Least distance of two cylinders of a shaft, None where their places are not given [m]
-    pitch: float | None = None
+    #: Least and largest distance of a cylinder of a shaft from its next, None where their places are not given [m]
+    pitch: tuple[float, float] | None = None
     #: Distance of the shafts of opposed pistons over the length of both rods and throws, None without such [-]
     span: float | None = None
 

@@ -130,7 +130,7 @@ def _proportions(p: CrankTrainParameters) -> Proportions:
     r, l1, l2, m0, m_rod, piston = (max(each(p, letter)) for letter in ("r", "l1", "l2", "m0", "m_rod", "m_piston"))
     return Proportions(
         stroke=2 * r, rod_ratio=(l1 + l2) / r, moving=moving, mass=m0 + m_rod + piston,
-        shafts={"I0": max(each(p, "I0")), "I_f": p.I_f},
+        shafts={"I0": max(each(p, "I0")), "I_f": p.I_f}, flywheel="I_f",
         parts={"I_rod": (max(each(p, "I_rod")), m_rod * (l1 + l2) ** 2)},
         unbalances={"u0": max(each(p, "u0"), key=abs)}, pistons=len(p.throw), pitch=pitch(p), span=span(p),
         unequal=unequal(p),
@@ -148,14 +148,18 @@ _ALIKE = ("r", "l1", "l2", "m_rod", "m_piston", "I_rod", "I0", "m0")
 _Place = tuple[float, float, float]
 
 
-def pitch(p: CrankTrainParameters) -> float | None:
-    """Least distance of two cylinders on one shaft, at half stroke; None where throws have no place along it [m]."""
+def pitch(p: CrankTrainParameters) -> tuple[float, float] | None:
+    """Distances of cylinders on one shaft from their next, the least and the largest, at half stroke; None where throws
+    have no place along it [m].
+    """
     if not any(each(p, "z")):
         return None
     at = [_shaft(p, i) for i in range(len(p.throw))]
     middles = [_half(p, i) for i in range(len(p.throw))]
-    near = [math.dist(middles[i], middles[j]) for i, j in combinations(range(len(middles)), 2) if at[i] == at[j]]
-    return min(near, default=None)
+    numbers = range(len(middles))
+    beside = [[math.dist(middles[i], middles[j]) for j in numbers if i != j and at[i] == at[j]] for i in numbers]
+    near = [min(distances) for distances in beside if distances]
+    return (min(near), max(near)) if near else None
 
 
 def unequal(p: CrankTrainParameters) -> dict[str, float]:
