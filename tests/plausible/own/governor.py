@@ -1,4 +1,4 @@
-"""Watt's governor: two balls on arms turn with a spindle; as they rise they lift a sleeve against its weight and a spring.
+"""Watt's governor: two balls on arms turn with a spindle; as they rise they lift a sleeve, its weight and a spring.
 
 spindle J, phi; arms of length a, beta from the spindle's line; the sleeve m_s hangs on links of the same length.
 """
