@@ -1,6 +1,7 @@
 """What of a case decides which commands run on it, and the sections that each reads (`Case.read` holds it)."""
 
 import dataclasses
+from pathlib import Path
 from typing import Any
 
 from mechsym import mechanisms
@@ -22,6 +23,11 @@ class CaseFacts:
     roles: PartRoles | None  #: What its declaration says; None where its file was not run
     free: int = 1  #: Coordinates that no loop holds
     held: int = 0  #: Coordinates that loops hold by constraints
+
+    @property
+    def named(self) -> str:
+        """Its mechanism for people; of a file the name without its folder."""
+        return Path(self.mechanism).name
 
     @property
     def twists(self) -> bool:

@@ -102,7 +102,7 @@ def _gas(case: CaseFacts) -> list[str]:
 
 
 def _no_piston(case: CaseFacts) -> str:
-    said = f"mechanism {case.mechanism} has no piston for an engine cycle"
+    said = f"mechanism {case.named} has no piston for an engine cycle"
     return f"{said}; declare one with m.piston(name, travel=x, force=F), or take {', '.join(with_chain())}"
 
 
@@ -120,7 +120,7 @@ def _turning(case: CaseFacts, *names: str) -> list[str]:
         return events
     if case.free != 1:
         way = f"this command takes a mechanism with one, as {', '.join(with_chain())}"
-        return [f"the {case.free} coordinates of {case.mechanism} are free; {way}"]
+        return [f"the {case.free} coordinates of {case.named} are free; {way}"]
     closing = ("closing", *(("faces",) if case.has("cycle") else ())) if case.undetermined else ()
     return [*_missing(case, "parameters", "operation", *names, *closing), *_gas(case)]
 
@@ -214,22 +214,22 @@ def meant(case: CaseFacts) -> str:
 def _identify(case: CaseFacts) -> list[str]:
     if case.roles is not None and mechanisms.lists(case.mechanism):
         return [
-            f"{case.mechanism} is put together from lists, and identify takes mechanisms with one value a letter; take "
+            f"{case.named} is put together from lists, and identify takes mechanisms with one value a letter; take "
             "chmielewski, or declare the shaft in a file of its own"
         ]
     if events := _events(case):
         return events
     if case.held and case.free != 1:
         why = f"loops that close by constraint and leave {case.free} coordinates"
-        return [f"{case.mechanism} has {why}; identify takes one, or loops that close in closed form"]
+        return [f"{case.named} has {why}; identify takes one, or loops that close in closed form"]
     return _missing(case, "parameters")
 
 
 def _prove(case: CaseFacts) -> list[str]:
     if case.roles is not None and mechanisms.lists(case.mechanism):
-        return [f"{case.mechanism} is put together from lists, and prove takes mechanisms with one value a letter"]
+        return [f"{case.named} is put together from lists, and prove takes mechanisms with one value a letter"]
     if case.held:
-        return [f"{case.mechanism} has loops that close by constraint; prove encloses those that close in closed form"]
+        return [f"{case.named} has loops that close by constraint; prove encloses those that close in closed form"]
     if acting := [f"[{name}]" for name in ("cycle", "torque", "spring") if case.has(name)]:
         return [f"{', '.join(acting)}: no smooth closed form that can be enclosed; leave it out"]
     if events := _events(case):

@@ -12,7 +12,7 @@ from mechsym.cli.common import case_of, emit, file_in, pairs
 from mechsym.errors import BadInput
 from mechsym.files import make_folder, together, write_text
 from mechsym.files.inputs import reads
-from mechsym.quantities.display import ratio_text
+from mechsym.quantities.display import residual_text
 
 
 @click.command(short_help="Write C, Modelica, Julia, MATLAB or JAX.")
@@ -139,7 +139,7 @@ def fmu(
     lines = [f"binary inside for {SYSTEMS[name]}" for name in unit.platforms]
     lines += [f"no binary for {SYSTEMS[name]}: {why}" for name, why in unit.missing.items()]
     lines += ["no binary inside: a tool that imports it compiles its sources"] if not unit.platforms else []
-    lines += [f"{_WAYS[kind]} differs from the simulation by {ratio_text(d, 2)}" for kind, d in differences.items()]
+    lines += [f"{_WAYS[kind]} differs from the simulation by {residual_text(d, 2)}" for kind, d in differences.items()]
     emit(UnitFile(written=[str(path)], checks=checks), lambda: "\n".join(lines), files=[path])
     if apart:
         sys.exit(1)

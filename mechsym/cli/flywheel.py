@@ -8,7 +8,7 @@ from mechsym.cases import Case
 from mechsym.cli.common import case_command, emit, out_option
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
+from mechsym.quantities.display import SMALLEST, figure, quantity_text, residual_text
 from mechsym.quantities.results import tell
 
 
@@ -62,6 +62,6 @@ def _text(result: Json) -> str:
         f"(rule of thumb: {figure(result['estimate'])} kg*m^2)"
     )
     if check["speed_ripple"] is not None:
-        residual = ratio_text(check["energy_residual"], 1)
+        residual = residual_text(check["energy_residual"], 1)
         lines.append(f"run in time: ripple {100 * check['speed_ripple']:.5g} %, energy residual {residual}")
     return "\n".join(lines)

@@ -12,7 +12,7 @@ from mechsym.cli import common
 from mechsym.cli.common import emit, heads, in_rows, parse_speeds, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text
+from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text, residual_text
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def _over_time(report: "DrivenNumbers") -> str:
     lines = [f"{report.case}: {', '.join(report.driven)} driven{free}, {report.t_end:.6g} s", ""]
     lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit"], named=["quantity"]))
     if report.power_residual is not None:
-        lines.append(f"power residual {ratio_text(report.power_residual)}")
+        lines.append(f"power residual {residual_text(report.power_residual)}")
     return "\n".join(lines)
 
 
@@ -102,7 +102,7 @@ def _text(report: Json, result: "Forces", said: set[str]) -> str:
     rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(result)]
     columns = ["quantity", *(["of"] if any(row["of"] for row in rows) else []), "max", "min", "unit", "on"]
     lines += [table(in_rows(rows, ("max", "min")), columns, named=["quantity"]), "", *_journals(report["journals"])]
-    lines.append(f"power residual {ratio_text(report['power_residual'])}")
+    lines.append(f"power residual {residual_text(report['power_residual'])}")
     if report["shaking"] is not None:
         lines.append(_shaking(report["shaking"]["counterweight"], max(abs(v) for v in report["max"].values())))
         for name, of in report["shaking"]["orders"].items():

@@ -11,7 +11,7 @@ import click
 from mechsym.cases import Case
 from mechsym.cli.common import case_command, diagram_option, emit, out_option, progress, table
 from mechsym.hinge.result import ripple_text
-from mechsym.quantities.display import figure, quantity_text, ratio_text
+from mechsym.quantities.display import figure, quantity_text, residual_text
 
 if TYPE_CHECKING:
     from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers
@@ -95,10 +95,10 @@ def _text(numbers: "HingeNumbers", setting: Callable[[float], str]) -> str:
         numbers.verdict,
         f"speed            {numbers.speed_rpm:.6g} rpm{peak}",
         f"load torque      {quantity_text(numbers.load_torque, 'N*m')}",
-        f"hinge torque     {torque[0]} to {torque[1]}, mean {ratio_text(mean)} of its peak",
+        f"hinge torque     {torque[0]} to {torque[1]}, mean {residual_text(mean)} of its peak",
         f"limits           {guide.reason.removeprefix(ALL_KEPT)}",
         f"speed ripple     {ripple_text(check.speed_ripple, 4)} simulated {how}, "
-        f"energy residual {ratio_text(check.energy_residual)}",
+        f"energy residual {residual_text(check.energy_residual)}",
         f"flywheel saved   {figure(numbers.flywheel_inertia_saved, 4)} kg*m^2 by an ideal hinge: what "
         f"{figure(100 * numbers.ripple_wanted)} % needs without one",
         *_left_out(numbers),

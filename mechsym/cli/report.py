@@ -52,7 +52,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     wanted = [name for name in PARTS if name in wanted]
     if pdf:
         chromium()  # said before the work begins
-    titles = {one.stem: one.title for one in sources()} | {"own": "own engine"}
+    titles = {one.stem: one.title for one in sources()} | {"own": "own machine"}
     loaded = [case_of(name, pairs(overrides)) for name in cases]
     with progress(len(loaded) * len(wanted) + 1, "report") as bar:
         reports = []

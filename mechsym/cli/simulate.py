@@ -13,7 +13,7 @@ from mechsym.cli.common import case_of, emit, heads, json_option, out_option, pa
 from mechsym.errors import MissingExtra
 from mechsym.files import Json, write_text
 from mechsym.quantities import ranges
-from mechsym.quantities.display import figure, ratio_text
+from mechsym.quantities.display import figure, residual_text
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
 
     report_rows = {
         "ended": f"{_ENDS.get(report['end'], report['end'])} at {_number(report['t_end'])} s",
-        "energy residual": ratio_text(report["energy_residual"]),
+        "energy residual": residual_text(report["energy_residual"]),
         "accuracy": report["reason"] or "not checked at a finer tolerance",
         "steps": f"{report['steps']}, {_number(report['wall_s'])} s by the clock",
     }

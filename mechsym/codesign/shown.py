@@ -13,7 +13,7 @@ from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.hinge.shown import lost_combustion
 from mechsym.page import Card, Picture, View, grid, page, ranked, shows, title_mark
 from mechsym.page.finding import LEAST_SURE, NOT_MET, Finding
-from mechsym.quantities.display import figure, quantity_text, ratio_text
+from mechsym.quantities.display import figure, quantity_text, ratio_text, residual_text
 from mechsym.style import svg
 
 
@@ -163,7 +163,7 @@ def html(result: CoDesignResult, numbers: CoDesignNumbers, pictures: dict[str, s
          "ripple, programme [%]": 100 * float(result.design.ripple[k]),
          "over the angle [%]": 100 * float(checked.steady_ripple[k]),
          "run in time [%]": 100 * float(checked.time_ripple[k]),
-         "energy residual": ratio_text(float(checked.energy_residual[k]), 2),
+         "energy residual": residual_text(float(checked.energy_residual[k]), 2),
          "losses [%]": 100 * float(numbers.losses.share[k]),
          "speed after a misfire [%]": _share(numbers.misfire_speed_share[k])}
         for k, p in enumerate(result.design.task.points)
@@ -177,7 +177,7 @@ def html(result: CoDesignResult, numbers: CoDesignNumbers, pictures: dict[str, s
         dangers=[s for name in _DANGERS for s in result.scenarios if s.name == name],
         lossy_ripple=None if None in ripples else max(r for r in ripples if r is not None),
         gas_share=max(at.gas / abs(p.load_torque) for at, p in zip(result.losses, points, strict=True)),
-        residual=ratio_text(float(np.nanmax(residuals)), 1) if np.isfinite(residuals).any() else "–",
+        residual=residual_text(float(np.nanmax(residuals)), 1) if np.isfinite(residuals).any() else "–",
         index=result.design.tracks[0].hardware.spring.index, gamma=result.assumed.gamma,
         speeds=(min(speeds), max(speeds)),
     )  # fmt: skip

@@ -27,7 +27,7 @@ from mechsym.files import Json
 from mechsym.mechanisms.loops import one_coordinate
 from mechsym.mechanisms.plan import plan_of
 from mechsym.quantities import RPM, record
-from mechsym.quantities.display import ratio_text
+from mechsym.quantities.display import residual_text
 from mechsym.quantities.records import Record
 
 Progress = Callable[[int], object]  # called with the number of points that are done
@@ -125,7 +125,7 @@ def _closing(figures: Json) -> str:
         known = np.isfinite(figures["sfc_g_kwh"]).all()
         fuel = "fuel as the temperature rise asks for, without heat to the walls" if known else "no fuel is known"
         return f"an algebraic cycle: {fuel}, no first law to close"
-    return f"first law closed to {ratio_text(worst, 1)} of the fuel's heating value"
+    return f"first law closed to {residual_text(worst, 1)} of the fuel's heating value"
 
 
 BRAKE = ("speed_rpm", "brake_mep_kpa", "brake_sfc_g_kwh", "brake_power_kw", "brake_torque", "brake_efficiency",

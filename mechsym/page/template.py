@@ -23,8 +23,8 @@ _NAMED = re.compile(  # a key, no file
     r"|(?<![\w./\\-])[a-z_]{3,}\.(?!(?:csv|json|toml|py|svg|html|md|dxf|fmu)\b)[A-Za-z]\w*(?![\w(/-]|\.\w)"
 )
 _SYMBOL = 3  # letters before its index
-_GREEK = {name.lower(): lookup(f"GREEK SMALL LETTER {name}") for name in
-          ("ALPHA", "BETA", "GAMMA", "THETA", "PHI", "RHO", "OMEGA", "ETA", "MU", "TAU")}  # fmt: skip
+_GREEK = {name: lookup(f"GREEK SMALL LETTER {name}") for name in
+          "alpha beta gamma delta zeta eta theta mu rho sigma tau phi chi omega".split()}  # fmt: skip
 _LETTER = re.compile(rf"(?<![\w./\\-])({'|'.join(_GREEK)})(_?\w*)(?![\w(/=-]|\.[a-z])")
 _TIMES = re.compile(r"(?<=[a-zA-Z])\*(?=[a-zA-Z])")
 _TWICE = re.compile(r"\b(k?J|W|N|kg)/(kg|m²|m)/(K⁴?|s)")

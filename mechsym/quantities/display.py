@@ -186,6 +186,19 @@ def ratio_text(value: Pure | None, digits: int = 3) -> str:
     return figure(value, digits)
 
 
+def residual_text(value: Pure | None, digits: int = 3) -> str:
+    """What should be 0 and is but for round-off, for people: never 0 itself.
+
+    value: pure number.
+
+    >>> residual_text(7.1e-12), residual_text(0.0), residual_text(-4.9e-9), residual_text(0.02)
+    ('below 1e-9', 'below 1e-9', 'below 1e-8', '0.02')
+    """
+    if value is not None and abs(value) < SMALLEST:
+        return f"below 1e{math.floor(math.log10(SMALLEST))}"
+    return ratio_text(value, digits)
+
+
 def per_cent(share: Pure, digits: int = 3) -> str:
     """A share for people.
 

@@ -111,6 +111,7 @@ _PAIRS = {
 }  # fmt: skip
 _BESIDE = ("gross_mep_kpa", "pumping_mep_kpa", "friction_mep_kpa", "mechanical_efficiency", "ca10_deg", "ca50_deg",
            "ca90_deg", "p_max_mpa", "p_max_angle_deg", "volumetric_efficiency")  # fmt: skip
+_LOADED = ("the load of the run is the case's, or a propeller that takes the mean torque",)
 _ENDS = {"turns": "did its turns", "t_end": "came to its end"}
 
 
@@ -291,6 +292,9 @@ def _simulate(case: Case) -> ReportPart:
     bad = run_numbers.status in ("failed", "not converged", "chaotic")
     of = f" of the {result.engine.words}" if result.engine and result.engine.words else ""
     speed = f"over the last period the speed{of} is {span(result.speed)}"
+    if result.alone:
+        each = ", ".join(f"that of {q} is {span(of_one)}" for q, of_one in run_numbers.speeds.items())
+        speed = f"over the last {quantity_text(run_numbers.window, 's')} the speed{each.removeprefix('that')}"
     numbers = {k: v for k, v in tell(run_numbers).items() if k != "wall_s"}  # another each time
     end = f"{_ENDS.get(run_numbers.end, 'ended by ' + run_numbers.end)} in {figure(run_numbers.t_end, 3)} s"
     stall = tuple(text for text in result.findings if text.startswith("the shaft stops"))
@@ -298,7 +302,7 @@ def _simulate(case: Case) -> ReportPart:
         name="simulate", title=PARTS["simulate"].title, view=result.view, state=INFEASIBLE if bad else DONE,
         reason=run_numbers.reason if bad else "", facts=result.findings, decide=stall, numbers=numbers,
         verdict=f"The run {end}" + (", the shaft stands." if stall else f"; {speed}."),
-        silent=("the load of the run is the case's, or a propeller that takes the mean torque",), doubts=result.doubts,
+        silent=() if result.alone else _LOADED, doubts=result.doubts,
     )  # fmt: skip
 
 
@@ -307,7 +311,7 @@ class PartKind(NamedTuple):
 
     title: str
     made_of: Callable[[Case], ReportPart]
-    first: tuple[str, ...] | None = None  # its cards on the first page; None: all
+    first: tuple[str, ...] | None = None  # its cards on the first page, each also "of" something; None: all
 
 
 PARTS: dict[str, PartKind] = {
@@ -315,7 +319,7 @@ PARTS: dict[str, PartKind] = {
     "hinge": PartKind("Hinge, guide and spring", _hinge),
     "forces": PartKind("Forces on bearings, pins and guides", _forces, ("crank pin", "main bearing", "friction")),
     "size": PartKind("Sizes and safety factors", _size, ("safety factors",)),
-    "simulate": PartKind("Run in time", _simulate, ("mean speed", "run")),
+    "simulate": PartKind("Run in time", _simulate, ("mean speed", "run", "speed")),
 }
 
 
@@ -352,7 +356,8 @@ def answer(case: Case, parts: Sequence[ReportPart]) -> FirstPage:
         limits=tuple(text for p in computed for text in p.limits),
         decide=(*(text for p in computed for text in p.decide), *notes),
         silent=tuple(dict.fromkeys(text for p in computed for text in p.silent)),
-        absent=tuple(f"{p.title}: {p.reason}" for p in parts if p.state == LEFT_OUT),
+        absent=tuple(f"{'; '.join(p.title for p in parts if p.state == LEFT_OUT and p.reason == why)}: {why}"
+                     for why in dict.fromkeys(p.reason for p in parts if p.state == LEFT_OUT)),
         accepted=tuple(f"{d.quantity} = {figure(d.value, 4)}, usual is {d.usual}; accepted: "
                        f"{case.acceptances[d.code].why}" for d in accepted),
     )  # fmt: skip
@@ -368,7 +373,7 @@ def _verdict(part: ReportPart) -> str:
 def _cards(part: ReportPart) -> tuple[Card, ...]:
     cards = part.view.cards if part.view is not None else ()
     first = PARTS[part.name].first
-    return tuple(card for card in cards if first is None or card.name in first)
+    return tuple(card for card in cards if first is None or {card.name, card.name.partition(" of ")[0]} & {*first})
 
 
 def side_by_side(reports: Sequence[tuple[str, Sequence[ReportPart]]]) -> list[Json]:

@@ -8,7 +8,7 @@ import numpy as np
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.native import compiled
 from mechsym.native.evaluate import Compiled
-from mechsym.quantities.display import ratio_text
+from mechsym.quantities.display import residual_text
 from mechsym.quantities.units import Array, Joule, Pure, RadPerSecond, Second
 from mechsym.simulate.equations import fitted
 from mechsym.simulate.problem import Periodic, Problem
@@ -110,7 +110,10 @@ def verdict(
     """
     worst = float(np.max(difference))
     if worst <= allowed:
-        return "converged", f"speeds differ by {ratio_text(worst, 2)} at most from the run at the tighter tolerance"
+        return (
+            "converged",
+            f"difference to the run at the tighter tolerance: {residual_text(worst, 2)} of the peak speed",
+        )
     since = float(t[int(np.argmax(difference > allowed))])
     parted = f"the runs at the two tolerances part by more than {allowed:g} from t = {since:.6g} s on"
     if all(r is not None and abs(r) < _GOOD_ENERGY for r in residuals):

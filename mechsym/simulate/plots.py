@@ -1,5 +1,6 @@
 """Pictures of a run: speed over time and over the last period; and events of stops, contacts and friction."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,17 +33,28 @@ _PLANNED = ("turns", "t_end")  # ends that a run was made for
 
 _KINDS = {"hit": RED, "touch": RED, "rest": VIOLET, "release": GREEN, "stick": BLUE, "slip": ORANGE, "turn": TEAL}
 _FINE = 2000  # times of a motion with events, which is quicker than its table
-_MOST = 4  # coordinates that are drawn above the events
+_MOST = 4  # coordinates that are drawn
+
+
+def motion(result: Result) -> "Figure":
+    """Coordinates and their speeds over time."""
+    places, (t, columns) = _places(result), _finely(result)
+    figure, axes = panels(9.0, 1.6 * len(places) + 0.7, len(places), 2, "Motion over time", sharex=True)
+    for row, name in zip(np.reshape(axes, (-1, 2)), places, strict=True):
+        for axis, of in zip(row, (name, f"{name}d"), strict=True):
+            factor, unit = axis_unit(result.units[of], columns[of])
+            envelope(axis, t, columns[of] * factor, BLUE)
+            axis.set_ylabel(f"{'' if of == name else 'speed of '}{name.replace('_', ' ')} [{unit}]")
+        if name == places[-1]:
+            for axis in row:
+                axis.set_xlabel("time [s]")
+    return figure
 
 
 def met(result: Result) -> "Figure":
     """Coordinates over time, and below them what each stop, contact and friction did when."""
-    places = [n for n in result.columns if f"{n}d" in result.columns][:_MOST]
+    places, (t, columns) = _places(result), _finely(result)
     names = list(dict.fromkeys(e.name for e in result.happened.events))
-    t, columns = result.t, result.columns
-    if result.dense is not None:
-        t = np.linspace(t[0], t[-1], _FINE)
-        columns = result.dense(t)
     height = 1.3 * len(places) + 0.9 + 0.25 * len(names)
     figure, axes = panels(9.0, height, len(places) + 1, 1, "Motion and events over time", sharex=True)
     for axis, name in zip(axes, places, strict=False):
@@ -58,6 +70,18 @@ def met(result: Result) -> "Figure":
     last.set(xlabel="time [s]", ylim=(-0.6, len(names) - 0.4))
     legend(last, width=8.0)
     return figure
+
+
+def _places(result: Result) -> list[str]:
+    return [n for n in result.columns if f"{n}d" in result.columns][:_MOST]
+
+
+def _finely(result: Result) -> tuple[np.ndarray, Mapping[str, np.ndarray]]:
+    """Times and columns, where the run can tell them finer than its table."""
+    if result.dense is None:
+        return result.t, result.columns
+    t = np.linspace(result.t[0], result.t[-1], _FINE)
+    return t, result.dense(t)
 
 
 def speed(result: Result, coordinate: str, period: Radian, wanted: RadPerSecond, words: str = "") -> "Figure":

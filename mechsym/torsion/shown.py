@@ -63,17 +63,21 @@ def run_view(run: FinishedRun) -> View:
     speed = Speed(**run.speed)
     where = f"over the last period{f', of the {run.engine.words}' if run.engine and run.engine.words else ''}"
     good = numbers.status not in ("failed", "not converged", "chaotic")
-    share = speed.ripple
-    ripple = "–" if share is None else ratio_text(share) if abs(share) < 1e-6 else f"{figure(100 * share, 3)} %"
     unsettled = drift(run)
     cards = [
         Card(name="run", value="unsettled" if unsettled else _ENDS.get(run.result.end, run.result.end) if good else
              numbers.status, about="" if good else numbers.reason, mark="open" if unsettled else "" if good else "no"),
-        Card(name="mean speed", value=quantity_text(speed.mean, run.speed.units["mean"], 4),
-             about=f"{span(run.speed)} {where}"),
-        Card(name="speed ripple", value=ripple, about=f"of a transient, {where}" if unsettled else where,
-             mark="open" if unsettled else ""),
     ]  # fmt: skip
+    if run.alone:
+        last = f"over the last {quantity_text(numbers.window, 's')}"
+        cards += [Card(name=f"speed of {q}", value=span(of), about=last) for q, of in numbers.speeds.items()]
+    else:
+        share = speed.ripple
+        ripple = "–" if share is None else ratio_text(share) if abs(share) < 1e-6 else f"{figure(100 * share, 3)} %"
+        mean = quantity_text(speed.mean, run.speed.units["mean"], 4)
+        cards.append(Card(name="mean speed", value=mean, about=f"{span(run.speed)} {where}"))
+        cards.append(Card(name="speed ripple", value=ripple, about=f"of a transient, {where}" if unsettled else where,
+                          mark="open" if unsettled else ""))  # fmt: skip
     cards += [card(ShaftSection, "twist_peak", s.twist_peak, "peak", section_words(k, len(run.twist)))
               for k, s in enumerate(run.twist)]  # fmt: skip
     curves = {"t": run.result.t, **run.result.columns}
@@ -89,7 +93,7 @@ def span(speed: Columns) -> str:
 
 
 def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
-    from mechsym.simulate.plots import met, speed
+    from mechsym.simulate.plots import met, motion, speed
 
     result, engine, starts, pictures = run.result, run.engine, run.start_ups, []
     if engine is not None and len(result.t) > 1:
@@ -99,6 +103,9 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
     if result.happened.events:
         see = "The motion, and when each stop, contact and friction was met, left, stuck or slid."
         pictures.append(Picture(name="events", see=see, draw=lambda: met(result)))
+    elif run.alone and len(result.t) > 1:
+        see = "Coordinates and their speeds over time."
+        pictures.append(Picture(name="motion", see=see, draw=lambda: motion(result)))
     if run.twist:
         peak = quantity_text(max(section.twist_peak for section in run.twist), "rad", 4)
         see = f"Twist of each shaft section: the peak, {peak}, decides on the shaft."

@@ -333,6 +333,11 @@ class FinishedRun(Shown):
     doubts: tuple[Doubt, ...] = part(default=())  #: Of gas and window, that no number of the summary tells
 
     @property
+    def alone(self) -> bool:
+        """Whether no shaft is its main one: each coordinate is looked at by itself."""
+        return self.engine is None and not self.start_ups
+
+    @property
     def speed(self) -> Columns:
         """Mean, least and greatest speed at the end, of the engine's shaft or of the first coordinate [its unit]."""
         speeds = self.summary.speeds

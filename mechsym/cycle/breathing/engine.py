@@ -33,7 +33,7 @@ from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import RPM, record
-from mechsym.quantities.display import ratio_text
+from mechsym.quantities.display import residual_text
 from mechsym.quantities.units import Scalar
 
 
@@ -126,7 +126,7 @@ def pressure(breathed: BreathingRun) -> Pressure:
         f"filled, {100 * breath.residual:.1f} % of the charge is residual gas",
         f"{100 * max(0.0, round(1 - breath.trapping_efficiency, 5)):.2g} % of the fresh gas drawn is lost through the "
         "exhaust",
-        f"mass and energy closed to {ratio_text(max(breath.mass_residual, breath.energy_residual), 1)}",
+        f"mass and energy closed to {residual_text(max(breath.mass_residual, breath.energy_residual), 1)}",
     )
     return pressure_over("gas-exchange", absolute, PERIOD, kinks, breathed.chamber, facts=facts)
 
@@ -222,7 +222,9 @@ def curves(breathed: BreathingRun) -> dict[str, np.ndarray]:
 
 def _closing(data: Json) -> str:
     mass, energy = (float(data[f"{name}_residual"].max()) for name in ("mass", "energy"))
-    return f"mass closed to {ratio_text(mass, 1)} of the charge, first law to {ratio_text(energy, 1)} of its energy"
+    return (
+        f"mass closed to {residual_text(mass, 1)} of the charge, first law to {residual_text(energy, 1)} of its energy"
+    )
 
 
 class BreathingGas:

@@ -28,7 +28,7 @@ from mechsym.cycle.source import EngineParts, FiguresPage, Progress, unseen
 from mechsym.files import Json
 from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import RPM, record
-from mechsym.quantities.display import ratio_text
+from mechsym.quantities.display import residual_text
 
 _POINTS = 1440
 
@@ -133,7 +133,7 @@ def _share(part: float, whole: float) -> float:
 
 def _closing(figures: Json) -> str:
     worst = float(abs(figures["energy_residual"]).max())
-    return f"first law closed to {ratio_text(worst, 1)} of the heat from the hot side"
+    return f"first law closed to {residual_text(worst, 1)} of the heat from the hot side"
 
 
 class StirlingGas:

@@ -105,8 +105,10 @@ def _data(block: Block) -> Json:
     ends = [stop.of for stop in block.stops if stop.name == "stall"]
     speed = next((s for s in block.states if s.name in ends), block.states[len(block.states) // 2])
     letters = [p for p in block.parameters if not p.about and p.name not in _SLIDERS]  # of the declaration itself
+    places = block.states[: len(block.states) // 2]
+    moves = [s for s in places if s.name != speed.name[:-1] or not speed.start]  # what turns on and on is no curve
     if any(p.name.startswith("gas") for p in block.parameters):
-        letters = []  # an engine turns by its gas; fields take its letters
+        letters = moves = []  # an engine turns by its gas; fields take its letters
     sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
     sliders += [_slider(p, *_LETTER) for p in letters if p.start]
     if speed.start:  # an elastic shaft starts without twist
@@ -132,6 +134,8 @@ def _data(block: Block) -> Json:
         "chosen": chosen(),
         "angle": speed.name[:-1],
         "speed": speed.name,
+        "speed_of": f"Speed of {speed.name[:-1]}" if len(places) > 1 and moves else "Speed",
+        "moves": [{"unit": unit, "names": [s.name for s in moves if s.unit == unit]} for unit in ("rad", "m")],
         "start_speed": speed.start,
         "sliders": sliders,
         "fields": [{"name": p.name, "unit": p.unit, "start": p.start, "about": p.about} for p in block.parameters],

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.page import Card, Picture, View, shows
-from mechsym.quantities.display import quantity_text, ratio_text
+from mechsym.quantities.display import quantity_text, residual_text
 from mechsym.simulate.loop.run import LoopResult
 
 if TYPE_CHECKING:
@@ -26,7 +26,9 @@ def loop_view(result: LoopResult) -> View:
             about=f"mean since the last exhaust {quantity_text(mean, 'rad/s', 4)}",
         ),
         Card(name="peak pressure", value=quantity_text(float(result.p.max()), "Pa", 4), about="absolute"),
-        Card(name="energy residual", value=ratio_text(result.energy_residual, 2), about="of the work of the pistons"),
+        Card(
+            name="energy residual", value=residual_text(result.energy_residual, 2), about="of the work of the pistons"
+        ),
     )
     see = "Speed of the crank, and pressure of each cylinder: whether the speed settles and the cycles repeat."
     drawn = (Picture(name="run", see=see, draw=lambda: _drawn(result)),)
