@@ -3,6 +3,7 @@ the cycle in motion, whose gas follows the speed.
 """
 
 import math
+import re
 from dataclasses import asdict, replace
 from typing import Annotated
 
@@ -28,6 +29,7 @@ from mechsym.jobs.gas import at_recorded_speed, firing, gas, one_cylinder
 from mechsym.jobs.machine import constants, load_input, mechanism_of, turning
 from mechsym.jobs.problem import beyond, problem_of, window_of
 from mechsym.machine.loads import ConstantLoad, PropellerLoad, TableLoad, settle
+from mechsym.mechanisms import own
 from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
@@ -166,6 +168,9 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
             "not carry it over compression and load; raise flywheel.inertia or simulation.speed_start, or lower [load]"
         )
     lines += _lifted(case, result)
+    outputs: tuple[str, ...] = ()
+    if engine is None and not starts:
+        result, outputs = _with_outputs(case, result)
     doubted = of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
     doubted += tuple(of_start(case, mechanism_of(case), result.columns))
     return FinishedRun(
@@ -173,8 +178,26 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         final_state=final_state(result, numbers.speeds),
         natural_frequencies=natural_frequencies(case.mechanism, case.need("parameters")), twist=twist,
         start_up=tuple(start_numbers(s) for s in starts), start_ups=starts, vibration=train, settling=settles,
-        engine=engine, doubts=doubted + (doubts(train, twist) if train else ()), findings=tuple(lines),
+        engine=engine, outputs=outputs, doubts=doubted + (doubts(train, twist) if train else ()), findings=tuple(lines),
     )  # fmt: skip
+
+
+_SLOPE = re.compile(r"d\d?(.+?)_d")  # of an output
+
+
+def _with_outputs(case: Case, result: Result) -> tuple[Result, tuple[str, ...]]:
+    """The run with the outputs of a user's declaration, but for slopes and inertia, along it; and their names."""
+    kinematics = mechanism_of(case).functions.get("kinematics")
+    if kinematics is None or not own.is_file(case.mechanism):
+        return result, ()
+    at = {name: result.columns[name] for name in kinematics.name_in() if name in result.columns}
+    if len(at) < kinematics.n_in():
+        return result, ()
+    values, units = along(kinematics, at), plan_of(case.mechanism).listing(None)["outputs"]
+    slopes = {name for name in values if (found := _SLOPE.match(name)) and found[1] in values}
+    names = tuple(n for n in values if n in units and n not in slopes | {"inertia"} and n not in result.columns)
+    columns = {**result.columns, **{n: np.broadcast_to(values[n], result.t.shape) for n in names}}
+    return replace(result, columns=columns, units={**result.units, **{n: units[n] for n in names}}), names
 
 
 def _lifted(case: Case, result: Result) -> list[str]:

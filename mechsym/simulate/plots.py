@@ -1,6 +1,6 @@
 """Pictures of a run: speed over time and over the last period; and events of stops, contacts and friction."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -36,18 +36,24 @@ _FINE = 2000  # times of a motion with events, which is quicker than its table
 _MOST = 4  # coordinates that are drawn
 
 
-def motion(result: Result) -> "Figure":
-    """Coordinates and their speeds over time."""
+def motion(result: Result, outputs: Sequence[str] = ()) -> "Figure":
+    """Coordinates and their speeds over time, and outputs, two beside one another."""
     places, (t, columns) = _places(result), _finely(result)
-    figure, axes = panels(9.0, 1.6 * len(places) + 0.7, len(places), 2, "Motion over time", sharex=True)
-    for row, name in zip(np.reshape(axes, (-1, 2)), places, strict=True):
-        for axis, of in zip(row, (name, f"{name}d"), strict=True):
-            factor, unit = axis_unit(result.units[of], columns[of])
-            envelope(axis, t, columns[of] * factor, BLUE)
-            axis.set_ylabel(f"{'' if of == name else 'speed of '}{name.replace('_', ' ')} [{unit}]")
-        if name == places[-1]:
-            for axis in row:
-                axis.set_xlabel("time [s]")
+    shown = [(n, t, columns) for q in places for n in (q, f"{q}d")]
+    shown += [(n, result.t, result.columns) for n in outputs[: 2 * _MOST]]
+    rows = -(-len(shown) // 2)
+    figure, axes = panels(9.0, 1.6 * rows + 0.7, rows, 2, "Motion over time", sharex=True)
+    every = np.ravel(axes)
+    for axis, (name, times, of) in zip(every, shown, strict=False):
+        factor, unit = axis_unit(result.units[name], of[name])
+        envelope(axis, times, of[name] * factor, BLUE)
+        rate = name not in (*places, *outputs)
+        axis.set_ylabel(f"{'speed of ' if rate else ''}{name.removesuffix('d' * rate).replace('_', ' ')} [{unit}]")
+    for axis in every[len(shown) :]:
+        axis.set_visible(False)
+    for axis in every[max(len(shown) - 2, 0) : len(shown)]:
+        axis.set_xlabel("time [s]")
+        axis.tick_params(labelbottom=True)
     return figure
 
 

@@ -104,8 +104,8 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
         see = "The motion, and when each stop, contact and friction was met, left, stuck or slid."
         pictures.append(Picture(name="events", see=see, draw=lambda: met(result)))
     elif run.alone and len(result.t) > 1:
-        see = "Coordinates and their speeds over time."
-        pictures.append(Picture(name="motion", see=see, draw=lambda: motion(result)))
+        see = f"Coordinates and their speeds{', and the outputs of the declaration,' if run.outputs else ''} over time."
+        pictures.append(Picture(name="motion", see=see, draw=lambda: motion(result, run.outputs)))
     if run.twist:
         peak = quantity_text(max(section.twist_peak for section in run.twist), "rad", 4)
         see = f"Twist of each shaft section: the peak, {peak}, decides on the shaft."

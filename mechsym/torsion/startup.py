@@ -330,6 +330,7 @@ class FinishedRun(Shown):
     result: Result  # its columns
     start_ups: tuple[StartUp, ...]
     engine: EngineSpeed | None  # of an engine
+    outputs: tuple[str, ...] = ()  # columns that a user's declaration has as outputs
     doubts: tuple[Doubt, ...] = part(default=())  #: Of gas and window, that no number of the summary tells
 
     @property
