@@ -1,0 +1,41 @@
+"""A machine of one's own that is no engine: its run shows coordinates and outputs, and no word of engines stands beside."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mechsym import cases
+from mechsym.jobs.run import run
+from mechsym.report import case_report, html
+
+OWN = Path(__file__).parents[1] / "plausible" / "own"
+
+
+@pytest.fixture(scope="module")
+def thrown():
+    return run(cases.load(str(OWN / "trebuchet.toml")), check="none")
+
+
+def test_outputs_of_a_declaration_stand_beside_the_coordinates(thrown):
+    """Height of the stone, q cos(theta) + s cos(sigma); its slopes are no curves of a run."""
+    columns = thrown.result.columns
+    assert thrown.outputs == ("y",)
+    assert columns["y"] == pytest.approx(8.0 * np.cos(columns["theta"]) + 7.0 * np.cos(columns["sigma"]), abs=1e-12)
+    assert thrown.result.units["y"] == "m"
+
+
+def test_a_run_draws_each_coordinate_its_speed_and_the_outputs(thrown):
+    (picture,) = thrown.view.pictures
+    figure = picture.draw()
+    labels = [axis.get_ylabel() for axis in figure.axes if axis.get_visible()]
+    assert labels == ["theta [deg]", "speed of theta [rpm]", "sigma [deg]", "speed of sigma [rpm]", "y [mm]"]
+    assert [card.name for card in thrown.view.cards] == ["run", "speed of theta", "speed of sigma"]
+
+
+def test_a_report_says_nothing_of_engines_that_it_has_not_to(thrown):
+    text = html([case_report(cases.load(str(OWN / "trebuchet.toml")))])
+    for word in ("dead centre", "propeller", "ripple", "<dt>engine</dt>", "/plausible/"):
+        assert word not in text, word
+    assert "<dt>machine</dt>" in text
+    assert text.count("coordinates of trebuchet.py are free") == 1  # of three parts that want one coordinate
