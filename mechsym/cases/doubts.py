@@ -88,7 +88,7 @@ def judged(sections: Records, mechanism: str) -> tuple[Doubt, ...]:
     bore = None if area is None else math.sqrt(4 * area / math.pi)
     alone, together = _sizes(sections, sizes, bore), by_size(sections, sizes, bore)
     if any(d.code == "reciprocating_mass" for d in alone):  # one slip is told once
-        together = tuple(d for d in together if not d.quantity.startswith(MOVING))
+        together = tuple(d for d in together if not d.quantity.startswith(MOVING) and d.code != "crank_inertia")
     doubts += (*alone, *together, *laws.by_firing(sections, parameters), *laws.by_throws(parameters))
     shaft = elastic(mechanism, parameters)
     if shaft is None:
@@ -111,8 +111,9 @@ def _sizes(sections: Records, sizes: Proportions, bore: float | None) -> tuple[D
         if bore and area and part.mass:  # without mass is a model, not a mistake
             doubts += moving_mass(f"parameters.{part.letters}", part.mass, area, bore, sizes.stroke)
     if spring is not None and bore:
-        doubts += proportion("spring_area", "spring.A / piston area", spring / (math.pi / 4 * bore**2))
-        if mean := value(sections, "cycle", "mean_indicated_pressure"):
+        share = proportion("spring_area", "spring.A / piston area", spring / (math.pi / 4 * bore**2))
+        doubts += share
+        if not share and (mean := value(sections, "cycle", "mean_indicated_pressure")):  # one slip is told once
             force = spring * value(sections, "spring", "p0") / (mean * math.pi / 4 * bore**2)
             what = "spring.p0 * A / (cycle.mean_indicated_pressure * piston area)"
             doubts += proportion("spring_force", what, force) if force else ()

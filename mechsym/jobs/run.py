@@ -188,7 +188,7 @@ _SLOPE = re.compile(r"d\d?(.+?)_d")  # of an output
 def _with_outputs(case: Case, result: Result) -> tuple[Result, tuple[str, ...]]:
     """The run with the outputs of a user's declaration, but for slopes and inertia, along it; and their names."""
     kinematics = mechanism_of(case).functions.get("kinematics")
-    if kinematics is None or not own.is_file(case.mechanism):
+    if kinematics is None or not kinematics.n_out() or not own.is_file(case.mechanism):
         return result, ()
     at = {name: result.columns[name] for name in kinematics.name_in() if name in result.columns}
     if len(at) < kinematics.n_in():

@@ -1,4 +1,4 @@
-"""A machine of one's own that is no engine: its run shows coordinates and outputs, and no word of engines stands beside."""
+"""A machine of one's own that is no engine: its run shows coordinates and outputs, no word of engines stands beside."""
 
 from pathlib import Path
 
