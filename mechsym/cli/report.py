@@ -42,6 +42,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     from mechsym.out.web import LiveRun, with_live
     from mechsym.papers.sources import sources
     from mechsym.report import case_report, html
+    from mechsym.report.build import with_gas
     from mechsym.report.numbers import numbers
     from mechsym.report.parts import PARTS, doubts_of
 
@@ -52,14 +53,13 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     wanted = [name for name in PARTS if name in wanted]
     if pdf:
         chromium()  # said before the work begins
-    titles = {one.stem: one.title for one in sources()} | {"own": "own machine"}
+    titles = {one.stem: one.title for one in sources()}
     loaded = [case_of(name, pairs(overrides)) for name in cases]
     with progress(len(loaded) * len(wanted) + 1, "report") as bar:
         reports = []
         for case in loaded:
-            reports.append(
-                case_report(case, tuple(wanted), titles.get(case.source, case.source), lambda: bar.update(1))
-            )
+            title = f"own {'engine' if with_gas(case) else 'machine'}" if case.source == "own" else case.source
+            reports.append(case_report(case, tuple(wanted), titles.get(title, title), lambda: bar.update(1)))
         path = file_in(out, "-".join([*(case.name for case in loaded), "report.html"]), ".html", ".htm")
         text = html(reports, date)
         live = [LiveRun(name=case.name, about=case.about, ready=partial(ready, case)) for case in loaded]

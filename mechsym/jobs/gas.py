@@ -31,6 +31,7 @@ from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.roles import PistonRole
 from mechsym.quantities import by_name, record
+from mechsym.quantities.display import chosen
 from mechsym.quantities.units import NewtonMetre, RadPerSecond
 
 _FREE = NoFriction()
@@ -65,25 +66,25 @@ def gas_on(case: Case, number: int = 0) -> Gas:
     # a diagram is read from a file, which may have changed since
     at = _at.__wrapped__ if kind_of(cycle).measured else _at
     with of(case):
-        return at(cycle, parts, case.need("operation").speed)
+        return at(cycle, parts, case.need("operation").speed, chosen())
 
 
 @functools.lru_cache(maxsize=8)
-def _at(cycle: object, parts: EngineParts, omega: float) -> Gas:
-    """Sweeps over springs and loads ask for one gas again and again."""
-    return _source(cycle, parts).at(omega)
+def _at(cycle: object, parts: EngineParts, omega: float, units: tuple[str, ...]) -> Gas:
+    """Sweeps over springs and loads ask for one gas again and again; `units`: those of its sentences."""
+    return _source(cycle, parts, units).at(omega)
 
 
 def source(case: Case, friction: Friction = _FREE, number: int = 0) -> GasSource:
     """What answers for the gas of a case, on a piston by its place in the declaration."""
     cycle = case.need("cycle")
-    known = source_of if kind_of(cycle).measured else _source
-    return known(cycle, parts_of(case, friction, number))
+    known = _source.__wrapped__ if kind_of(cycle).measured else _source
+    return known(cycle, parts_of(case, friction, number), chosen())
 
 
 @functools.lru_cache(maxsize=8)
-def _source(cycle: object, parts: EngineParts) -> GasSource:
-    """Figures of a gas and the forces of its pistons ask for one engine at one speed."""
+def _source(cycle: object, parts: EngineParts, units: tuple[str, ...]) -> GasSource:
+    """Figures of a gas and the forces of its pistons ask for one engine; `units`: those of its sentences."""
     return source_of(cycle, parts)
 
 

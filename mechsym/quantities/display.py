@@ -86,9 +86,9 @@ def choose(text: str | None) -> None:
     _chosen.update(by_kind)
 
 
-def chosen() -> bool:
-    """Whether the user has named units."""
-    return bool(_chosen)
+def chosen() -> tuple[str, ...]:
+    """The units that the user has named."""
+    return tuple(_chosen.values())
 
 
 def unit_for(unit: str, size: float = 1.0, asked: bool = False) -> str:

@@ -111,7 +111,7 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
         derived = listing(plan_of(one.case.mechanism).theory).get("equations", ())
         equations = [row for row in derived if len(row["mathml"]) < _LONG]
         shown.append({"report": one, "scenes": scenes, "answer": first, "parts": parts, "equations": equations,
-                      "id": f"case-{place}", "gas": _with_gas(one.case)})  # fmt: skip
+                      "id": f"case-{place}", "gas": with_gas(one.case)})  # fmt: skip
     return page(
         "report.html", shown=shown, rows=side_by_side([(r.case.name, r.parts) for r in reports]), title=_title(reports),
         block=[_block(one, date) for one in reports], many=len(reports) > 1,
@@ -134,9 +134,9 @@ def _engine(case: Case) -> str:
     return getattr(wanted, "engine", "") or case.name
 
 
-def _with_gas(case: Case) -> bool:
+def with_gas(case: Case) -> bool:
     """Whether gas drives pistons of the machine, or could."""
-    return bool(roles_of(case.mechanism).pistons)
+    return "cycle" in case.sections or bool(roles_of(case.mechanism).pistons)
 
 
 def _block(one: CaseReport, date: str) -> dict[str, str]:
@@ -144,7 +144,7 @@ def _block(one: CaseReport, date: str) -> dict[str, str]:
     overrides = ", ".join(f"{key} = {value}" for key, value in one.case.overrides.items())
     rows = {
         "project": getattr(wanted, "project", ""),
-        "engine" if _with_gas(one.case) else "machine": f"{_engine(one.case)}: {one.case.about}"
+        "engine" if with_gas(one.case) else "machine": f"{_engine(one.case)}: {one.case.about}"
         if one.case.about
         else _engine(one.case),
         "data from": one.source,

@@ -95,6 +95,20 @@ def test_a_table_has_units_and_goes_to_xarray_and_pandas():
         assert list(table.to_pandas().columns) == list(table)
 
 
+def test_sentences_of_a_gas_follow_the_units_that_were_chosen():
+    """In one process, as in the workbench: what was computed before with other units is not told again."""
+    case = cases.load("moroianu")
+    plain = gas(case).pressure.facts
+    try:
+        choose("bar")
+        in_bar = gas(case).pressure.facts
+    finally:
+        choose(None)
+    assert plain != in_bar
+    assert all("MPa" not in fact for fact in in_bar)
+    assert gas(case).pressure.facts == plain
+
+
 def test_a_table_is_in_the_units_that_were_chosen():
     try:
         choose("kN*m, deg")

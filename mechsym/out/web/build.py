@@ -131,7 +131,7 @@ def _data(block: Block) -> Json:
         "references": {v.port.name: v.reference for v in rows},
         "units": {v.port.name: v.port.unit for v in rows},
         "shown": {unit: axis_unit(unit, size) for unit, size in sizes.items()},
-        "chosen": chosen(),
+        "chosen": bool(chosen()),
         "angle": speed.name[:-1],
         "speed": speed.name,
         "speed_of": f"Speed of {speed.name[:-1]}" if len(places) > 1 and moves else "Speed",
