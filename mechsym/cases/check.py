@@ -157,7 +157,21 @@ def _whole(doubts: object, records: Records, mechanism: str) -> list[CaseProblem
         judged(records, mechanism)
     except BadInput as error:
         problems.append(CaseProblem(key=error.key, why=str(error)))
+    if "motion" in records and mechanism and not problems:
+        problems += _moved(records, mechanism)
     return problems
+
+
+def _moved(records: Records, mechanism: str) -> list[CaseProblem]:
+    """What of a section `[motion]` no coordinate can follow."""
+    from mechsym.forces.driven import DrivenMotion
+
+    units, section = mechanisms.listing(mechanism)["coordinates"], records["motion"]
+    try:
+        DrivenMotion(section, units, {})
+    except BadInput as error:
+        return [CaseProblem(key="motion", why=str(error))]
+    return []
 
 
 def unused(case: CaseFacts, written: Json) -> tuple[Doubt, ...]:

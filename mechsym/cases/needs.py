@@ -200,6 +200,8 @@ def _export(case: CaseFacts) -> list[str]:
 
 def meant(case: CaseFacts) -> str:
     """What a sweep computes where nothing is said; empty where nothing can be."""
+    if case.has("motion"):
+        return "forces"
     # a case that says how long to run means its elastic shaft, whatever turns it
     if case.has("drive") or (case.has("simulation") and case.twists):
         return "simulate"

@@ -224,11 +224,11 @@ def _driven(case: Case, forces: Forces) -> tuple[Doubt, ...]:
 
 def of_motion(case: Case, motion: "DrivenForces") -> tuple[Doubt, ...]:
     """Doubts of a driven motion: how far its words move, results by what moves, speeds of links, torques that bend."""
-    from mechsym.forces.driven import WORDS  # splines, which no other case needs
+    from mechsym.forces.driven import word_of  # splines, which no other case needs
 
     section, table, listing = case.need("motion"), motion.columns, plan_of(case.mechanism).listing(None)
     angles = [q for q, unit in listing["coordinates"].items() if unit == "rad"]
-    named = [q for q in motion.one.driven if getattr(section, q) in WORDS]
+    named = [q for q in motion.one.driven if word_of(getattr(section, q))[0]]
     driven = [q for q in motion.one.driven if q in angles]
     # what a file moves on and on may turn as often as it likes
     sways = [q for q in driven if q in named or 2 * abs(table[q][-1] - table[q][0]) < np.ptp(table[q])]

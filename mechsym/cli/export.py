@@ -67,7 +67,7 @@ def page(case: Case, out: Path | None, diagram: str | None) -> None:
     from mechsym.out.web import page as make
     from mechsym.out.web.build import PageChecks, WrittenPage
 
-    run = ready(case, diagram)
+    run = ready(case, diagram, "page")
     text = make(block_of(case.name, case.about, run), turning(case, run.guide))
     path = write_text(file_in(out, f"{case.name}.html", ".html"), text)
     answer = WrittenPage(written=[str(path)], checks=PageChecks(bytes=len(text.encode())))
@@ -120,7 +120,7 @@ def fmu(
         block, code = controller(case.name, *controlled(case, diagram))
         unit, problem = make(block, int(version), wanted, code), None
     else:
-        run = ready(case, diagram)
+        run = ready(case, diagram, "fmu")
         unit, problem = make(block_of(case.name, case.about, run), int(version), wanted), run.problem
     if compared and "linux64" not in unit.platforms:
         why = unit.missing.get("linux64", "--platforms leaves it out")

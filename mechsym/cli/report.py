@@ -62,7 +62,9 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
             reports.append(case_report(case, tuple(wanted), titles.get(title, title), lambda: bar.update(1)))
         path = file_in(out, "-".join([*(case.name for case in loaded), "report.html"]), ".html", ".htm")
         text = html(reports, date)
-        live = [LiveRun(name=case.name, about=case.about, ready=partial(ready, case)) for case in loaded]
+        live = [
+            LiveRun(name=case.name, about=case.about, ready=partial(ready, case, command="page")) for case in loaded
+        ]
         files = [write_text(path, with_live(text, live))]
         if pdf:
             files.append(to_pdf(text, path.with_suffix(".pdf")))

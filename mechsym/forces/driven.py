@@ -51,6 +51,17 @@ def rise_of(law: str) -> Curve:
 WORDS = tuple(law for law in RISES if law != "harmonic")  # it begins and ends with a jump of its acceleration
 
 
+def word_of(value: object) -> tuple[str, str]:
+    """The word by which a coordinate moves and the rise that stands behind it, each empty where there is none.
+
+    >>> word_of("cycloid"), word_of("3-4-5 -90 deg"), word_of("300 rpm")
+    (('cycloid', ''), ('3-4-5', '-90 deg'), ('', ''))
+    """
+    text = value.strip() if isinstance(value, str) else ""
+    word = next((word for word in WORDS if f"{text} ".startswith(f"{word} ")), "")
+    return word, text[len(word) :].strip() if word else ""
+
+
 class DrivenMotion:
     """The driven coordinates of a section `[motion]`.
 
@@ -61,14 +72,15 @@ class DrivenMotion:
         given = {q: getattr(section, q) for q in units if getattr(section, q) is not None}
         if section.periodic and not section.file:
             raise BadInput("motion.periodic is for a file that repeats; name it, motion.file, or leave periodic out")
-        if section.rise is not None and not set(given.values()) & {*WORDS}:
-            raise BadInput(f"motion.rise is for {', '.join(map(repr, WORDS))}; no coordinate moves so: leave it out")
         table = _table(section.file, units) if section.file else {}
         if twice := sorted(given.keys() & table.keys()):
             raise BadInput(f"motion.{twice[0]} stands in the section and in {section.file}; keep one")
         self.curves: dict[str, Curve] = {}
         for q, value in given.items():
             self.curves[q] = _curve(section, q, value, units[q], start.get(q, 0.0))
+        if section.rise is not None and not any(word and not rise for word, rise in map(word_of, given.values())):
+            words = ", ".join(map(repr, WORDS))
+            raise BadInput(f"motion.rise is for {words} without a rise of their own; nothing moves so: leave it out")
         t = table.pop("t", np.zeros(1))
         for q, values in table.items():
             self.curves[q] = _spline(section, q, t, values, units[q])
@@ -99,16 +111,19 @@ class DrivenMotion:
 
 
 def _curve(section: MotionSettings, q: str, value: object, unit: str, start: float) -> Curve:
-    if not isinstance(value, str) or value[:1].isdigit() and value not in WORDS or value[:1] in "+-.":
+    word, own = word_of(value)
+    if not word and (not isinstance(value, str) or value[:1].isdigit() or value[:1] in "+-."):
         speed = parse(value, f"{unit}/s", f"motion.{q}")
         return lambda t: (start + speed * t, speed + 0 * t, 0 * t)
-    if value not in WORDS:
+    if not word:
         raise BadInput(
-            f"motion.{q} = {value!r} is neither a speed, as '300 rpm', nor a word; {suggest(value, list(WORDS))}"
+            f"motion.{q} = {value!r} is neither a speed, as '300 rpm', nor a word, as 'cycloid' or 'cycloid 30 deg'; "
+            f"{suggest(str(value).split()[0] if str(value).split() else '', list(WORDS))}"
         )
-    if section.rise is None or section.duration is None:
+    given = own or section.rise
+    if given is None or section.duration is None:
         raise BadInput(f"motion.{q} = {value!r} needs motion.rise, in {unit}, and motion.duration, in s")
-    rise, duration, share = parse(section.rise, unit, "motion.rise"), section.duration, rise_of(value)
+    rise, duration, share = parse(given, unit, f"motion.{q if own else 'rise'}"), section.duration, rise_of(word)
 
     def curve(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         x = np.clip(t / duration, 0.0, 1.0)

@@ -44,9 +44,9 @@ _Force = Callable[[np.ndarray], np.ndarray]  # angle [rad] to net force of the g
 _INSIDE = 1e-9  # where the end of a piece is asked for [rad]
 
 
-def ready(case: Case, diagram: str | None = None) -> Ready:
-    """The run of a case, ready to be exported; without `[simulation]` it runs ten turns."""
-    require(case, "export", NO_FILE if diagram else "")
+def ready(case: Case, diagram: str | None = None, command: str = "export") -> Ready:
+    """The run of a case, ready to be exported; without `[simulation]` it runs ten turns. command: that wants it."""
+    require(case, command, NO_FILE if diagram else "")
     if diagram is not None:
         if "cycle" not in case.sections or "drive" in case.sections or _by_spark(case):
             raise BadInput(f"{case.file}: --diagram needs an engine with crosshead and [cycle], as the case generator")

@@ -36,7 +36,7 @@ class MotionSettings:
 
     file: str = dataclasses.field(default="", metadata={"path": True})  #: CSV: t [s], and a column for each it drives
     periodic: bool = False  #: Whether the file repeats
-    rise: float | str | None = None  #: Of words [rad] or [m]
+    rise: float | str | None = None  #: Of words without one of their own [rad] or [m]
     duration: float | None = quantity("s", default=None, above=0, about="how long the rise of a word takes")
     t_end: float | None = quantity("s", default=None, above=0, about="last time; else of file, word or turn")
     points: int = quantity("-", default=1000, low=10, high=200_000, about="times that are told")

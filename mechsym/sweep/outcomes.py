@@ -21,6 +21,7 @@ from mechsym.simulate.result import RunNumbers
 from mechsym.torsion.twist import ShaftSection, sections
 
 if TYPE_CHECKING:
+    from mechsym.forces.driven import DrivenNumbers
     from mechsym.forces.summary import ForceNumbers
 
 _IN_MEMORY = 100_000  # numbers of a column
@@ -244,11 +245,15 @@ def asked(name: str, show: str) -> bool:
     return name == letter_of(show, {name}) or name.startswith(f"{show}.")
 
 
-def forces(case: Case) -> "ForceNumbers":
-    """Figures of `mechsym forces`."""
+def forces(case: Case) -> "ForceNumbers | DrivenNumbers":
+    """Figures of `mechsym forces`, over a turn or of a motion."""
+    from mechsym.forces.driven import numbers
     from mechsym.forces.summary import summary
     from mechsym.jobs.forces import forces as run
+    from mechsym.jobs.forces import motion
 
+    if "motion" in case.sections:
+        return numbers(motion(case), case.name)
     return summary(run(case), case.name, case.source)
 
 
