@@ -272,9 +272,8 @@ def case_page(name: str, folder: Path) -> str:
     """A case: its machine turning, what commands say of it, and its text to copy."""
     case, stem = cases.load(name), Path(name).stem
     parts = [f"# {stem.replace('-', ' ') if name.endswith('.toml') else stem}\n\n{escaped(case.about)}.\n"]
-    shapes = drawing(case)
-    if shapes is not None:
-        write(folder / f"{stem}.svg", pictures.moving(shapes, f"{stem}, turning", {}))
+    if seen := drawing(case):
+        write(folder / f"{stem}.svg", pictures.moving(seen[0], f"{stem}, turning", {}))
         parts.append(f"![{stem}, turning]({stem}.svg){{.machine}}\n")
     for one in ("hinge", "cycle", "forces", "simulate"):
         kept = equations.RECORDED / stem / f"{one}.json"

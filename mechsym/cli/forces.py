@@ -70,11 +70,12 @@ def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, o
 def _motion(case: Case, out: Path | None) -> None:
     from mechsym.cases.outcomes import of_motion
     from mechsym.forces.driven import numbers
-    from mechsym.jobs.forces import motion, write_motion
+    from mechsym.jobs.export import write_motion
+    from mechsym.jobs.forces import motion
 
     driven = motion(case)
     summary = numbers(driven, case.name)
-    files = [] if out is None else [str(file) for file in write_motion(driven, tell(summary), out)]
+    files = [] if out is None else [str(file) for file in write_motion(case, driven, tell(summary), out)]
     beside = {"doubts": of_motion(case, driven), "files": files}
     emit(summary, lambda: _over_time(summary), beside=beside, files=files)
 

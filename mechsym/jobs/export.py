@@ -4,6 +4,7 @@ import contextlib
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 import numpy as np
 import scipy
@@ -15,8 +16,9 @@ from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.friction import NoFriction
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.files import Json
+from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces.arrows import charged, pressed
+from mechsym.forces.driven import DrivenForces, view
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.shown import hinge_scene
@@ -30,12 +32,14 @@ from mechsym.machine.loads import Load, settle
 from mechsym.mechanisms import listing
 from mechsym.mechanisms.drawing import Shapes, declared, drawn
 from mechsym.mechanisms.drawn_parts import turns_round
-from mechsym.mechanisms.turning import FRAMES, scene
+from mechsym.mechanisms.plots import turning_page
+from mechsym.mechanisms.turning import FRAMES, Course, scene
 from mechsym.periodic.pieces import PPoly
 from mechsym.simulate import Settings, simulate
 from mechsym.simulate.constrained import LOCKED
 from mechsym.simulate.problem import Kinks, Periodic, Problem
 from mechsym.simulate.settings import Simulation
+from mechsym.style import svg
 
 TURNS = 10  # of a run where the case says nothing
 _PIECE = math.radians(3.0)  # of a gas that is known as a table
@@ -120,30 +124,32 @@ def _spline(force: _Force, first: float, last: float) -> PPoly:
     return PPoly(poly.c[:, 7:-7], poly.x[7:-7])
 
 
-def drawing(case: Case) -> Callable[[float], Shapes] | None:
+def drawing(case: Case) -> tuple[Callable[[float], Shapes], Course | None] | None:
     """Crank angle [rad] to the machine of a case as its declaration draws it; None where nothing draws it.
 
-    What does not turn round is drawn over its motion, which takes one turn of that angle.
+    What does not turn round is drawn over its motion, which takes one turn of that angle; its course then.
     """
     with contextlib.suppress(BadInput):
         acting = gas(case)
         bore = None if acting is None else float(acting.chamber.bore)
         shapes = drawn(case.mechanism, case.need("parameters"), lambda: one_coordinate(case), bore)
         if "motion" not in case.sections and shapes is not None and turns_round(shapes):
-            return shapes
+            return shapes, None
     with contextlib.suppress(BadInput):
         return _in_motion(case)
     return None
 
 
-def _in_motion(case: Case) -> Callable[[float], Shapes] | None:
+def _in_motion(case: Case) -> tuple[Callable[[float], Shapes], Course] | None:
     """A drawing over a motion: there and back again as `[motion]` drives it, else as it runs in time."""
     back = "motion" in case.sections
     if back:
         mechanism, table = mechanism_of(case), motion(case).columns
+        lasts = float(table["t"][-1])
     else:
         problem = ready(case).problem
-        mechanism, table = problem.mechanism, simulate(problem, dataclasses.replace(Settings(), check="none")).columns
+        run = simulate(problem, dataclasses.replace(Settings(), check="none"))
+        mechanism, table, lasts = problem.mechanism, run.columns, float(run.t[-1] - run.t[0])
     rows = np.array([table[q] for q in mechanism.coordinates])
     curve = scipy.interpolate.CubicSpline(np.linspace(0.0, 1.0, rows.shape[1]), rows.T)
 
@@ -151,7 +157,8 @@ def _in_motion(case: Case) -> Callable[[float], Shapes] | None:
         share = angle / (2 * math.pi)
         return curve(1 - abs(1 - 2 * share) if back else share).tolist()
 
-    return declared(mechanism, listing(mechanism.name), pose)
+    shapes = declared(mechanism, listing(mechanism.name), pose)
+    return None if shapes is None else (shapes, Course(lasts=lasts, back=back))
 
 
 def loaded(scenes: list[Json], case: Case) -> list[Json]:
@@ -167,10 +174,23 @@ def loaded(scenes: list[Json], case: Case) -> list[Json]:
 
 def turning(case: Case, guide: Guide | None = None) -> list[Json]:
     """The machine of a case as a page turns it, and the hinge of a guide; nothing of one without a drawing."""
-    shapes, scenes = drawing(case), []
+    drawn_as, scenes = drawing(case), []
     turns = 1 if guide is None else max(1, round(1 / guide.parameters.shaft_ratio))
-    if shapes is not None:
-        scenes.append(scene(shapes, "the machine to scale", turns, turns * FRAMES))
+    if drawn_as is not None:
+        shapes, course = drawn_as
+        scenes.append(scene(shapes, "the machine to scale", turns, turns * FRAMES, course))
     if guide is not None:
         scenes.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
     return loaded(scenes, case)
+
+
+def write_motion(case: Case, moved: DrivenForces, numbers: Json, folder: Path) -> list[Path]:
+    """Write table, summary and pictures of a motion, and a page in which the machine moves."""
+    files = [
+        write_quantities(folder / "forces.csv", moved.columns, moved.columns.units),
+        write_text(folder / "summary.json", to_json(numbers) + "\n"),
+    ]
+    files += [write_text(folder / f"{one.name}.svg", svg(one.draw())) for one in view(moved).pictures]
+    if scenes := turning(case):
+        files.append(write_text(folder / "mechanism.html", turning_page(scenes, case.about or case.name)))
+    return files

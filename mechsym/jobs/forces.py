@@ -17,7 +17,7 @@ from mechsym.cases.settings import guesses
 from mechsym.cycle.friction import MechanismFriction
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.files import Json, to_json, write_quantities, write_text
+from mechsym.files import Json, write_quantities, write_text
 from mechsym.forces import balance as physics
 from mechsym.forces import driven, result, shown
 from mechsym.forces.balance import BalancedEngine, Shaken, Weight, amplitudes, length
@@ -115,14 +115,6 @@ def write(case: Case, loads: Forces, numbers: Json, folder: Path, findings: Sequ
     """Write page, tables, summary and pictures into a folder. findings: what has to be known first."""
     about = case.about or listing(case.mechanism)["about"] or case.name
     return shown.write(loads, numbers, folder, about, findings)
-
-
-def write_motion(motion: driven.DrivenForces, numbers: Json, folder: Path) -> list[Path]:
-    """Write table and summary of a motion."""
-    return [
-        write_quantities(folder / "forces.csv", motion.columns, motion.columns.units),
-        write_text(folder / "summary.json", to_json(numbers) + "\n"),
-    ]
 
 
 def vibration(case: Case, one: Turn | None = None) -> TrainVibration | None:

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechsym.files import Json
 from mechsym.mechanisms.drawn_parts import Circle, Line, Shapes, extent_of
-from mechsym.quantities import record
+from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Pure
 from mechsym.style import DARK, RED
 from mechsym.style.panels import GAS
@@ -22,10 +22,21 @@ def ordered(shapes: Iterable[Line | Circle]) -> list[Line | Circle]:
     return sorted(shapes, key=lambda shape: list(STYLES).index(shape.role))
 
 
-def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames: int = FRAMES) -> Json:
+@record
+class Course:
+    """How a picture goes over a motion in time."""
+
+    lasts: float = quantity("s", low=0, about="how long the motion takes")
+    back: bool = False  #: Whether it goes back again
+
+
+def scene(
+    drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames: int = FRAMES, course: Course | None = None
+) -> Json:
     """A drawing over the crank angle as a page moves it, with a name for what it shows.
 
-    turns: of the crank, after which it begins again. Returns scene: `scale` is how many of its units a metre has.
+    turns: of the crank, after which it begins again. course: of what moves over time in place of an angle. Returns
+    scene: `scale` is how many of its units a metre has.
     """
     left, right, low, high = extent_of(drawn)
     pad = 0.04 * max(right - left, high - low)
@@ -53,6 +64,7 @@ def scene(drawn: Callable[[float], Shapes], name: str, turns: Pure = 1.0, frames
     size = [1000.0, round(scale * (high - low + 2 * pad), 1)]
     origin = [round(scale * (pad - left), 1), round(scale * (high + pad), 1)]
     facts = {"name": name, "size": size, "scale": scale, "origin": origin, "turns": turns, "count": frames}
+    facts |= {} if course is None else {"lasts": course.lasts, "back": course.back}
     return facts | {"shapes": shapes} | ({"space": True} if any("space" in shape for shape in shapes) else {})
 
 

@@ -300,3 +300,22 @@ def test_a_loop_by_constraint_passes_its_dead_point_in_the_browser_and_has_a_sli
     letters = {e.get_attribute("id") for e in tab.query_selector_all("input[type=range]")}
     assert letters >= {"slider_crank_inertia", "slider_coupler_mass", "slider_rocker_u"}
     tab.context.close()
+
+
+def test_what_slides_goes_in_metres_and_each_coordinate_has_a_curve(browser, tmp_path):
+    """A crane: its trolley slides, its load swings; the verdict is that of the run."""
+    case = cases.load(str(Path(__file__).parents[1] / "plausible" / "own" / "crane.toml"))
+    run = simulate(ready(case).problem, Settings(check="none"))
+    file = tmp_path / "crane.html"
+    file.write_text(page(block_of(case.name, case.about, ready(case))), encoding="utf-8")
+    tab = browser.new_page()
+    tab.goto(file.as_uri())
+    tab.wait_for_function("window.mechsym && window.mechsym.last")
+    said = tab.inner_text("#verdict")
+    ends = [f"{v:.4g}" for v in (run.columns["sd"].min(), run.columns["sd"].max())]
+    assert "rpm" not in said
+    assert f"{ends[0]} to {ends[1]} m/s" in said
+    assert tab.inner_text("#speed b") == "speed [m/s] over time"
+    assert tab.inner_text("#moves_rad b") == "coordinates [deg] over time"
+    assert tab.inner_text("#moves_m b") == "coordinates [mm] over time"
+    tab.close()

@@ -106,7 +106,8 @@ def _data(block: Block) -> Json:
     speed = next((s for s in block.states if s.name in ends), block.states[len(block.states) // 2])
     letters = [p for p in block.parameters if not p.about and p.name not in _SLIDERS]  # of the declaration itself
     places = block.states[: len(block.states) // 2]
-    moves = [s for s in places if s.name != speed.name[:-1] or not speed.start]  # what turns on and on is no curve
+    turned_on = speed.start if speed.unit == "rad/s" else 0.0
+    moves = [s for s in places if s.name != speed.name[:-1] or not turned_on]  # what turns on and on is no curve
     if any(p.name.startswith("gas") for p in block.parameters):
         letters = moves = []  # an engine turns by its gas; fields take its letters
     sliders = [_slider(p, *_SLIDERS[p.name]) for p in block.parameters if p.name in _SLIDERS and p.start]
@@ -134,9 +135,10 @@ def _data(block: Block) -> Json:
         "chosen": bool(chosen()),
         "angle": speed.name[:-1],
         "speed": speed.name,
+        "speed_unit": speed.unit,
         "speed_of": f"Speed of {speed.name[:-1]}" if len(places) > 1 and moves else "Speed",
         "moves": [{"unit": unit, "names": [s.name for s in moves if s.unit == unit]} for unit in ("rad", "m")],
-        "start_speed": speed.start,
+        "start_speed": turned_on,
         "sliders": sliders,
         "fields": [{"name": p.name, "unit": p.unit, "start": p.start, "about": p.about} for p in block.parameters],
         "acting": _acting(block),
@@ -144,7 +146,7 @@ def _data(block: Block) -> Json:
         "gas": [p.name for p in block.parameters if p.name.startswith("gas") and p.name.endswith("_scale")],
         "period": period,
         # twenty turns from that speed, or the time of the run it was made from [s]
-        "t_end": 20 * 2 * 3.141592653589793 / speed.start if speed.start else block.t_end,
+        "t_end": 20 * 2 * math.pi / turned_on if turned_on else block.t_end,
     }
 
 
