@@ -11,6 +11,7 @@ from hypothesis import settings
 from mechsym.mechanisms.crankshaft_flywheel import CrankshaftFlywheelParameters
 from mechsym.mechanisms.crosshead import CrossheadParameters
 from mechsym.native import compiler
+from mechsym.quantities.display import choose
 
 # Hundreds of files are compiled for the tests; these rooms look at what users get, the others do without the last
 # optimisation
@@ -33,6 +34,13 @@ def pytest_addoption(parser):
 def _compiled_as_for_users(request, monkeypatch):
     if _QUICK in os.environ and request.path.parent.name in _AS_USERS:
         monkeypatch.delenv("CC", raising=False)
+
+
+@pytest.fixture(autouse=True)
+def _usual_units():
+    """A command that is called within a process leaves the units that it was asked for."""
+    yield
+    choose(None)
 
 
 @pytest.fixture
