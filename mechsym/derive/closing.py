@@ -149,6 +149,7 @@ def finish(m: Declaration) -> None:
     if not m.links:
         if m.shapes:
             m.cams_drawn.clear()
+        figures.draw_bodies(m)
         return
     settle(m)
     _require_held(m)

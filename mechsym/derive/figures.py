@@ -48,6 +48,22 @@ def draw(m: Declaration) -> None:
             _face(m, line, length, mark)
 
 
+def draw_bodies(m: Declaration) -> None:
+    """Where nothing else is drawn, centres of the bodies that move, and the origin; as large as the letters say."""
+    if m.shapes or m.sketches or m.cams_drawn:
+        return
+    lengths = [letter for letter in m.parameter_list if m.units[letter.name] == "m"]
+    moving = [b for b in m.bodies if b.mass != 0 and any(m.tape.flat(x).free_symbols & {*m.q} for x in b.at)]
+    if not lengths or not moving:
+        return
+    size = sqrt(sum((length**2 for length in lengths), Integer(0))) / 30
+    m.draw_line((-size, Integer(0)), (size, Integer(0)), role="frame")
+    m.draw_line((Integer(0), -size), (Integer(0), size), role="frame")
+    for body in moving:
+        m.draw_circle(body.at, size, role="planet")
+        m._shape("trace", "trace", (body.at,))
+
+
 def draw_cams(m: Declaration) -> None:
     """Cams by where their contact runs as they turn, and their followers."""
     for cam in m.cams_drawn:

@@ -1,12 +1,15 @@
 """A machine of one's own that is no engine: its run shows coordinates and outputs, no word of engines stands beside."""
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mechsym import cases
+from mechsym.jobs.export import drawing
 from mechsym.jobs.run import run
+from mechsym.mechanisms.drawn_parts import Circle
 from mechsym.report import case_report, html
 
 OWN = Path(__file__).parents[1] / "plausible" / "own"
@@ -39,3 +42,14 @@ def test_a_report_says_nothing_of_engines_that_it_has_not_to(thrown):
         assert word not in text, word
     assert "<dt>machine</dt>" in text
     assert text.count("coordinates of trebuchet.py are free") == 1  # of three parts that want one coordinate
+
+
+def test_bodies_without_links_are_drawn_where_their_centres_are():
+    """A crane: its trolley goes along the rail, its load hangs p below; the picture tells the time of the run."""
+    case = cases.load(str(OWN / "crane.toml"))
+    shapes, course = drawing(case)
+    trolley, load = (shape.centre for shape in shapes(0.0) if isinstance(shape, Circle))
+    assert trolley == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert math.dist(trolley, load) == pytest.approx(6.0)
+    assert math.atan2(load[0], -load[1]) == pytest.approx(math.radians(5.0))
+    assert (course.lasts, course.back) == (pytest.approx(10.0), False)
