@@ -55,6 +55,9 @@ def test_limits_that_are_kept_say_by_how_much():
 
 def test_a_path_that_does_not_close_tells_its_gap():
     assert feasibility._closure_check(2e-9, 1.0).text == "gap of the path 2e-09 of at most 1e-09 m"
+    for gap, kept in ((5e-10, True), (3e-9, False)):  # of a billionth of 2 m
+        check = feasibility._closure_check(gap, 2.0)
+        assert (check.kept, check.margin) == (kept, pytest.approx(1 - gap / 2e-9))
 
 
 @pytest.mark.parametrize(
