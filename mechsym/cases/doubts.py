@@ -37,7 +37,7 @@ _MEASURED = (
     "free_exponent heat loss_angle mechanical_efficiency peak_angle scale speed"
 ).split()
 _UNITS = {k.code: k.unit for k in (*INPUTS, *RESULTS, *PROPORTIONS)} | dict.fromkeys((*_MEASURED, "unused"), "-")
-_UNITS |= {"drive_start": "s", "massless": "kg*m^2"}
+_UNITS |= {"drive_start": "s", "massless": "kg*m^2", "idle_input": "-"}
 
 _LETTERS = ("parameters", "inputs", "start")  # sections whose keys are the mechanism's letters
 

@@ -1,7 +1,7 @@
 """Doubts of what a case gives: its gas, its motion, a run of it, its forces, its cycle."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 # what commands tell of the gas, the key of its limit, and the unit it is told in [SI]
 _LIMITED = (("p_max_mpa", "peak_pressure", 1e6), ("p_max_bar", "peak_pressure", 1e5),
             ("t_max_k", "peak_temperature", 1.0), ("knock", "knock", 1.0))  # fmt: skip
+_NOTHING = 1e-12  # lever of a force [m], or share of a torque, that is rounding
 PISTON_SPEED = next(kind.highest for kind in PROPORTIONS if kind.code == "piston_speed")  # what is refused [m/s]
 
 
@@ -84,7 +85,7 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
         return proportion("open_loop", "operation: share of a turn in which the loops close", float(closed.mean()))
     inner = _borne(case, mechanism, phi)
     if own.is_file(case.mechanism):
-        inner += tuple(of_inertia(case, mechanism, {}))
+        inner += (*of_inertia(case, mechanism, {}), *_idle(case, mechanism, phi))
     bores = [getattr(case.sections.get(name), "bore", None) for name in ("chamber", "cycle")]
     bore = next(filter(None, bores), None)
     if bore is None:
@@ -107,6 +108,24 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     work = 1e6 * area * stroke * len(x)  # at ten bar, about full load
     return raised + (proportion("shaft_energy", "work of a turn / energy of the shaft", work / (least * omega**2))
                     if least > 0 and omega else ())  # fmt: skip
+
+
+def _idle(case: Case, mechanism: Mechanism, phi: np.ndarray) -> Iterator[Doubt]:
+    """Constants of `[inputs]` that do nothing at any angle: what they act on does not move."""
+    given = asdict(case.need("inputs")) if "inputs" in case.sections else {}
+    dynamics, (q,) = mechanism.functions["dynamics"], mechanism.coordinates
+    *_, rest = dynamics(*({q: phi}.get(name, 0.0) for name in dynamics.name_in()))
+    for name, acting in given.items():
+        if not isinstance(acting, float) or not acting:
+            continue
+        *_, driven = dynamics(*({q: phi, name: acting}.get(one, 0.0) for one in dynamics.name_in()))
+        if np.nanmax(np.abs(np.asarray(driven) - np.asarray(rest)), initial=0.0) < _NOTHING * abs(acting):
+            why = (
+                "what it acts on does not move with the crank: is the other branch of a joint meant, or another place?"
+            )
+            yield Doubt(
+                code="idle_input", quantity=f"largest effect of inputs.{name}", value=0.0, usual="above 0", why=why
+            )
 
 
 def _borne(case: Case, mechanism: Mechanism, phi: np.ndarray) -> tuple[Doubt, ...]:

@@ -211,8 +211,10 @@ def borne(forces: Forces) -> list[Json]:
         several, name, (high, low) = len(row["of"]) > 1, row["names"][0], row["ends"]
         fitting = [start for start in _BEARS if pattern.startswith(start)]
         on = _BEARS[max(fitting, key=len)] if fitting and pattern not in other else joints.get(pattern, "")
+        said = pattern if several else name
+        said = f"force {said}" if pattern in other and said.startswith("F") else said
         table.append({
-            "name": name, "quantity": pattern if several else name, "of": ", ".join(row["of"]) if several else "",
+            "name": name, "quantity": said, "of": ", ".join(row["of"]) if several else "",
             "max": high, "min": low, "unit": forces.columns.units[name], "on": on,
         })  # fmt: skip
     return table

@@ -313,3 +313,19 @@ def test_a_crank_without_a_mass_is_no_thread():
     wire = 7850 * math.pi / 4 * 1e-6 / 3  # about its end
     for density, doubts in ((wire, {}), (wire / 10, {"link_thread": pytest.approx(wire / 10)}), (0.0, {})):
         assert _values(by_links(listing, {"r": 0.1, "I": density * 1e-5}, {}, {})) == doubts
+
+
+@pytest.mark.parametrize(("force", "told"), [("F", False), ("G", True)])
+def test_an_input_that_moves_nothing_is_told(tmp_path, force, told):
+    """A force on the slide of a crank, and one on a point of the frame."""
+    acting = '    F, G = m.inputs("F G", "N")\n' + "".join(
+        f"    m.force({f}, along=slide.at().{x})\n" for f, x in ("Fx", "Gy")
+    )
+    (tmp_path / "bar.py").write_text(DECLARED.replace("    output(", f"{acting}    output("))
+    letters = "\n".join(f"{name} = {value}" for name, value in BAR.items())
+    case = tmp_path / "bar.toml"
+    case.write_text(
+        f'mechanism = "./bar.py"\n[parameters]\n{letters}\n[operation]\nspeed = "60 rpm"\n[inputs]\n{force} = 100.0\n'
+    )
+    doubts = of_own(cases.load(str(case)), one_coordinate)
+    assert ("idle_input" in {doubt.code for doubt in doubts}) == told
