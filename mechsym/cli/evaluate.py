@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import emit, json_option, pairs, set_option
+from mechsym.cli.common import case_of, emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
 from mechsym.quantities.results import tell
 
@@ -28,16 +28,19 @@ _ROUND_OFF = 1e-14  # what trigonometry leaves of a zero, by the largest value w
 def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str, ...]) -> None:
     """Evaluate a mechanism at one state; names are parameters, coordinates, velocities and inputs.
 
-    What is not set is 0. mass_matrix * qdd + bias = generalized_force. An acceleration that is set (phidd=3) asks for
-    the force along its coordinate that makes it, driving_phi.
+    NAME is a mechanism, or a case, which gives its mechanism and the parameters. What is not set is 0. mass_matrix *
+    qdd + bias = generalized_force. An acceleration that is set (phidd=3) asks for the force along its coordinate that
+    makes it, driving_phi.
 
     \b
-    Examples: mechsym eval crosshead --case zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5
+    Examples: mechsym eval zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5
               mechsym eval crosshead --latex
     """
-    from mechsym import mechanisms
+    from mechsym import cases, mechanisms
     from mechsym.mechanisms.state import state
 
+    if name in cases.names() or name.endswith(".toml"):
+        name, case_name = case_of(name, {}).mechanism, case_name or name
     if latex:
         from mechsym.mechanisms.equations import equations
 

@@ -89,3 +89,9 @@ def test_acceleration_of_crankshaft_and_flywheel(output):
     options = [word for text in state for word in ("--set", text)]
     found = json.loads(output("eval", "crankshaft_flywheel", *options, "--json"))
     assert found["acceleration"] == pytest.approx([-256.786541504, 112.068965517], rel=1e-10)
+
+
+def test_a_case_gives_its_mechanism_and_parameters_to_a_state():
+    assert output("eval", "zotov-89", "--set", "phi=1.0") == output(
+        "eval", "crosshead", "--case", "zotov-89", "--set", "phi=1.0"
+    )
