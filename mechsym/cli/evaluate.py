@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, json_option, pairs, set_option
+from mechsym.cli.common import emit, json_option, pairs, set_option
 from mechsym.errors import BadInput
 from mechsym.quantities.results import tell
 
@@ -40,7 +40,7 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
     from mechsym.mechanisms.state import state
 
     if name in cases.names() or name.endswith(".toml"):
-        name, case_name = case_of(name, {}).mechanism, case_name or name
+        name, case_name = cases.load(name).mechanism, case_name or name
     if latex:
         from mechsym.mechanisms.equations import equations
 
