@@ -30,9 +30,10 @@ from mechsym.jobs.problem import Ready, beyond, guide_of
 from mechsym.jobs.problem import ready as running
 from mechsym.machine.loads import Load, settle
 from mechsym.mechanisms import listing
-from mechsym.mechanisms.drawing import Shapes, declared, drawn
+from mechsym.mechanisms.drawing import Shapes, declared, drawn, extent_of
 from mechsym.mechanisms.drawn_parts import turns_round
 from mechsym.mechanisms.plots import turning_page
+from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.turning import FRAMES, Course, scene
 from mechsym.periodic.pieces import PPoly
 from mechsym.simulate import Settings, simulate
@@ -45,6 +46,8 @@ TURNS = 10  # of a run where the case says nothing
 _PIECE = math.radians(3.0)  # of a gas that is known as a table
 _SAMPLES = 12  # in a piece
 _Force = Callable[[np.ndarray], np.ndarray]  # angle [rad] to net force of the gas [N]
+_MOST_TURNS, _LAST_TURNS = 4, 2  # more turns of a run are too quick for a picture, which shows so many
+_FLAT = 0.05  # height of a picture by its width that shows nothing
 _INSIDE = 1e-9  # where the end of a piece is asked for [rad]
 
 
@@ -145,20 +148,36 @@ def _in_motion(case: Case) -> tuple[Callable[[float], Shapes], Course] | None:
     back = "motion" in case.sections
     if back:
         mechanism, table = mechanism_of(case), motion(case).columns
-        lasts = float(table["t"][-1])
+        t = table["t"]
     else:
         problem = ready(case).problem
         run = simulate(problem, dataclasses.replace(Settings(), check="none"))
-        mechanism, table, lasts = problem.mechanism, run.columns, float(run.t[-1] - run.t[0])
+        mechanism, table, t = problem.mechanism, run.columns, run.t
     rows = np.array([table[q] for q in mechanism.coordinates])
-    curve = scipy.interpolate.CubicSpline(np.linspace(0.0, 1.0, rows.shape[1]), rows.T)
+    turned = _turned(mechanism, rows)
+    if not back and turned[0] > 2 * math.pi * _MOST_TURNS:  # only the last of many
+        keep = turned <= 2 * math.pi * _LAST_TURNS
+        rows, t = rows[:, keep], t[keep]
+    curve = scipy.interpolate.CubicSpline((t - t[0]) / (t[-1] - t[0]), rows.T)
 
     def pose(angle: float) -> Sequence[float]:
         share = angle / (2 * math.pi)
         return curve(1 - abs(1 - 2 * share) if back else share).tolist()
 
     shapes = declared(mechanism, listing(mechanism.name), pose)
-    return None if shapes is None else (shapes, Course(lasts=lasts, back=back))
+    if shapes is None:
+        return None
+    left, right, low, high = extent_of(shapes)
+    if min(right - left, high - low) < _FLAT * max(right - left, high - low):
+        return None  # dots along a line
+    return shapes, Course(starts=float(t[0]), lasts=float(t[-1] - t[0]), back=back)
+
+
+def _turned(mechanism: Mechanism, rows: np.ndarray) -> np.ndarray:
+    """How far the coordinate that turns most has still to turn, at each time [rad]."""
+    turns = [np.abs(row - row[-1]) for q, row in zip(mechanism.coordinates, rows, strict=True)
+             if mechanism.units.get(q, "rad") == "rad"]  # fmt: skip
+    return max(turns, key=lambda row: float(row[0]), default=np.zeros(rows.shape[1]))
 
 
 def loaded(scenes: list[Json], case: Case) -> list[Json]:

@@ -26,6 +26,7 @@ def ordered(shapes: Iterable[Line | Circle]) -> list[Line | Circle]:
 class Course:
     """How a picture goes over a motion in time."""
 
+    starts: float = quantity("s", low=0, about="time of its first frame")
     lasts: float = quantity("s", low=0, about="how long the motion takes")
     back: bool = False  #: Whether it goes back again
 
@@ -64,7 +65,7 @@ def scene(
     size = [1000.0, round(scale * (high - low + 2 * pad), 1)]
     origin = [round(scale * (pad - left), 1), round(scale * (high + pad), 1)]
     facts = {"name": name, "size": size, "scale": scale, "origin": origin, "turns": turns, "count": frames}
-    facts |= {} if course is None else {"lasts": course.lasts, "back": course.back}
+    facts |= {} if course is None else {"starts": course.starts, "lasts": course.lasts, "back": course.back}
     return facts | {"shapes": shapes} | ({"space": True} if any("space" in shape for shape in shapes) else {})
 
 

@@ -52,4 +52,17 @@ def test_bodies_without_links_are_drawn_where_their_centres_are():
     assert trolley == pytest.approx((0.0, 0.0), abs=1e-12)
     assert math.dist(trolley, load) == pytest.approx(6.0)
     assert math.atan2(load[0], -load[1]) == pytest.approx(math.radians(5.0))
-    assert (course.lasts, course.back) == (pytest.approx(10.0), False)
+    assert (course.starts, course.lasts, course.back) == (0.0, pytest.approx(10.0), False)
+
+
+def test_of_many_turns_the_picture_shows_the_last_two():
+    """A washer's drum; its laundry turns with it, so that two turns go round it twice."""
+    case = cases.load(str(OWN / "washer.toml"))
+    shapes, course = drawing(case)
+    result = run(case, check="none").result
+    then = np.interp(result.columns["phi"][-1] - 4 * math.pi, result.columns["phi"], result.t)
+    assert (course.starts, course.starts + course.lasts) == (pytest.approx(then, abs=0.02), pytest.approx(result.t[-1]))
+
+
+def test_dots_along_a_line_are_no_picture():
+    assert drawing(cases.load(str(OWN / "suspension.toml"))) is None
