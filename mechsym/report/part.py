@@ -53,12 +53,14 @@ def over_time(title: str, case: Case) -> ReportPart:
     numbers = driven.numbers(moved, case.name)
     units = numbers.max.units
     shown = [name for name, unit in units.items() if name in moved.one.driven or unit in ("N", "N*m", "W")]
-    ends = {"largest": numbers.max, "smallest": numbers.min}
+    ends = {"most": numbers.max, "least": numbers.min}
     rows = [{"quantity": n} | {end: quantity_text(of[n], units[n], 4) for end, of in ends.items()} for n in shown]
-    most = [f"{quantity_text(numbers.max[f'driving_{q}'], units[f'driving_{q}'], 4)} along {q}" for q in numbers.driven]
+    drives = {q: f"driving_{q}" for q in numbers.driven}
+    largest = {q: max(abs(numbers.max[name]), abs(numbers.min[name])) for q, name in drives.items()}
+    most = [f"{quantity_text(largest[q], units[name], 4)} along {q}" for q, name in drives.items()]
     return ReportPart(
         name="forces", title=title, view=driven.view(moved),
-        verdict=f"The drives give at most {' and '.join(most)} in {quantity_text(numbers.t_end, 's')}.",
-        grids=(grid("Drives and what bears what, over time", rows, ["quantity", "largest", "smallest"]),),
+        verdict=f"The drives give at most, either way, {', '.join(most)} in {quantity_text(numbers.t_end, 's')}.",
+        grids=(grid("Drives and what bears what, over time", rows, ["quantity", "most", "least"]),),
         silent=("rigid links without play; friction is that of the declaration",), numbers=tell(numbers),
     )  # fmt: skip

@@ -10,6 +10,7 @@ from mechsym import cases
 from mechsym.jobs.export import drawing
 from mechsym.jobs.run import run
 from mechsym.mechanisms.drawn_parts import Circle
+from mechsym.quantities.display import figure
 from mechsym.report import case_report, html
 
 OWN = Path(__file__).parents[1] / "plausible" / "own"
@@ -66,3 +67,27 @@ def test_of_many_turns_the_picture_shows_the_last_two():
 
 def test_dots_along_a_line_are_no_picture():
     assert drawing(cases.load(str(OWN / "suspension.toml"))) is None
+
+
+LOWERED = """from mechsym.derive import Mechanism
+
+
+def hoist():
+    m = Mechanism("hoist", about="A load on a rope.")
+    z = m.coordinates("z", "m")
+    mass, F = m.parameters("mass", "kg", above=0), m.inputs("F", "N")
+    m.weight(0, -9.81)
+    m.body("load", mass=mass, at=(0, -z))
+    m.force(F, along=z)
+    return m
+"""
+
+
+def test_the_answer_of_a_motion_is_the_largest_force_of_each_drive_either_way(tmp_path):
+    """A load that is lowered by a cycloid holds its rope: the drive pushes up all the way, m (g + 2 pi h/T^2)."""
+    (tmp_path / "hoist.py").write_text(LOWERED)
+    (tmp_path / "hoist.toml").write_text(
+        'mechanism = "./hoist.py"\n[parameters]\nmass = 2.0\n[motion]\nz = "cycloid 300 mm"\nduration = "2 s"\n'
+    )
+    (part,) = (one for one in case_report(cases.load(str(tmp_path / "hoist.toml"))).parts if one.name == "forces")
+    assert f"{figure(2.0 * (9.81 + 2 * math.pi * 0.3 / 4), 4)} N along z" in part.verdict
