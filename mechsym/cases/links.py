@@ -65,14 +65,14 @@ def by_links(
     of = "link"
     if not links:
         of, long = "letter", [abs(letters[name]) for name, unit in units.items() if unit == "m" and letters[name]]
-    spread = proportion("link_spread", f"longest {of} / shortest", max(long) / min(long)) if long else ()
+    spread = max(long, default=1.0) / min(long, default=1.0)
     together = (
-        *spread,
+        *proportion("link_spread", f"longest {of} / shortest", spread),
         *_masses(links, letters, units, slides, rotors),
         *_stress(links, letters, *forces),
         *_carried(listing, letters, speeds),
         *_solids(listing, letters, rotors),
-        *_turning(listing, letters, forces[1], max(long, default=1.0) / min(long, default=1.0) if links else 1.0),
+        *_turning(listing, letters, forces[1], spread if links else 1.0),
     )
     for doubt in (*of_links, *together):
         if doubt.code not in worst or far(doubt) > far(worst[doubt.code]):

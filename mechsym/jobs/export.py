@@ -47,6 +47,7 @@ _PIECE = math.radians(3.0)  # of a gas that is known as a table
 _SAMPLES = 12  # in a piece
 _Force = Callable[[np.ndarray], np.ndarray]  # angle [rad] to net force of the gas [N]
 _MOST_TURNS, _LAST_TURNS = 4, 2  # more turns of a run are too quick for a picture, which shows so many
+_FEW = 24  # results, with which two turns are no picture
 _FLAT = 0.05  # height of a picture by its width that shows nothing
 _INSIDE = 1e-9  # where the end of a piece is asked for [rad]
 
@@ -153,11 +154,12 @@ def _in_motion(case: Case) -> tuple[Callable[[float], Shapes], Course] | None:
         problem = ready(case).problem
         run = simulate(problem, dataclasses.replace(Settings(), check="none"))
         mechanism, table, t = problem.mechanism, run.columns, run.t
-    rows = np.array([table[q] for q in mechanism.coordinates])
+    t, once = np.unique(t, return_index=True)  # an event may have two rows
+    rows = np.array([table[q] for q in mechanism.coordinates])[:, once]
     turned = _turned(mechanism, rows)
-    if not back and turned[0] > 2 * math.pi * _MOST_TURNS:  # only the last of many
-        keep = turned <= 2 * math.pi * _LAST_TURNS
-        rows, t = rows[:, keep], t[keep]
+    last = turned <= 2 * math.pi * _LAST_TURNS
+    if not back and turned[0] > 2 * math.pi * _MOST_TURNS and np.count_nonzero(last) > _FEW:
+        rows, t = rows[:, last], t[last]
     curve = scipy.interpolate.CubicSpline((t - t[0]) / (t[-1] - t[0]), rows.T)
 
     def pose(angle: float) -> Sequence[float]:

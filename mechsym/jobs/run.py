@@ -168,9 +168,8 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
             "not carry it over compression and load; raise flywheel.inertia or simulation.speed_start, or lower [load]"
         )
     lines += _lifted(case, result)
-    outputs: tuple[str, ...] = ()
-    if engine is None and not starts:
-        result, outputs = _with_outputs(case, result)
+    alone = engine is None and not starts
+    result, outputs = _with_outputs(case, result) if alone else (result, ())
     doubted = of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
     doubted += tuple(of_start(case, mechanism_of(case), result.columns))
     return FinishedRun(
@@ -178,7 +177,8 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         final_state=final_state(result, numbers.speeds),
         natural_frequencies=natural_frequencies(case.mechanism, case.need("parameters")), twist=twist,
         start_up=tuple(start_numbers(s) for s in starts), start_ups=starts, vibration=train, settling=settles,
-        engine=engine, outputs=outputs, doubts=doubted + (doubts(train, twist) if train else ()), findings=tuple(lines),
+        engine=engine, alone=alone, outputs=outputs, findings=tuple(lines),
+        doubts=doubted + (doubts(train, twist) if train else ()),
     )  # fmt: skip
 
 
@@ -194,7 +194,7 @@ def _with_outputs(case: Case, result: Result) -> tuple[Result, tuple[str, ...]]:
     if len(at) < kinematics.n_in():
         return result, ()
     values, units = along(kinematics, at), plan_of(case.mechanism).listing(None)["outputs"]
-    slopes = {name for name in values if (found := _SLOPE.match(name)) and found[1] in values}
+    slopes = {name for name in values if (slope := _SLOPE.match(name)) and slope[1] in values}
     names = tuple(n for n in values if n in units and n not in slopes | {"inertia"} and n not in result.columns)
     columns = {**result.columns, **{n: np.broadcast_to(values[n], result.t.shape) for n in names}}
     return replace(result, columns=columns, units={**result.units, **{n: units[n] for n in names}}), names

@@ -140,13 +140,11 @@ def with_gas(case: Case) -> bool:
 
 
 def _block(one: CaseReport, date: str) -> dict[str, str]:
-    wanted = one.case.sections.get("report")
+    wanted, kind = one.case.sections.get("report"), "engine" if with_gas(one.case) else "machine"
     overrides = ", ".join(f"{key} = {value}" for key, value in one.case.overrides.items())
     rows = {
         "project": getattr(wanted, "project", ""),
-        "engine" if with_gas(one.case) else "machine": f"{_engine(one.case)}: {one.case.about}"
-        if one.case.about
-        else _engine(one.case),
+        kind: f"{_engine(one.case)}: {one.case.about}" if one.case.about else _engine(one.case),
         "data from": one.source,
         "changed for this report": overrides,
         "prepared by": getattr(wanted, "author", ""),

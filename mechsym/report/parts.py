@@ -293,8 +293,8 @@ def _simulate(case: Case) -> ReportPart:
     of = f" of the {result.engine.words}" if result.engine and result.engine.words else ""
     speed = f"over the last period the speed{of} is {span(result.speed)}"
     if result.alone:
-        each = ", ".join(f"that of {q} is {span(of_one)}" for q, of_one in run_numbers.speeds.items())
-        speed = f"over the last {quantity_text(run_numbers.window, 's')} the speed{each.removeprefix('that')}"
+        each = ", that ".join(f"of {q} is {span(of_one)}" for q, of_one in run_numbers.speeds.items())
+        speed = f"over the last {quantity_text(run_numbers.window, 's')} the speed {each}"
     numbers = {k: v for k, v in tell(run_numbers).items() if k != "wall_s"}  # another each time
     end = f"{_ENDS.get(run_numbers.end, 'ended by ' + run_numbers.end)} in {figure(run_numbers.t_end, 3)} s"
     stall = tuple(text for text in result.findings if text.startswith("the shaft stops"))
