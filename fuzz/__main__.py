@@ -1,6 +1,6 @@
-"""python -m fuzz [COUNT [SEED]]: machine-made inputs against the command line; finds go to tests/corpus.
+"""python -m fuzz [COUNT [SEED [printed]]]: machine-made inputs against the command line; finds go to tests/corpus.
 
-COUNT is 10,000 or the environment's FUZZ, SEED 1.
+COUNT is 10,000 or the environment's FUZZ, SEED 1; `printed` makes formulas of texts with changes, and nothing else.
 """
 
 import importlib
@@ -20,7 +20,7 @@ STEP = 100  # inputs from one line of figures to the next: nothing is lost where
 WARM = (
     "scipy.optimize", "scipy.integrate", "scipy.interpolate", "sympy", "mechsym.audit.hosts.formula",
     "mechsym.cli.audit",
-    "mechsym.cli.cycle", "mechsym.cli.cycle_measured", "mechsym.cli.flywheel", "mechsym.cli.forces",
+    "mechsym.cli.cycle", "mechsym.cli.flywheel", "mechsym.cli.forces",
     "mechsym.cli.hinge", "mechsym.cli.simulate", "mechsym.cli.size", "mechsym.cli.sweep",
     "mechsym.codesign.task", "mechsym.jobs.cycle",
     "mechsym.jobs.forces", "mechsym.jobs.hinge", "mechsym.jobs.run", "mechsym.jobs.size", "mechsym.jobs.flywheel",
@@ -33,6 +33,7 @@ def main(arguments: list[str]) -> int:
     """Run; 0 when every answer was as the interface says, else 1."""
     count = int(arguments[0] if arguments else os.environ.get("FUZZ", 10_000))
     seed = int(arguments[1]) if len(arguments) > 1 else 1
+    only = arguments[2] if len(arguments) > 2 else ""
     from mechsym import cases
 
     texts = {name: cases.text(name) for name in cases.names()}
@@ -41,7 +42,7 @@ def main(arguments: list[str]) -> int:
     codes: Counter[str] = Counter()
     faults: dict[str, str] = {}
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        found = pool.map(lambda i: _one(make(seed, i, texts)), range(count))
+        found = pool.map(lambda i: _one(make(seed, i, texts, only)), range(count))
         for done, (made, code, fault) in enumerate(found, 1):
             codes[str(code)] += 1
             if fault is not None:

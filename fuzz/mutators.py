@@ -3,13 +3,19 @@
 Nothing here is taken from the package but the text of its built-in cases.
 """
 
+import functools
 import math
 import random
 import re
+import tomllib
 from collections.abc import Callable
+from pathlib import Path
 
 Input = dict[str, object]  # argv: list of str, files: text by name
 
+BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
+ASSUMED = ("phidd = 0", "r < l", "phid = 5", "lam < 1", "r = l", "phi > 0", "phidd", "r <", "l = 0")
+CLAIMS = ("=", "approx", "lam^2", "within 1 %", "lam^4", "within 0 %", "x^2", "within 5e99 %")
 VALUES = (
     "0", "-1", "1", "-0.0", "1e-300", "1e300", "1e-20", "1e20", "nan", "inf", "-inf", "true", "[]", "[1, 2]", '""',
     "{}", "2020-01-01", '"5 furlong"', '"1 m"', '"90 deg"', '"1 MPa"', '"100 rpm"', '"1 kg"', '"1 N*m"', '"1e9 m"',
@@ -187,6 +193,26 @@ def formula(rng: random.Random, texts: dict[str, str]) -> Input:
     return {"argv": ["audit", f"--formula={text}", *against, *_json(rng)], "files": {}}
 
 
+@functools.cache
+def _literature() -> list[tuple[str, str]]:
+    """Formulas of texts, right and spoiled, each with what it claims to be."""
+    forms = tomllib.loads((BENCHMARKS / "auditor" / "literature.toml").read_text(encoding="utf-8"))["form"]
+    return [(text, one["against"]) for one in forms for text in (one["right"], *(s[1] for s in one["spoiled"]))]
+
+
+def printed(rng: random.Random, texts: dict[str, str]) -> Input:
+    """A formula of a text, changed at one to six places, mostly against what it claims to be."""
+    text, against = rng.choice(_literature())
+    for _ in range(rng.choice([1, 1, 2, 3, 6])):
+        text = any_text(rng, text).replace("\0", "")
+    if rng.random() < 0.1:
+        against = rng.choice(_literature())[1]
+    assumed = ["--assume", rng.choice(ASSUMED)] if rng.random() < 0.2 else []
+    claimed = ["--claim", rng.choice(CLAIMS)] if rng.random() < 0.2 else []
+    argv = ["audit", f"--formula={text}", "--against", against, *assumed, *claimed, *_json(rng)]
+    return {"argv": argv, "files": {}}
+
+
 def _expression(rng: random.Random, depth: int) -> str:
     if depth == 0:
         return rng.choice([rng.choice(LETTERS), rng.choice(LETTERS), number(rng), "0", "2"])
@@ -202,7 +228,7 @@ MUTATORS: tuple[Callable[[random.Random, dict[str, str]], Input], ...] = (
 )  # fmt: skip
 
 
-def make(seed: int, index: int, texts: dict[str, str]) -> Input:
-    """Input number `index` of a seed; the same at every run."""
+def make(seed: int, index: int, texts: dict[str, str], only: str = "") -> Input:
+    """Input number `index` of a seed, the same at every run; `only`: `printed`, in place of all others."""
     rng = random.Random(f"{seed} {index}")
-    return rng.choice(MUTATORS)(rng, texts)
+    return (printed if only == "printed" else rng.choice(MUTATORS))(rng, texts)

@@ -9,6 +9,7 @@ import pytest
 
 sys.path.append(str(Path(__file__).parents[2]))
 
+import fuzz.__main__ as fuzzing  # noqa: E402
 from fuzz.judge import Answer, answer, judged  # noqa: E402
 from fuzz.mutators import make  # noqa: E402
 from mechsym import cases  # noqa: E402
@@ -69,3 +70,12 @@ def test_inputs_are_the_same_at_every_run():
     assert [make(1, i, texts) for i in range(50)] == [make(1, i, texts) for i in range(50)]
     assert len({json.dumps(make(1, i, texts)) for i in range(50)}) == 50
     assert {make(1, i, texts)["argv"][0] for i in range(200)} >= {"cycle", "forces", "hinge", "simulate", "audit"}
+
+
+def test_inputs_come_by_the_command(capsys, monkeypatch, tmp_path):
+    """A handful of inputs of every kind, and of formulas of texts alone."""
+    monkeypatch.setattr(fuzzing, "CORPUS", tmp_path)
+    assert fuzzing.main(["4", "7"]) == 0
+    assert fuzzing.main(["4", "7", "printed"]) == 0
+    assert capsys.readouterr().out.count("4 inputs of seed 7") == 2
+    assert make(7, 0, {}, "printed") == make(7, 0, {}, "printed") != make(7, 1, {}, "printed")
