@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, heads, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import case_of, emit, heads, in_rows, json_option, out_option, pairs, set_option, table
 from mechsym.errors import MissingExtra
 from mechsym.files import Json, write_text
 from mechsym.quantities import ranges
@@ -129,6 +129,9 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
         if "phi_f" in report["speeds"]:  # a shaft with throws
             alike = [row | {"of": row["of"].replace("phi_f", "flywheel").replace("phi", "throw ")} for row in alike]
         lines += ["", table(alike, ["over the last", "of", *rates], rates)]
+    if "outputs" in report:
+        ends_of = [{"output": name, **ends, "unit": of[name]} for name, ends in report["outputs"].items()]
+        lines += ["", table(in_rows(ends_of, ("min", "max", "end")), ["output", "min", "max", "end", "unit"])]
     if sections := report["twist"]:
         columns = ["section", "twist_mean", "twist_amplitude", "twist_peak", "torque_mean", "torque_amplitude"]
         named = [s | {"section": section_words(k, len(sections))} for k, s in enumerate(sections)]

@@ -37,6 +37,7 @@ from mechsym.mechanisms.roles import ShaftRole
 from mechsym.mechanisms.shaft import elastic as shaft_of
 from mechsym.periodic.pieces import PPoly
 from mechsym.quantities.display import quantity_text
+from mechsym.quantities.results import Columns
 from mechsym.simulate import Result, Settings, simulate, simulate_many
 from mechsym.simulate.angle import tabulate
 from mechsym.simulate.constrained import LOCKED
@@ -168,8 +169,7 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
             "not carry it over compression and load; raise flywheel.inertia or simulation.speed_start, or lower [load]"
         )
     lines += _lifted(case, result)
-    alone = engine is None and not starts
-    result, outputs = _with_outputs(case, result) if alone else (result, ())
+    result, outputs = outputs_of(case, result)
     doubted = of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
     doubted += tuple(of_start(case, mechanism_of(case), result.columns))
     return FinishedRun(
@@ -177,27 +177,32 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         final_state=final_state(result, numbers.speeds),
         natural_frequencies=natural_frequencies(case.mechanism, case.need("parameters")), twist=twist,
         start_up=tuple(start_numbers(s) for s in starts), start_ups=starts, vibration=train, settling=settles,
-        engine=engine, alone=alone, outputs=outputs, findings=tuple(lines),
+        engine=engine, outputs=outputs, findings=tuple(lines),
         doubts=doubted + (doubts(train, twist) if train else ()),
     )  # fmt: skip
 
 
 _SLOPE = re.compile(r"d\d?(.+?)_d")  # of an output
+_ENGINE = {"cycle", "operation"}  # sections of what is looked at by its shaft
 
 
-def _with_outputs(case: Case, result: Result) -> tuple[Result, tuple[str, ...]]:
-    """The run with the outputs of a user's declaration, but for slopes and inertia, along it; and their names."""
-    kinematics = mechanism_of(case).functions.get("kinematics")
-    if kinematics is None or not kinematics.n_out() or not own.is_file(case.mechanism):
-        return result, ()
+def outputs_of(case: Case, result: Result) -> tuple[Result, dict[str, Columns]]:
+    """The run of a user's machine that no shaft stands for, with the outputs of its declaration along it, but for
+    slopes and inertia; and their ends.
+    """
+    kinematics = mechanism_of(case).functions.get("kinematics") if own.is_file(case.mechanism) else None
+    if kinematics is None or not kinematics.n_out() or _ENGINE <= case.sections.keys() or "startup" in case.sections:
+        return result, {}
     at = {name: result.columns[name] for name in kinematics.name_in() if name in result.columns}
     if len(at) < kinematics.n_in():
-        return result, ()
+        return result, {}
     values, units = along(kinematics, at), plan_of(case.mechanism).listing(None)["outputs"]
     slopes = {name for name in values if (slope := _SLOPE.match(name)) and slope[1] in values}
-    names = tuple(n for n in values if n in units and n not in slopes | {"inertia"} and n not in result.columns)
-    columns = {**result.columns, **{n: np.broadcast_to(values[n], result.t.shape) for n in names}}
-    return replace(result, columns=columns, units={**result.units, **{n: units[n] for n in names}}), names
+    names = [n for n in values if n in units and n not in slopes | {"inertia"} and n not in result.columns]
+    shown = {n: np.broadcast_to(values[n], result.t.shape) for n in names}
+    ends = {n: {"min": float(v.min()), "max": float(v.max()), "end": float(v[-1])} for n, v in shown.items()}
+    run = replace(result, columns={**result.columns, **shown}, units={**result.units, **{n: units[n] for n in names}})
+    return run, {n: Columns(of, dict.fromkeys(of, units[n])) for n, of in ends.items()}
 
 
 def _lifted(case: Case, result: Result) -> list[str]:
@@ -222,7 +227,7 @@ def _lifted(case: Case, result: Result) -> list[str]:
 
 
 def _engine(case: Case, numbers: RunNumbers, period: float) -> EngineSpeed | None:
-    if "cycle" not in case.sections or "operation" not in case.sections:
+    if not _ENGINE <= case.sections.keys():
         return None
     rotors = [rotor for rotor in mechanisms.roles_of(case.mechanism).rotors if rotor.angle in numbers.speeds]
     taken = next((rotor for rotor in rotors if rotor.load), None)

@@ -300,11 +300,13 @@ class SweptRun:
     numbers: RunNumbers = part(inline=True)
     peaks: Columns = part(inline=True)  #: Largest of all sections of an elastic shaft
     twist: Mapping[str, ShaftSection] = part()
+    #: Ends of the outputs of a user's machine that is no engine
+    outputs: Mapping[str, Columns] = part(optional=True)
 
 
-def swept(shaft: ElasticShaft | None, result: Result, numbers: RunNumbers) -> SweptRun:
-    """A finished run with its numbers and the twist of its shaft."""
+def swept(shaft: ElasticShaft | None, result: Result, numbers: RunNumbers, outputs: Mapping[str, Columns]) -> SweptRun:
+    """A finished run with its numbers, the twist of its shaft, and what its declaration has as outputs."""
     twists = () if shaft is None else sections(shaft, result, result.t[-1] - numbers.window)
     peaks = {name: max(getattr(section, name) for section in twists) for name in (_PEAKS if twists else ())}
     named = {section.section: section for section in twists}
-    return SweptRun(numbers=numbers, peaks=Columns(peaks, units_of(ShaftSection)), twist=named)
+    return SweptRun(numbers=numbers, peaks=Columns(peaks, units_of(ShaftSection)), twist=named, outputs=outputs)

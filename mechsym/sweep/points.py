@@ -253,6 +253,9 @@ def _verdict(case: Case, problem: "Problem", result: "Result") -> Outcome:
 
 
 def _told(case: Case, result: "Result", numbers: "RunNumbers") -> Outcome:
+    from mechsym.jobs.run import outputs_of
+
     if result.status in _BAD:
         return Gap(reason=f"{result.status}: {result.reason}")
-    return outcomes.swept(elastic(case.mechanism, case.need("parameters")), result, numbers)
+    shaft = elastic(case.mechanism, case.need("parameters"))
+    return outcomes.swept(shaft, result, numbers, outputs_of(case, result)[1])

@@ -71,6 +71,7 @@ def run_view(run: FinishedRun) -> View:
     if run.alone:
         last = f"over the last {quantity_text(numbers.window, 's')}"
         cards += [Card(name=f"speed of {q}", value=span(of), about=last) for q, of in numbers.speeds.items()]
+        cards += [Card(name=name, value=span(of), about="over the run") for name, of in run.outputs.items()]
     else:
         share = speed.ripple
         ripple = "–" if share is None else ratio_text(share) if abs(share) < 1e-6 else f"{figure(100 * share, 3)} %"
@@ -105,7 +106,7 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
         pictures.append(Picture(name="events", see=see, draw=lambda: met(result)))
     elif run.alone and len(result.t) > 1:
         see = f"Coordinates and their speeds{', and the outputs of the declaration,' if run.outputs else ''} over time."
-        pictures.append(Picture(name="motion", see=see, draw=lambda: motion(result, run.outputs)))
+        pictures.append(Picture(name="motion", see=see, draw=lambda: motion(result, [*run.outputs])))
     if run.twist:
         peak = quantity_text(max(section.twist_peak for section in run.twist), "rad", 4)
         see = f"Twist of each shaft section: the peak, {peak}, decides on the shaft."

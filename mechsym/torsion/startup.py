@@ -9,6 +9,7 @@ speed |            . rigid            The mean speed follows the rigid shaft unt
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Annotated
 
@@ -327,12 +328,17 @@ class FinishedRun(Shown):
     findings: tuple[str, ...] = part()
     start_up: tuple[StartUpNumbers, ...] = part()  #: That of the run first, then one for each further damper
     settling: Settling | None = part()  #: Where an engine settles after a start against a load
+    #: Least and largest value and that at the end of the outputs of a user's machine that is no engine
+    outputs: Mapping[str, Columns] = part(optional=True)
     result: Result  # its columns
     start_ups: tuple[StartUp, ...]
     engine: EngineSpeed | None  # of an engine
-    alone: bool = False  # whether no shaft is its main one: each coordinate is looked at by itself
-    outputs: tuple[str, ...] = ()  # columns that a user's declaration has as outputs
     doubts: tuple[Doubt, ...] = part(default=())  #: Of gas and window, that no number of the summary tells
+
+    @property
+    def alone(self) -> bool:
+        """Whether no shaft is its main one: each coordinate is looked at by itself."""
+        return self.engine is None and not self.start_ups
 
     @property
     def speed(self) -> Columns:

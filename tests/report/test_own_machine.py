@@ -1,12 +1,15 @@
 """A machine of one's own that is no engine: its run shows coordinates and outputs, no word of engines stands beside."""
 
+import json
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
 from mechsym import cases
+from mechsym.cli import mechsym
 from mechsym.jobs.export import drawing
 from mechsym.jobs.run import run
 from mechsym.mechanisms.drawn_parts import Circle
@@ -24,9 +27,18 @@ def thrown():
 def test_outputs_of_a_declaration_stand_beside_the_coordinates(thrown):
     """Height of the stone, q cos(theta) + s cos(sigma); its slopes are no curves of a run."""
     columns = thrown.result.columns
-    assert thrown.outputs == ("y",)
+    assert thrown.outputs == {"y": {"min": min(columns["y"]), "max": max(columns["y"]), "end": columns["y"][-1]}}
     assert columns["y"] == pytest.approx(8.0 * np.cos(columns["theta"]) + 7.0 * np.cos(columns["sigma"]), abs=1e-12)
     assert thrown.result.units["y"] == "m"
+
+
+def test_a_sweep_tells_the_ends_of_outputs(tmp_path):
+    case = str(OWN / "trebuchet.toml")
+    words = ["sweep", case, "--over", "parameters.s=7 m", "--show", "outputs.y", "--json", "--trust"]
+    swept = json.loads(CliRunner().invoke(mechsym, words, catch_exceptions=False).stdout)
+    ends = run(cases.load(case), check="none").outputs["y"]
+    assert {k: v[0] for k, v in swept["data"].items()} == pytest.approx({f"outputs.y.{k}": v for k, v in ends.items()})
+    assert set(swept["units"].values()) == {"m"}
 
 
 def test_a_run_draws_each_coordinate_its_speed_and_the_outputs(thrown):
@@ -34,7 +46,7 @@ def test_a_run_draws_each_coordinate_its_speed_and_the_outputs(thrown):
     figure = picture.draw()
     labels = [axis.get_ylabel() for axis in figure.axes if axis.get_visible()]
     assert labels == ["theta [deg]", "speed of theta [rpm]", "sigma [deg]", "speed of sigma [rpm]", "y [mm]"]
-    assert [card.name for card in thrown.view.cards] == ["run", "speed of theta", "speed of sigma"]
+    assert [card.name for card in thrown.view.cards] == ["run", "speed of theta", "speed of sigma", "y"]
 
 
 def test_a_report_says_nothing_of_engines_that_it_has_not_to(thrown):
