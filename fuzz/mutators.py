@@ -1,6 +1,6 @@
 """Inputs out of valid ones: cases, overrides, ranges, measured diagrams, formulas; each changed at one to three places.
 
-Nothing here is taken from the package but the text of its built-in cases.
+Nothing here is taken from the package but the text of its built-in cases, and of the benches' literature.
 """
 
 import functools

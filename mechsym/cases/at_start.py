@@ -21,6 +21,7 @@ from mechsym.mechanisms.plan import plan_of, roles_of
 from mechsym.mechanisms.record import Mechanism, form_of
 from mechsym.plausible import Doubt, proportion
 
+NOTHING = 1e-12  #: Lever of a force [m], or share of a torque, that is rounding
 _SEEN = 0.2  # of a period: five results show a vibration
 _STATES = 200  # of a run, at which forces are compared
 
@@ -66,10 +67,18 @@ def _acting(acts: Mapping[str, float], mechanism: Mechanism, columns: Mapping[st
     for name in acts:
         rest = driven({other: acting for other, acting in acts.items() if other != name})
         own, beside = (np.nanmedian(np.abs(v), axis=1) for v in (together - rest, rest))
-        moved = own > 0
-        if moved.any() and (beside[moved] > 0).all():
+        moved = own > NOTHING * abs(acts[name])
+        if np.nanmax(np.abs(together - rest), initial=0.0) <= NOTHING * abs(acts[name]):
+            yield idle(name)
+        elif moved.any() and (beside[moved] > 0).all():
             share = float((own[moved] / beside[moved]).max())
             yield from proportion("input_share", f"usual effect of {name} in the run / of all else that acts", share)
+
+
+def idle(name: str) -> Doubt:
+    """The doubt of an input that does nothing; the same before a run and after it, so that it is told once."""
+    why = "what it acts on does not move: is the other branch of a joint meant, or another place?"
+    return Doubt(code="idle_input", quantity=f"largest effect of inputs.{name}", value=0.0, usual="above 0", why=why)
 
 
 def _stretched(

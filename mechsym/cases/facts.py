@@ -30,6 +30,16 @@ class CaseFacts:
         return Path(self.mechanism).name
 
     @property
+    def called(self) -> str:
+        """What it is for people: gas drives an engine, or could."""
+        return "engine" if self.roles is None or self.roles.pistons or self.roles.faces else "machine"
+
+    @property
+    def alone(self) -> bool:
+        """Whether no shaft stands for it in a run, so that each coordinate is looked at by itself."""
+        return not self.has("cycle", "operation") and not self.has("startup")
+
+    @property
     def twists(self) -> bool:
         """Whether its shaft twists in a run in time."""
         return self.roles is not None and bool(self.roles.shafts)

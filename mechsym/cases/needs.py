@@ -40,12 +40,11 @@ def require(case: Any, command: str, given: str = "") -> None:
 
 def in_words(case: CaseFacts, missing: list[str]) -> list[str]:
     """What a command lacks, for people: sections that describe one thing together stand behind its name."""
-    kind = "engine" if case.roles is None or case.roles.pistons or case.roles.faces else "machine"
     for thing, names in {"hinge": facts.GUIDE, "sizes of its parts": facts.PARTS}.items():
         sections = [f"[{name}]" for name in names]
         if all(one in missing for one in sections):
             rest = [what for what in missing if what not in sections]
-            missing = [f"this kind of {kind} has no {thing} ({', '.join(sections)})", *rest]
+            missing = [f"this kind of {case.called} has no {thing} ({', '.join(sections)})", *rest]
     return missing
 
 

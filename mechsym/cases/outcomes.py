@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.cases import Case
-from mechsym.cases.at_start import of_inertia
+from mechsym.cases.at_start import NOTHING, idle, of_inertia
 from mechsym.cases.laws import fired
 from mechsym.cases.links import by_force, by_links, linked
 from mechsym.cycle.gas import Gas
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 # what commands tell of the gas, the key of its limit, and the unit it is told in [SI]
 _LIMITED = (("p_max_mpa", "peak_pressure", 1e6), ("p_max_bar", "peak_pressure", 1e5),
             ("t_max_k", "peak_temperature", 1.0), ("knock", "knock", 1.0))  # fmt: skip
-_NOTHING = 1e-12  # lever of a force [m], or share of a torque, that is rounding
 PISTON_SPEED = next(kind.highest for kind in PROPORTIONS if kind.code == "piston_speed")  # what is refused [m/s]
 
 
@@ -119,13 +118,8 @@ def _idle(case: Case, mechanism: Mechanism, phi: np.ndarray) -> Iterator[Doubt]:
         if not isinstance(acting, float) or not acting:
             continue
         *_, driven = dynamics(*({q: phi, name: acting}.get(one, 0.0) for one in dynamics.name_in()))
-        if np.nanmax(np.abs(np.asarray(driven) - np.asarray(rest)), initial=0.0) < _NOTHING * abs(acting):
-            why = (
-                "what it acts on does not move with the crank: is the other branch of a joint meant, or another place?"
-            )
-            yield Doubt(
-                code="idle_input", quantity=f"largest effect of inputs.{name}", value=0.0, usual="above 0", why=why
-            )
+        if np.nanmax(np.abs(np.asarray(driven) - np.asarray(rest)), initial=0.0) < NOTHING * abs(acting):
+            yield idle(name)
 
 
 def _borne(case: Case, mechanism: Mechanism, phi: np.ndarray) -> tuple[Doubt, ...]:

@@ -69,13 +69,16 @@ def forces(case: Case, diagram: str | None, comparison: bool, law: str | None, o
 
 def _motion(case: Case, out: Path | None) -> None:
     from mechsym.cases.outcomes import of_motion
-    from mechsym.forces.driven import numbers
-    from mechsym.jobs.export import write_motion
+    from mechsym.forces.driven import numbers, write
+    from mechsym.jobs.export import turning
     from mechsym.jobs.forces import motion
 
     driven = motion(case)
     summary = numbers(driven, case.name)
-    files = [] if out is None else [str(file) for file in write_motion(case, driven, tell(summary), out)]
+    files = []
+    if out is not None:
+        about = case.about or case.name
+        files = [str(file) for file in write(driven, tell(summary), out, about, turning(case))]
     beside = {"doubts": of_motion(case, driven), "files": files}
     emit(summary, lambda: _over_time(summary), beside=beside, files=files)
 

@@ -42,7 +42,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     from mechsym.out.web import LiveRun, with_live
     from mechsym.papers.sources import sources
     from mechsym.report import case_report, html
-    from mechsym.report.build import with_gas
+    from mechsym.report.build import called
     from mechsym.report.numbers import numbers
     from mechsym.report.parts import PARTS, doubts_of
 
@@ -58,7 +58,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     with progress(len(loaded) * len(wanted) + 1, "report") as bar:
         reports = []
         for case in loaded:
-            title = f"own {'engine' if with_gas(case) else 'machine'}" if case.source == "own" else case.source
+            title = f"own {called(case)}" if case.source == "own" else case.source
             reports.append(case_report(case, tuple(wanted), titles.get(title, title), lambda: bar.update(1)))
         path = file_in(out, "-".join([*(case.name for case in loaded), "report.html"]), ".html", ".htm")
         text = html(reports, date)

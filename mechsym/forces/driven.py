@@ -5,7 +5,8 @@ file are joined by splines of degree 5, whose fourth derivative is continuous; a
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import casadi as ca
@@ -13,10 +14,11 @@ import numpy as np
 import scipy
 
 from mechsym.errors import BadInput, suggest
-from mechsym.files import Json
+from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.files.tables import columns_of
 from mechsym.mechanisms import constraints, driven
 from mechsym.mechanisms.driven import MotionSettings
+from mechsym.mechanisms.plots import turning_page
 from mechsym.mechanisms.record import Mechanism, velocities
 from mechsym.page import Card, Picture, View
 from mechsym.periodic.rises import RISES
@@ -24,7 +26,7 @@ from mechsym.quantities import parse, record
 from mechsym.quantities.display import quantity_text
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.quantities.units import Array, Second
-from mechsym.style import BLUE, axis_unit, panels
+from mechsym.style import BLUE, axis_unit, panels, svg
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -277,3 +279,15 @@ def numbers(motion: DrivenForces, case: str) -> DrivenNumbers:
         work={q: float(curve.integrate(0.0, table["t"][-1])) for q, curve in curves.items()},
         power_residual=None if residual is None or not largest > 0 else float(np.abs(residual).max()) / largest,
     )  # fmt: skip
+
+
+def write(moved: DrivenForces, summary: Json, folder: Path, about: str, scenes: Sequence[Json]) -> list[Path]:
+    """Write table, summary and pictures of a motion, and a page in which the machine moves, of its scenes."""
+    files = [
+        write_quantities(folder / "forces.csv", moved.columns, moved.columns.units),
+        write_text(folder / "summary.json", to_json(summary) + "\n"),
+    ]
+    files += [write_text(folder / f"{one.name}.svg", svg(one.draw())) for one in view(moved).pictures]
+    if scenes:
+        files.append(write_text(folder / "mechanism.html", turning_page(scenes, about)))
+    return files

@@ -4,7 +4,6 @@ import contextlib
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 
 import numpy as np
 import scipy
@@ -16,9 +15,8 @@ from mechsym.cycle.closed.model import closed_period
 from mechsym.cycle.friction import NoFriction
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
-from mechsym.files import Json, to_json, write_quantities, write_text
+from mechsym.files import Json
 from mechsym.forces.arrows import charged, pressed
-from mechsym.forces.driven import DrivenForces, view
 from mechsym.hinge.guide import Guide
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.shown import hinge_scene
@@ -32,7 +30,6 @@ from mechsym.machine.loads import Load, settle
 from mechsym.mechanisms import listing
 from mechsym.mechanisms.drawing import Shapes, declared, drawn, extent_of
 from mechsym.mechanisms.drawn_parts import turns_round
-from mechsym.mechanisms.plots import turning_page
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.turning import FRAMES, Course, scene
 from mechsym.periodic.pieces import PPoly
@@ -40,7 +37,6 @@ from mechsym.simulate import Settings, simulate
 from mechsym.simulate.constrained import LOCKED
 from mechsym.simulate.problem import Kinks, Periodic, Problem
 from mechsym.simulate.settings import Simulation
-from mechsym.style import svg
 
 TURNS = 10  # of a run where the case says nothing
 _PIECE = math.radians(3.0)  # of a gas that is known as a table
@@ -177,9 +173,9 @@ def _in_motion(case: Case) -> tuple[Callable[[float], Shapes], Course] | None:
 
 def _turned(mechanism: Mechanism, rows: np.ndarray) -> np.ndarray:
     """How far the coordinate that turns most has still to turn, at each time [rad]."""
-    turns = [np.abs(row - row[-1]) for q, row in zip(mechanism.coordinates, rows, strict=True)
-             if mechanism.units.get(q, "rad") == "rad"]  # fmt: skip
-    return max(turns, key=lambda row: float(row[0]), default=np.zeros(rows.shape[1]))
+    left = np.abs(rows - rows[:, -1:])
+    angles = [mechanism.units.get(q, "rad") == "rad" for q in mechanism.coordinates]
+    return max(left[angles], key=lambda row: float(row[0]), default=np.zeros(rows.shape[1]))
 
 
 def loaded(scenes: list[Json], case: Case) -> list[Json]:
@@ -203,15 +199,3 @@ def turning(case: Case, guide: Guide | None = None) -> list[Json]:
     if guide is not None:
         scenes.append(hinge_scene(guide, case.need("rollers"), turns, turns * FRAMES))
     return loaded(scenes, case)
-
-
-def write_motion(case: Case, moved: DrivenForces, numbers: Json, folder: Path) -> list[Path]:
-    """Write table, summary and pictures of a motion, and a page in which the machine moves."""
-    files = [
-        write_quantities(folder / "forces.csv", moved.columns, moved.columns.units),
-        write_text(folder / "summary.json", to_json(numbers) + "\n"),
-    ]
-    files += [write_text(folder / f"{one.name}.svg", svg(one.draw())) for one in view(moved).pictures]
-    if scenes := turning(case):
-        files.append(write_text(folder / "mechanism.html", turning_page(scenes, case.about or case.name)))
-    return files

@@ -177,21 +177,22 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         final_state=final_state(result, numbers.speeds),
         natural_frequencies=natural_frequencies(case.mechanism, case.need("parameters")), twist=twist,
         start_up=tuple(start_numbers(s) for s in starts), start_ups=starts, vibration=train, settling=settles,
-        engine=engine, outputs=outputs, findings=tuple(lines),
+        engine=engine, alone=facts.alone, outputs=outputs, findings=tuple(lines),
         doubts=doubted + (doubts(train, twist) if train else ()),
     )  # fmt: skip
 
 
 _SLOPE = re.compile(r"d\d?(.+?)_d")  # of an output
-_ENGINE = {"cycle", "operation"}  # sections of what is looked at by its shaft
 
 
 def outputs_of(case: Case, result: Result) -> tuple[Result, dict[str, Columns]]:
     """The run of a user's machine that no shaft stands for, with the outputs of its declaration along it, but for
     slopes and inertia; and their ends.
     """
-    kinematics = mechanism_of(case).functions.get("kinematics") if own.is_file(case.mechanism) else None
-    if kinematics is None or not kinematics.n_out() or _ENGINE <= case.sections.keys() or "startup" in case.sections:
+    if not own.is_file(case.mechanism) or not facts_of(case.mechanism, case.sections).alone:
+        return result, {}
+    kinematics = mechanism_of(case).functions.get("kinematics")
+    if kinematics is None or not kinematics.n_out():
         return result, {}
     at = {name: result.columns[name] for name in kinematics.name_in() if name in result.columns}
     if len(at) < kinematics.n_in():
@@ -227,7 +228,7 @@ def _lifted(case: Case, result: Result) -> list[str]:
 
 
 def _engine(case: Case, numbers: RunNumbers, period: float) -> EngineSpeed | None:
-    if not _ENGINE <= case.sections.keys():
+    if not {"cycle", "operation"} <= case.sections.keys():
         return None
     rotors = [rotor for rotor in mechanisms.roles_of(case.mechanism).rotors if rotor.angle in numbers.speeds]
     taken = next((rotor for rotor in rotors if rotor.load), None)

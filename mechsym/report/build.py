@@ -6,11 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 import mechsym
 from mechsym import cases
 from mechsym.cases import Case
+from mechsym.cases.facts import facts_of
 from mechsym.cases.provenance import SourcedValue, sourced
 from mechsym.files import Json, inputs
 from mechsym.jobs.export import loaded, turning
 from mechsym.jobs.measured import MeasuredDiagram
-from mechsym.mechanisms.plan import plan_of, roles_of
+from mechsym.mechanisms.plan import plan_of
 from mechsym.mechanisms.record import listing
 from mechsym.mechanisms.turning import rules
 from mechsym.page import page, title_mark
@@ -111,7 +112,7 @@ def html(reports: Sequence[CaseReport], date: str = "") -> str:
         derived = listing(plan_of(one.case.mechanism).theory).get("equations", ())
         equations = [row for row in derived if len(row["mathml"]) < _LONG]
         shown.append({"report": one, "scenes": scenes, "answer": first, "parts": parts, "equations": equations,
-                      "id": f"case-{place}", "gas": with_gas(one.case)})  # fmt: skip
+                      "id": f"case-{place}", "called": called(one.case)})  # fmt: skip
     return page(
         "report.html", shown=shown, rows=side_by_side([(r.case.name, r.parts) for r in reports]), title=_title(reports),
         block=[_block(one, date) for one in reports], many=len(reports) > 1,
@@ -134,17 +135,17 @@ def _engine(case: Case) -> str:
     return getattr(wanted, "engine", "") or case.name
 
 
-def with_gas(case: Case) -> bool:
-    """Whether gas drives pistons of the machine, or could."""
-    return "cycle" in case.sections or bool(roles_of(case.mechanism).pistons)
+def called(case: Case) -> str:
+    """Engine or machine."""
+    return facts_of(case.mechanism, case.sections).called
 
 
 def _block(one: CaseReport, date: str) -> dict[str, str]:
-    wanted, kind = one.case.sections.get("report"), "engine" if with_gas(one.case) else "machine"
+    wanted = one.case.sections.get("report")
     overrides = ", ".join(f"{key} = {value}" for key, value in one.case.overrides.items())
     rows = {
         "project": getattr(wanted, "project", ""),
-        kind: f"{_engine(one.case)}: {one.case.about}" if one.case.about else _engine(one.case),
+        called(one.case): f"{_engine(one.case)}: {one.case.about}" if one.case.about else _engine(one.case),
         "data from": one.source,
         "changed for this report": overrides,
         "prepared by": getattr(wanted, "author", ""),

@@ -333,12 +333,8 @@ class FinishedRun(Shown):
     result: Result  # its columns
     start_ups: tuple[StartUp, ...]
     engine: EngineSpeed | None  # of an engine
+    alone: bool = False  # whether no shaft stands for it, so that each coordinate is looked at by itself
     doubts: tuple[Doubt, ...] = part(default=())  #: Of gas and window, that no number of the summary tells
-
-    @property
-    def alone(self) -> bool:
-        """Whether no shaft is its main one: each coordinate is looked at by itself."""
-        return self.engine is None and not self.start_ups
 
     @property
     def speed(self) -> Columns:

@@ -12,6 +12,7 @@ from mechsym.cases.at_start import of_start
 from mechsym.cases.links import PLACES
 from mechsym.cases.outcomes import of_own
 from mechsym.jobs.machine import mechanism_of
+from mechsym.jobs.run import run
 
 OWN = Path(__file__).parents[1] / "plausible" / "own"
 
@@ -63,6 +64,17 @@ def test_both_ends_of_a_spring_start_together():
     assert doubts("punch", phid=10.0, psid=10.0)["start_speeds"] == pytest.approx(1 - 1 / 9.5, rel=1e-6)
     assert "start_speeds" not in doubts("punch", psid=10.0)
     assert doubts("punch", psi=95.0, **together)["spring_wound"] == pytest.approx(10.0)
+
+
+def test_a_drive_that_cannot_hold_its_shaft_stalls():
+    """A gear that dies out under its damper, against one that its motor drives on."""
+
+    def told(damper):
+        case = cases.load(str(OWN / "jigsaw.toml"), {"parameters.c": damper})
+        return {d.code: d.value for d in run(case, check="none").doubts}
+
+    assert "stall" not in told("3 N*s/m")
+    assert 0 <= told("3 kN*s/m")["stall"] < 0.02
 
 
 def test_what_acts_turns_no_speed_round_between_two_results():

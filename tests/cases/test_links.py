@@ -7,6 +7,7 @@ import pytest
 
 from mechsym import cases
 from mechsym.cases.links import by_force, by_links, by_sign
+from mechsym.cases.new_engine import write_engine
 from mechsym.cases.outcomes import of_own
 from mechsym.jobs.machine import one_coordinate
 
@@ -329,3 +330,17 @@ def test_an_input_that_moves_nothing_is_told(tmp_path, force, told):
     )
     doubts = of_own(cases.load(str(case)), one_coordinate)
     assert ("idle_input" in {doubt.code for doubt in doubts}) == told
+
+
+@pytest.mark.parametrize(
+    ("setting", "code"),
+    [
+        ({}, None),
+        ({"parameters.z": ["0 mm", "60 m", "120 mm", "180 mm"]}, "cylinder_pitch"),
+        ({"parameters.I0": "13.73 kg*m^2"}, "crank_inertia"),  # as heavy as no crank beside a flywheel
+        ({"parameters.I_f": "13.73 kg*m^2"}, None),
+    ],
+)
+def test_cylinders_and_cranks_of_a_boxer_engine(tmp_path, setting, code):
+    file = write_engine("boxer", 0.1, 0.08, 4, tmp_path / "boxer")[0]
+    assert {d.code for d in cases.load(str(file), setting).doubts} == ({code} if code else set())

@@ -318,4 +318,8 @@ def test_what_slides_goes_in_metres_and_each_coordinate_has_a_curve(browser, tmp
     assert tab.inner_text("#speed b") == "speed [m/s] over time"
     assert tab.inner_text("#moves_rad b") == "coordinates [deg] over time"
     assert tab.inner_text("#moves_m b") == "coordinates [mm] over time"
+    for q in ("s", "theta"):
+        drawn = tab.evaluate(f"window.mechsym.last.r.{q}")
+        assert len(drawn) == len(tab.evaluate("window.mechsym.last.r.t"))
+        assert drawn[-1] == pytest.approx(run.columns[q][-1], rel=1e-6)
     tab.close()
