@@ -21,6 +21,7 @@ def test_flywheels_of_the_prototype():
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_flywheels_without_roller_mass_and_with_two_springs():
     assert design(moving_mass=0.0).flywheel == pytest.approx(2153, rel=1e-2)
     assert design(springs=2).flywheel == pytest.approx(100, abs=5)

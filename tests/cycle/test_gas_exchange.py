@@ -24,6 +24,7 @@ from mechsym.cycle.breathing.flow import (
 )
 from mechsym.cycle.breathing.run import Cylinder, breathe, repeating
 from mechsym.cycle.heat import Woschni
+from mechsym.errors import BadInput
 
 AREA, STROKE = math.pi / 4 * 0.06**2, 0.104
 SWEPT = AREA * STROKE
@@ -153,6 +154,11 @@ def test_slow_cold_engine_is_the_ideal_pump():
     (level,) = breathed(Breathing(**wide), COLD, [20.0])
     assert abs(level.pumping) < 5e-3 * 101325.0 * SWEPT
     assert level.volumetric_efficiency == pytest.approx(1.0, abs=0.03)
+
+
+def test_a_speed_at_which_no_engine_turns_is_refused_before_it_takes_minutes():
+    with pytest.raises(BadInput, match=r"at 3\.34 rpm is not computed"):
+        breathed(Breathing(**SMALL), FIRED, [0.35, 300.0])
 
 
 def test_closed_period_is_the_adiabat():

@@ -45,7 +45,7 @@ from mechsym.cycle.heat import Adiabatic, GasAtWall, heat_flux, motored_swirl
 from mechsym.errors import BadInput
 from mechsym.native.march import Fold, folder
 from mechsym.quantities import record
-from mechsym.quantities.units import Pure, RadPerSecond, Scalar
+from mechsym.quantities.units import RPM, Pure, RadPerSecond, Scalar
 
 VOLUMES = ("plenum", "cylinder", "manifold")
 # mass [kg], internal energy [J] and burnt mass [kg] of each volume, then what has crossed the borders [kg, J]
@@ -202,6 +202,7 @@ _STEPS, _CYCLES, _SETTLED = 1440, 40, 1e-10
 _APART = 1e-6  # events that are nearer are one [rad]
 _FINER = (1, 4)  # times as many steps, where small volumes behind wide throats ask for it
 _SLOW = 200.0  # below this speed pressures settle within fewer degrees, and steps are finer in proportion [rad/s]
+_SLOWEST = 3.0  # below this a cycle would take minutes, and no engine turns [rad/s]
 _SIZES = [0, 1, 0, 3, 4, 3, 6, 7, 6]  # the state by which each is measured: burnt masses by whole ones
 _SUMS = len(STATES) - 9
 _HOT = 3.0  # temperature of the first guess in the manifold, by that of the surroundings [-]
@@ -210,6 +211,9 @@ _HOT = 3.0  # temperature of the first guess in the manifold, by that of the sur
 def breathe(cylinder: Cylinder, around: Surroundings, omega: Sequence[RadPerSecond]) -> list[Breath]:
     """Follow cycles until one repeats."""
     speeds = np.asarray(omega, float)
+    if (slowest := float(speeds.min())) < _SLOWEST:
+        raise BadInput(f"gas exchange at {slowest / RPM:.3g} rpm is not computed: pressures settle in so small a "
+                       f"part of a turn that a cycle takes minutes; {_SLOWEST / RPM:.0f} rpm is the least")  # fmt: skip
     outside = np.array([np.broadcast_to(v, speeds.shape) for v in (around.p_in, around.T_in, around.p_out)])
     steps = _STEPS * max(1, math.ceil(_SLOW / float(speeds.min())))
     for finer in _FINER:
