@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
+from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
@@ -51,6 +52,7 @@ class Judge:
     fits: Sequence[fitting.Match]
     odd: Mapping[str, list[of_units.Odd]]
     agreeing: set[str]
+    worded: Worded
     searches: int = _SEARCHES
     wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
 
@@ -73,6 +75,8 @@ class Judge:
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
                 return slip
+        if (by_words := self._by_words(order, said)) is not None:
+            return by_words
         if of_units.id_of(said) in self.agreeing:
             return Judged(verdict=AGREES, matched="units", note=own.note)
         return (
@@ -88,6 +92,24 @@ class Judge:
                     return self._carried(order, said, Judged(verdict="exact", matched=against, error=0.0))
                 return Judged(verdict="convention", matched=against, note="exact with the opposite sense")
         return None
+
+    def _by_words(self, order: int, said: Said) -> Judged | None:
+        # by what the letters are called, as in a program
+        for k in range(1, len(said.sides)):
+            row = self.worded.outcome(order, k)
+            if row is not None and row["verdict"] == "agrees":
+                return Judged(verdict="exact", matched=row["claim"], error=0.0)
+            if row is not None:
+                right = read_expression(row["correction"], (), AnyLetter())[0]
+                return Judged(
+                    verdict="misprint", matched=row["claim"], note=row["note"], error=row["max_rel_error"],
+                    correction=to_latex(right, self._spelled(said)),
+                )  # fmt: skip
+        return None
+
+    def _spelled(self, said: Said) -> dict[str, str]:
+        everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
+        return everywhere | dict(said.spelled) | {f"{self.world.angle}d": r"\dot{\varphi}"}
 
     def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
         # one slip away from the quantity that the text's words name, in letters that are all known
@@ -269,8 +291,7 @@ class Judge:
         beside = _BESIDE.search(row["note"]) and set(letters(right)) <= set(letters(self.world.plain(side)))
         if _PUT_BACK.search(row["note"]) and of_units.id_of(said) not in self.odd and not beside:
             return None  # what is left out may be 1 there; with a unit, or beside itself, it cannot
-        everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
-        spelled = everywhere | dict(said.spelled) | {f"{self.world.angle}d": r"\dot{\varphi}"}
+        spelled = self._spelled(said)
         spelled |= {a: said.spelled[k] for k, a in self.world.aliases.items() if k in said.spelled}
         left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
         if left:

@@ -19,6 +19,7 @@ from mechsym.audit.judge.asked import Asked, question_of
 from mechsym.audit.judge.prover import agreement, judges
 from mechsym.audit.read.displays import Displayed, displayed
 from mechsym.audit.read.latex import read_latex
+from mechsym.audit.read.macros import expanded
 from mechsym.audit.read.reader import (
     RESERVED,
     AnyLetter,
@@ -226,7 +227,7 @@ def check_paper(path: Path, asked: Asked) -> list[Row]:
     asked: `theory`: name of a theory, or TOML file that declares one or says `base` and `[symbols]`; `letters`: further
     symbols; assumptions and conventions for all equations.
     """
-    equations = displayed(read_text(path))
+    equations = displayed(expanded(read_text(path)))
     if not equations:
         raise BadInput(f"{path}: there is no display equation in it; equation, align, gather, \\[ \\] and $$ are read")
     budget.require(f"{path}: {len(equations)} equations", SECONDS * len(equations), 0.0, "give a part of it")

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from mechsym.audit.hosts.equations import AGREES, Judge, Judged
 from mechsym.audit.hosts.paper import CARRIED, EquationPlace, few
+from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.world import World
@@ -87,7 +88,7 @@ def _rows_of(file: Path) -> list[Row]:
         odd.setdefault(of_units.id_of(one.said), []).append(one)
     _, fitted = of_units.odd(kinds, paper.said)
     world = World(paper=paper, kinds=kinds)
-    judge = Judge(world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted)
+    judge = Judge(world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted, worded=Worded(world))
     rows = []
     for order, said in enumerate(world.paper.said):
         if not said.inline:

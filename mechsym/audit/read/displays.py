@@ -70,6 +70,7 @@ class Displayed:
     aside: str = ""  #: Words behind it that are no formula
     unit: str = ""  #: Unit in brackets behind it
     begins: int = 0  #: Where it stands in the file [-]
+    opens: int = 0  #: Where its display begins there [-]
 
 
 @record
@@ -103,7 +104,9 @@ def displayed(text: str) -> list[Displayed]:
             number = trailing[1] if trailing and not number else number
             begins = block.start + start + len(row) - len(row.lstrip())
             line = bisect_right(breaks, begins) + 1
-            one = Displayed(number=number, label=label[1] if label else "", text=plain, line=line, begins=begins)
+            one = Displayed(
+                number=number, label=label[1] if label else "", text=plain, line=line, begins=begins, opens=block.start
+            )
             if equations and _joins(equations[-1].text, plain, len(equations) > before):
                 last = equations.pop()
                 number, name = last.number or number, last.label or one.label
@@ -163,7 +166,11 @@ def _plain(row: str) -> str:
     for pattern in (_TAG, _LABEL, _UNNUMBERED, _INNER):
         row = pattern.sub(" ", row)
     if r"\begin{" not in row:
-        row = re.sub(r"\\\\(?:\s*\[[\d.]+\s*\w+\])?", " ", row).replace("&", " ")
+        row = re.sub(r"\\\\(?:\s*\[[\d.]+\s*\w+\])?", " ", row)
+        cells = row.split("&")
+        pairs = [" ".join(cells[k : k + 2]) for k in range(0, len(cells), 2)]
+        several = len(pairs) > 1 and all("=" in pair for pair in pairs)  # a &= b, & c &= d
+        row = r", \quad ".join(pairs) if several else " ".join(cells)
     return _WIDE.sub(r" \\quad ", " ".join(row.split()))
 
 

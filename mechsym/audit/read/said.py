@@ -12,10 +12,11 @@ from itertools import islice
 
 from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.latex import read_latex
+from mechsym.audit.read.macros import expanded
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
 from mechsym.audit.read.tree import Node, check
-from mechsym.audit.read.units import Named, nomenclature
+from mechsym.audit.read.units import Named, called, nomenclature
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -33,7 +34,7 @@ _NO_PRODUCT = re.compile(
 )
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
-_INLINE = re.compile(r"(?<![\\$])\$([^$\n]{3,200}?)\$(?!\$)")
+_INLINE = re.compile(r"(?<![\\$])\$([^$\n]{1,200}?)\$(?!\$)")
 _ALONE = re.compile(r"^[ \t]*(\$[^$\n]+\$)[ \t]*[.,;]?[ \t]*$", re.MULTILINE)  # a display
 _INDEXED = re.compile(r"([A-Z])_(\d|\{\d\})\^(\d|\{\d\})")
 _NO_EQUATION = re.compile(r"\\(?:to|rightarrow|longrightarrow|le|leq|ge|geq|ll|gg|neq|in|propto|sim)(?![A-Za-z])|[<>]")
@@ -68,6 +69,7 @@ class _Spelling:
     indexed: frozenset[str]  #: Letters of which `Q_2^3` is one
     applied: re.Pattern[str] | None = None  #: Letters with arguments of which some are defined
     matrices: frozenset[str] = frozenset()  #: Letters that are turned over or given row by row
+    delta: bool = False  #: Whether a delta stands alone, so that one before a letter is a factor
 
 
 @record
@@ -92,12 +94,13 @@ class Text:
 
     said: Sequence[Said]
     named: Mapping[str, Named]  #: By plain name
+    called: Mapping[str, str]  #: Words in front of a letter, by plain name
     prose: str
 
 
 def read_text_whole(text: str, marked: bool = False) -> Text:
     """All equations of a text in their order, those within its lines as well; marked: it marks every equation."""
-    text = _BRACKETS.sub(lambda m: " $" if m[0] == r"\(" else "$ ", text)
+    text = _BRACKETS.sub(lambda m: " $" if m[0] == r"\(" else "$ ", expanded(text))
     shown = displayed(text)
     written = nomenclature(text)
     words = _words(written, shown)
@@ -111,22 +114,34 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     for symbol, about in written.items():
         if plain := _plain(symbol, words):
             named.setdefault(plain, about)
+    ahead: dict[str, str] = {plain: about.meaning for plain, about in named.items()}
+    for symbol, phrase in called(text).items():
+        if plain := _plain(symbol, words):
+            ahead[plain] = phrase
     starts = [m.start() for m in _SECTION.finditer(text)]
     lines = [0]
     lines += [m.end() for m in re.finditer("\n", text)]
     if not shown:
         bare = [] if marked else flattened(text)
         lost = [Said(shown=e, name=e.number or f"line {e.line}", why=_FLAT) for e in bare]
-        return Text(said=lost, named=named, prose=text)
-    spelling = _Spelling(words=words, indexed=indexed, applied=_applied(shown), matrices=_matrices(shown))
+        return Text(said=lost, named=named, called=ahead, prose=text)
+    spelling = _Spelling(
+        words=words,
+        indexed=indexed,
+        applied=_applied(shown),
+        matrices=_matrices(shown),
+        delta=bool(_ALONE_DELTA.search(text)),
+    )
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
     said = []
     for equation, inline in everything:
         section = sum(start <= lines[equation.line - 1] for start in starts)
-        one = _read(equation, spelling, section, text[max(0, equation.begins - 240) : equation.begins], inline)
+        words_end = equation.opens or equation.begins  # of a row of many, the words in front of all
+        before = text[max(0, words_end - 240) : words_end]
+        one = _read(equation, spelling, section, before, inline)
         if one.sides or not inline:
             said.append(one)
-    return Text(said=said, named=named, prose=text)
+    return Text(said=said, named=named, called=ahead, prose=text)
 
 
 def _inline(text: str) -> Iterator[Displayed]:
@@ -166,6 +181,8 @@ def _prepared(text: str, spelling: _Spelling) -> str:
     text = "".join(rf"\{_COMMANDS[c]} " if c in _COMMANDS else c for c in text)
     for pattern, instead in _TIDY:
         text = pattern.sub(instead, text)
+    if spelling.delta:
+        text = re.sub(r"\\delta(?=\s*(?:\\[a-z]|[A-Za-z]))", r"{\\delta}", text)
     text += "}" * (text.count("{") - text.count("}") == 1)  # one brace lost at the end
     text = _INDEXED.sub(
         lambda m: f"{m[1]}_{{{m[2].strip('{}')}{m[3].strip('{}')}}}" if m[1] in spelling.indexed else m[0], text
@@ -176,6 +193,7 @@ def _prepared(text: str, spelling: _Spelling) -> str:
     return unapplied(text, _APPLIED)
 
 
+_ALONE_DELTA = re.compile(r"\\delta\s*[=$,)}^]")
 _COMMANDS = {sign: "lambda" if name == "lam" else name for name, sign in SYMBOLS.items()} | {"ϕ": "varphi"}
 
 

@@ -33,7 +33,7 @@ KINDS = {
     "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
     "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
     "width": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m", "stress": "Pa",
-    "time": "s", "angular velocity": "rad/s", "angular speed": "rad/s", "angular acceleration": "rad/s^2",
+    "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s", "angular acceleration": "rad/s^2",
 }  # fmt: skip
 
 
@@ -80,12 +80,24 @@ _BOLD = re.compile(
 )
 _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
-    r"\$([^$\n]{1,40})\$,?\s*(?:(?:is|are|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
-    r"(?=\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|\$|\Z))"
+    r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
+    # the force $F$, the mass $m$: what stands before a letter is not said of the one before it
+    r"(?=\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|(?(2)\$|(?!))|\Z))"
 )
-_AHEAD = re.compile(rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+\$([^$\n=]{{1,40}})\$")
+_AHEAD = re.compile(
+    rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+\$([^$\n=]{{1,40}})(?:=[^$\n]*)?\$"
+)
+_PHRASE = r"(?:[A-Za-z-]{2,20}\s+){0,6}[A-Za-z-]{3,20}"
+_CALLED = re.compile(
+    rf"\b(?:the|an?|its|their|and|of|with)\s+({_PHRASE}),?\s+\$([^$\n=]{{1,40}})(?:=[^$\n]*)?\$", re.IGNORECASE
+)
+_COUNTED = re.compile(
+    r"\$([^$\n=]{1,40})\$\s+((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
+)
+_BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|and|with|by|has|is)\s+", re.IGNORECASE)
 #: Words that change what the next one is measured in
 OTHERS = re.compile("per|unit|specific|by|relative|dimensionless|normali[sz]ed|molar|section|internal")
+_FORMULA = re.compile(r"=|\\(?:approx|simeq|frac|sqrt|left|sin|cos|tan)\b")
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
 
 
@@ -108,12 +120,22 @@ def nomenclature(text: str) -> dict[str, Named]:
             one = spelled(match[2])
             if match[1] in KINDS and one and len(one) < 20 and one not in names:
                 names[one] = Named(meaning=match[1], unit="", line=number)
-    told = [(m[1], m[2], m.start()) for m in _WHERE.finditer(text)]
+    told = [(m[1], m[3], m.start()) for m in _WHERE.finditer(text)]
     told += [(m[3], m[2], m.start()) for m in _AHEAD.finditer(text) if not OTHERS.fullmatch(m[1])]
     for symbol, meaning, start in told:
         one = spelled(symbol.partition("=")[0])
         if one and one not in names:
             names[one] = Named(meaning=" ".join(meaning.split()), unit="", line=text.count("\n", 0, start) + 1)
+    return names
+
+
+def called(text: str) -> dict[str, str]:
+    """Letters as they are spelled there, with the words in front of them: the rod force $S$."""
+    told = [(m[2], _BEGINS.split(" ".join(m[1].split()))[-1]) for m in _CALLED.finditer(text)]
+    told += [(m[1], " ".join(m[2].split())) for m in _COUNTED.finditer(text)]
+    names: dict[str, str] = {}
+    for symbol, phrase in told:
+        names.setdefault(spelled(symbol), phrase)
     return names
 
 
@@ -124,7 +146,7 @@ def _cells(row: str) -> Iterator[tuple[str, str, str]]:
     for start in range(0, len(cells) - 1, 3):
         group = cells[start : start + 3]
         symbol = group[0]
-        wordy = len(group) > 1 and re.search(r"[A-Za-z]{3}", group[1]) and "=" not in group[1]
+        wordy = len(group) > 1 and re.search(r"[A-Za-z]{3}", group[1]) and not _FORMULA.search(group[1])
         if symbol and len(symbol) <= 60 and wordy and not re.search(r"[A-Za-z]{3,} [A-Za-z]", symbol.replace("\\", "")):
             yield symbol, group[1], group[2] if len(group) > 2 else ""
 

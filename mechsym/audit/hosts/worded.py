@@ -1,0 +1,69 @@
+"""Equations of a text held against theories by their words, as the formulas of a program are by names and comments."""
+
+import re
+from dataclasses import dataclass, field
+from functools import cache
+
+from mechsym.audit.hosts.neighbours import Neighbours
+from mechsym.audit.judge.lexicon import Lexicon
+from mechsym.audit.judge.world import World
+from mechsym.audit.read.programs.claims import Claim
+from mechsym.audit.read.tree import function_of, letters, walk
+from mechsym.audit.row import Row
+from mechsym.audit.theory.catalogue import named, shipped
+
+_ABOUT = 8  # words in front of an equation that say what it gives
+_LETTERS = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
+_OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
+_ENDED = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)")
+
+
+@cache
+def _vocabularies() -> tuple[Lexicon, ...]:
+    return tuple(Lexicon(named(one)) for one in shipped())
+
+
+@dataclass
+class Worded:
+    """What the words of a text say of its equations."""
+
+    world: World
+    claims: dict[tuple[int, int], Claim] = field(default_factory=dict)  #: By place of the equation and its side
+    neighbours: Neighbours | None = None
+
+    def __post_init__(self) -> None:
+        """Every side of a letter's equation is a claim, the letter's name in the text its comment."""
+        paper = self.world.paper
+        called = dict(paper.called)
+        values = {d.letter: d.tree for d in self.world.defined}
+        for order, said in enumerate(paper.said):
+            left = said.sides[0].id if said.sides and hasattr(said.sides[0], "id") else ""
+            if not left or said.claim or said.inline:
+                continue
+            about = called.get(left) or _about(said.before)
+            for k, side in enumerate(said.sides[1:], 1):
+                if len(letters(side)) > 1 and not any(function_of(n) == "sum" for _, n in walk(side)):
+                    others = {name: tree for name, tree in values.items() if name not in (left, *called)}
+                    self.claims[order, k] = Claim(
+                        scope="", name=left, tree=side, line=said.shown.line, about=about, case=0, values=others,
+                        abouts=called,
+                    )  # fmt: skip
+        names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}
+        names |= {word for name in names for word in called.get(name, "").split()}
+        touched = [v for v in _vocabularies() if v.touches(names)]
+        self.neighbours = Neighbours([*self.claims.values()], touched)
+
+    def outcome(self, order: int, side: int) -> Row | None:
+        """What theories say of one side of an equation; None where they say nothing."""
+        claim = self.claims.get((order, side))
+        if claim is None or self.neighbours is None:
+            return None
+        row = self.neighbours.outcome(claim)
+        return row if row is not None and row["verdict"] in ("agrees", "misprint") else None
+
+
+def _about(before: str) -> str:
+    # the end of the sentence in front of an equation, without its formulas
+    words = _OPENED.sub("", before).rstrip(" \n:;.")
+    sentence = _ENDED.split(words)[-1]
+    return " ".join(_LETTERS.sub(" ", sentence).split()[-_ABOUT:])
