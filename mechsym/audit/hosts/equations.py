@@ -10,8 +10,9 @@ from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
+from mechsym.audit.judge.lagrangian import Motion
 from mechsym.audit.judge.resultants import squares_of_sums
-from mechsym.audit.judge.world import World, alike, free, states, stems_of
+from mechsym.audit.judge.world import World, alike, free, is_slope, states, stems_of
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.spelling import to_latex, to_python
@@ -53,6 +54,7 @@ class Judge:
     odd: Mapping[str, list[of_units.Odd]]
     agreeing: set[str]
     worded: Worded
+    motion: Motion
     searches: int = _SEARCHES
     wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
 
@@ -62,6 +64,8 @@ class Judge:
         met = self._met(order, said)
         if met is not None and not odd:
             return met
+        if (of_motion := self._by_energies(order, said)) is not None:
+            return of_motion
         if (squares := squares_of_sums(self.world, order, said)) is not None:
             return Judged(
                 verdict="misprint", matched="the text", correction=to_latex(squares, said.spelled),
@@ -93,6 +97,32 @@ class Judge:
                 return Judged(verdict="convention", matched=against, note="exact with the opposite sense")
         return None
 
+    def _by_energies(self, order: int, said: Said) -> Judged | None:
+        # an equation of motion, or what stands before an acceleration in one, by the energies of the text
+        if self.motion.is_law(said):
+            why = "Lagrange's equation: what follows from the text's energies by it is compared with what stands there"
+            return Judged(verdict=DEFINED, note=why)
+        theory = self.world.theory(len(self.world.paper.said) - 1)
+        sides = [self._known(side, theory) for side in said.sides]
+        if not self.motion.tells(theory, sides):
+            return None
+        matched = "the text's energies"
+        if self.motion.holds(theory, sides):
+            return Judged(verdict="exact", matched=matched, error=0.0)
+        for letter, (source, _, right) in self.wrong.items():
+            if self.motion.holds(self.world.theory(order, {letter: right}), sides):
+                return Judged(verdict="exact", matched=matched, error=0.0, note=f"with ({source}) as corrected")
+        printed, wanted = self.motion.wanted(theory, sides)
+        return self._motion_slip(theory, wanted, printed, said)
+
+    def _motion_slip(self, theory: Theory, wanted: Sequence[Node], printed: Node, said: Said) -> Judged | None:
+        # one slip away from what the energies give
+        for tree in wanted:
+            row = self._asked_of(theory, tree, printed, said)
+            if row is not None and (slip := self._finding(row, said, printed, "the text's energies")):
+                return slip
+        return None
+
     def _by_words(self, order: int, said: Said) -> Judged | None:
         # by what the letters are called, as in a program
         for k in range(1, len(said.sides)):
@@ -109,7 +139,7 @@ class Judge:
 
     def _spelled(self, said: Said) -> dict[str, str]:
         everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
-        return everywhere | dict(said.spelled) | {f"{self.world.angle}d": r"\dot{\varphi}"}
+        return {f"{self.world.angle}d": rf"\dot{{\{self.world.angle or 'varphi'}}}"} | everywhere | dict(said.spelled)
 
     def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
         # one slip away from the quantity that the text's words name, in letters that are all known
@@ -137,7 +167,9 @@ class Judge:
             first, others = 1, others[1:]  # what an earlier equation says holds elsewhere
         if not others:
             return Judged(verdict=DEFINED, note=f"the text's own {own.letter}" if own else "")
-        said_all = [self._pair(order, said, first, k) for k in others]
+        # a rate of what the text defines is held against the formula, not the other way round
+        slopes = [k for k in others if own is not None and is_slope(said.sides[k])]
+        said_all = [self._pair(order, said, *((k, first) if k in slopes else (first, k))) for k in others]
         worst = next((v for v in said_all if v.verdict in (*FINDINGS, CARRIED)), None)
         if worst is not None:
             return worst

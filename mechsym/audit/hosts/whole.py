@@ -13,6 +13,7 @@ from mechsym.audit.hosts.paper import CARRIED, EquationPlace, few
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
+from mechsym.audit.judge.lagrangian import Motion, laws
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.displays import Displayed
 from mechsym.audit.read.notebook import LONGEST, words_of_notebook
@@ -88,7 +89,10 @@ def _rows_of(file: Path) -> list[Row]:
         odd.setdefault(of_units.id_of(one.said), []).append(one)
     _, fitted = of_units.odd(kinds, paper.said)
     world = World(paper=paper, kinds=kinds)
-    judge = Judge(world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted, worded=Worded(world))
+    judge = Judge(
+        world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted, worded=Worded(world),
+        motion=Motion(world=world, laws=laws(world)),
+    )  # fmt: skip
     rows = []
     for order, said in enumerate(world.paper.said):
         if not said.inline:

@@ -98,7 +98,8 @@ class Lexicon:
             elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):
                 rest = own[: -len(phrase)] if own[-len(phrase) :] == phrase else own[len(phrase) :]
                 rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
-            if len(phrase) > 1 and len(whole) > 4 and _stands_in(phrase, said) or len(whole) > 2 and phrase == said:
+            alone = phrase == said and len(whole) > 2 and not _UNIT.search(about)
+            if alone or len(phrase) > 1 and len(whole) > 4 and _stands_in(phrase, said):
                 rank = max(rank, 4)
             if rank > counts.get(meaning, 0):
                 counts[meaning] = rank

@@ -17,6 +17,7 @@ import numpy as np
 from mechsym.audit.judge.kinds import PURE, Kinds, text
 from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.algebra import FLOATS, evaluate
+from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.spelling import SPEEDS
@@ -63,9 +64,11 @@ class World:
     aliases: dict[str, str] = field(default_factory=dict)  #: Author's letter to the rate of the angle that it is
     defined: list[Defined] = field(default_factory=list)
     theories: dict[tuple[int, ...], Theory] = field(default_factory=dict)
+    energetic: bool = False  #: Whether a Lagrange equation stands in it
 
     def __post_init__(self) -> None:
         """Find the angle that runs, its rates, and all definitions."""
+        self.energetic = any(lagrange_equation(said.shown.text) for said in self.paper.said)
         self._name_time()
         self.angle = _angle(self.paper.said)
         self._name_alike()
@@ -147,7 +150,12 @@ class World:
         self._solve(order, left, sides[1:], any_letter=False)
 
     def _may_define(self, letter: str, said: Said, order: int) -> bool:
-        if letter in RESERVED or letter == self.angle or letter in (f"{self.angle}d", f"{self.angle}dd"):
+        if (
+            letter in RESERVED
+            or _OPAQUE.fullmatch(letter)
+            or letter == self.angle
+            or letter in (f"{self.angle}d", f"{self.angle}dd")
+        ):
             return False
         if _PRIME.fullmatch(letter) or re.fullmatch(r"d\d?\w+_d\w+", letter) or self._rate_of(letter):
             return False
@@ -161,6 +169,8 @@ class World:
     def _solve(self, order: int, left: Node, right: Sequence[Node], any_letter: bool) -> None:
         # the one letter that nothing has defined yet: under a sine, or a force in a balance
         known = {d.letter for d in self.defined}
+        if self.energetic and any(n.endswith("dd") for side in (left, *right) for n in letters(side)):
+            return  # an equation of motion
         for k, side in enumerate(right, 1):
             for whole, other in ((left, side), (side, left)):
                 for target in targets(whole, known | {self.angle, f"{self.angle}d", f"{self.angle}dd"}, any_letter):
@@ -199,9 +209,22 @@ class World:
         angular = {k for k in fitting if "angular" in self.paper.named[k].meaning.lower()}
         return [k for k in fitting if k not in angular]
 
+    @property
+    def moving(self) -> frozenset[str]:
+        """Letters with a dot somewhere that no equation defines: coordinates."""
+        spelled = {k: v for said in self.paper.said for k, v in said.spelled.items()}
+        dotted = {k.rstrip("d") for k, v in spelled.items() if v.startswith(("\\dot", "\\ddot"))}
+        return frozenset(dotted - {d.letter for d in self.defined} - {self.angle})
+
+    @property
+    def coordinates(self) -> frozenset[str]:
+        """Letters that move by themselves, the angle that runs among them."""
+        return self.moving | ({self.angle} if self.angle else set())
+
     def turns(self, letter: str) -> bool:
-        """Whether a defined letter changes with the angle."""
-        return self.angle in self._reach(name(letter))
+        """Whether a defined letter changes with the angle, or another coordinate."""
+        reached = self._reach(name(letter))
+        return self.angle in reached or not self.moving.isdisjoint(reached)
 
     def plain(self, tree: Node) -> Node:
         """A side with the rates of the angle under their names, and sums over parts as one letter."""
@@ -253,7 +276,7 @@ class World:
         if prime := _PRIME.fullmatch(letter):
             return prime[1] in tape and bool(self.angle)
         stem = re.fullmatch(r"(\w+?)_?dd?", letter)
-        return bool(stem and stem[1] in tape and self.angle and self.turns(stem[1]))
+        return bool(stem and stem[1] in tape and self.turns(stem[1]))
 
     def _rods(self, tape: Mapping[str, Node]) -> set[str]:
         ratio = [t.right.id for t in tape.values() if is_operation(t, ast.Div) and isinstance(t.right, ast.Name)
@@ -296,7 +319,12 @@ def _factors(node: Node) -> list[Node]:
 
 
 def _is_rate(tree: Node) -> bool:
-    return isinstance(tree, ast.Name) and bool(_PRIME.fullmatch(tree.id) or re.fullmatch(r"d\d?\w+_d\w+", tree.id))
+    return is_slope(tree) or isinstance(tree, ast.Name) and bool(_PRIME.fullmatch(tree.id))
+
+
+def is_slope(tree: Node) -> bool:
+    """Whether a side is a derivative that is written as a fraction."""
+    return isinstance(tree, ast.Name) and bool(re.fullmatch(r"d\d?\w+_d\w+", tree.id))
 
 
 def stems_of(letter: str) -> list[str]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 
+from mechsym.audit.read.matrices import entrywise
 from mechsym.audit.read.units import unit_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -115,7 +116,8 @@ def displayed(text: str) -> list[Displayed]:
             equations.append(one)
         if len(equations) > MOST:
             raise BadInput(f"it has more than {MOST} equations; give a part of it")
-    return [part for equation in equations for part in _parts(equation)]
+    everyone = (replace(whole, text=text) for whole in equations for text in entrywise(whole.text))
+    return [part for equation in everyone for part in _parts(equation)]
 
 
 def _without_programs(text: str) -> str:

@@ -9,13 +9,16 @@ from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from itertools import islice
+from zlib import crc32
 
 from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
+from mechsym.audit.read.lagrange import calligraphic, lagrange_equation
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.macros import expanded
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
 from mechsym.audit.read.tree import Node, check
+from mechsym.audit.read.tree import name as name_of
 from mechsym.audit.read.units import Named, called, nomenclature
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -178,6 +181,7 @@ def _plain(symbol: str, words: Sequence[str]) -> str:
 def _prepared(text: str, spelling: _Spelling) -> str:
     if spelling.applied is not None:
         text = spelling.applied.sub(lambda m: m[0] if m["of"].lstrip("\\") in _NO_LETTERS else m["of"], text)
+    text = calligraphic(text) if not _NO_PRODUCT.search(text) else text
     text = "".join(rf"\{_COMMANDS[c]} " if c in _COMMANDS else c for c in text)
     for pattern, instead in _TIDY:
         text = pattern.sub(instead, text)
@@ -247,6 +251,9 @@ def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inli
             raise BadInput("it multiplies matrices, whose order counts")
         if _COUNTED.search(shown.text):
             raise BadInput("raised 0 and 1 are indices, no powers")
+        if lagrange_equation(shown.text):
+            sign = f"integral{crc32(shown.text.encode()):08x}"  # one symbol, of which the energies tell
+            return replace(head, sides=(name_of(sign), name_of("lagrange")), texts=(shown.text,))
         return _sides(head, _prepared(shown.text, spelling))
     except BadInput as error:
         return replace(head, why=str(error))

@@ -33,7 +33,8 @@ KINDS = {
     "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
     "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
     "width": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m", "stress": "Pa",
-    "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s", "angular acceleration": "rad/s^2",
+    "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s", 
+    "angular acceleration": "rad/s^2",
 }  # fmt: skip
 
 
@@ -82,7 +83,7 @@ _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
     r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
     # the force $F$, the mass $m$: what stands before a letter is not said of the one before it
-    r"(?=\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|(?(2)\$|(?!))|\Z))"
+    r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|(?(2)\$|(?!))|\Z))"
 )
 _AHEAD = re.compile(
     rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+\$([^$\n=]{{1,40}})(?:=[^$\n]*)?\$"

@@ -1,0 +1,210 @@
+r"""Equations of motion that follow from the energies which a text prints, by the Lagrange equation that stands there.
+
+.. math:: \frac{d}{dt}\frac{\partial L}{\partial\dot q} - \frac{\partial L}{\partial q} = Q
+"""
+
+import ast
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from mechsym.audit.judge.world import World, alike, states
+from mechsym.audit.read.lagrange import lagrange_equation, plain_letter
+from mechsym.audit.read.said import Said
+from mechsym.audit.read.tree import Node, binary, letters, name, negative, number, substitute, value_of
+from mechsym.audit.theory.record import Theory, dependencies
+from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, times
+from mechsym.quantities import record
+
+_INDEX = re.compile(r"(\w+?)_?([ijkrs])$")
+_SAME = 1e-9
+_MOST = 12  # laws of one text
+_DEEPEST = 12  # definitions within definitions
+
+
+@record
+class Law:
+    """The equation of motion of a coordinate."""
+
+    coordinate: str
+    residual: Node  #: What the energies give, in letters that the text does not define
+    acts: str | None  #: The letter that stands on the other side, empty for 0, None where it is not known
+
+    def vanishing(self, used: set[str]) -> Node:
+        """Both sides on one side; what acts is 0 where an equation does not have it."""
+        return minus(self.residual, name(self.acts)) if self.acts in used and self.acts else self.residual
+
+
+@dataclass
+class Motion:
+    """What the energies of a text say of its equations of motion."""
+
+    world: World
+    laws: Sequence[Law]
+    shares: dict[str, Node] = field(default_factory=dict)  #: Letters before an acceleration, and what they have to be
+
+    def __post_init__(self) -> None:
+        """Find the letters that stand before an acceleration in an equation of motion."""
+        defined = {d.letter for d in self.world.defined}
+        for law in self.laws:
+            for said in self.world.paper.said:
+                if len(said.sides) != 2 or not isinstance(said.sides[0], ast.Name) or said.sides[0].id != law.acts:
+                    continue
+                for q in self.world.coordinates:
+                    before, wanted = (_slope(tree, f"{q}dd") for tree in (said.sides[1], law.residual))
+                    if isinstance(before, ast.Name) and before.id in defined:
+                        self.shares[before.id] = wanted
+
+    def is_law(self, said: Said) -> bool:
+        """Whether an equation is the Lagrange equation itself."""
+        return bool(said.sides) and lagrange_equation(said.shown.text) is not None
+
+    def tells(self, theory: Theory, sides: Sequence[Node]) -> bool:
+        """Whether the energies say something of an equation: it has an acceleration, or is what stands before one."""
+        if not self.laws or len(sides) != 2:
+            return False
+        left, right = sides
+        if isinstance(left, ast.Name):
+            return bool(self._of_letter(left.id, right, theory)) and left.id not in letters(right)
+        return any(f"{q}dd" in letters(side) for side in sides for q in self.world.coordinates)
+
+    def _of_letter(self, letter: str, right: Node, theory: Theory) -> list[Node]:
+        used = _used(theory, [right])
+        wanted = [law.residual for law in self.laws if law.acts == letter]
+        wanted += [tree for rate, tree in accelerations(self.laws, used).items() if rate == letter]
+        return wanted + [tree for share, tree in self.shares.items() if share == letter]
+
+    def holds(self, theory: Theory, sides: Sequence[Node]) -> bool:
+        """Whether an equation follows from the energies, as it stands or times what does not move."""
+        left, right = sides
+        if isinstance(left, ast.Name):
+            return any(alike(states(theory), tree, right) for tree in self._of_letter(left.id, right, theory))
+        used, whole = _used(theory, sides), minus(left, right)
+        return any(same_motion(theory, self.world.coordinates, whole, law.vanishing(used)) for law in self.laws)
+
+    def wanted(self, theory: Theory, sides: Sequence[Node]) -> tuple[Node, list[Node]]:
+        """The side that a slip is looked for in, and what it may have to be."""
+        left, right = sides
+        if isinstance(left, ast.Name):
+            return right, self._of_letter(left.id, right, theory)
+        acting = {right.id} if isinstance(right, ast.Name) else set()
+        printed = left if acting or value_of(right) == 0 else minus(left, right)
+        own = [law for law in self.laws if f"{law.coordinate}dd" in letters(printed)]
+        used = _used(theory, sides) - acting
+        return printed, [scaled(law, printed, used) for law in own if not acting or law.acts in acting]
+
+
+def _used(theory: Theory, sides: Sequence[Node]) -> set[str]:
+    inside = [k for side in sides for k in letters(side)]
+    return {*inside, *dependencies(theory, [k for k in inside if k in theory.tape])}
+
+
+def _slope(tree: Node, letter: str) -> Node:
+    return derivative(tree, lambda k: number(int(k == letter)))
+
+
+def laws(world: World) -> list[Law]:
+    """What the Lagrange equations of a text come to for its coordinates."""
+    every = [law for said in world.paper.said for law in _of(world, said.shown.text)]
+    return every if len(every) <= _MOST else []
+
+
+def _of(world: World, text: str) -> Iterator[Law]:
+    printed = lagrange_equation(text)
+    if printed is None:
+        return
+    theory = world.theory(len(world.paper.said) - 1)
+    written = next(t.by for t in printed.terms if t.timed).removesuffix("d")
+    generic = _INDEX.match(written)
+    coordinates = [written]
+    if generic:
+        coordinates = sorted(q for q in world.coordinates if re.fullmatch(rf"{generic[1]}\d", q))
+        coordinates = coordinates or sorted(world.coordinates)
+    for q in coordinates:
+        residual: Node = number(0)
+        for term in printed.terms:
+            by = f"{q}d" if term.by == f"{written}d" else q if term.by == written else term.by
+            whole = _whole(theory, term.of)
+            if whole is None:
+                return
+            part = _slope(whole, by)
+            part = derivative(part, lambda k: _rate(theory, k)) if term.timed else part
+            residual = (minus if term.sign < 0 else plus)(residual, part)
+        if not is_zero(residual) and f"{q}dd" in theory.letters:
+            index = q.removeprefix(generic[1]) if generic else ""
+            yield Law(coordinate=q, residual=residual, acts=_acts(printed.right, index, theory, world))
+
+
+def _rate(theory: Theory, letter: str) -> Node:
+    return name(f"{letter}d") if f"{letter}d" in theory.letters else number(0)
+
+
+def _acts(right: str, index: str, theory: Theory, world: World) -> str | None:
+    if right == "0":
+        return ""
+    letter = plain_letter(right)
+    generic = _INDEX.match(letter)
+    if generic and index.isdigit():
+        letter = f"{generic[1]}{index}"
+    used = letter in theory.letters or any(d.letter == letter for d in world.defined)
+    return letter if letter and used else None
+
+
+def _whole(theory: Theory, letter: str, depth: int = 0) -> Node | None:
+    """A letter in those that the text does not define, with rates of the others multiplied out."""
+    tree = theory.tape.get(letter)
+    if not isinstance(tree, ast.expr) or depth > _DEEPEST:
+        return None
+    inner: dict[str, Node | None] = {}
+    for k in letters(tree):
+        stem = k.removesuffix("d")
+        if k in theory.tape:
+            inner[k] = _whole(theory, k, depth + 1)
+        elif k.endswith("d") and k not in theory.letters and stem in theory.tape:
+            of = _whole(theory, stem, depth + 1)
+            inner[k] = None if of is None else derivative(of, lambda one: _rate(theory, one))
+    if any(v is None for v in inner.values()):
+        return None
+    return substitute(tree, lambda n: inner.get(n.id) if isinstance(n, ast.Name) else None)
+
+
+def accelerations(every: Sequence[Law], used: set[str]) -> Mapping[str, Node]:
+    """What the second rates of one or two coordinates are, by the rule of Cramer."""
+    size = len(every)
+    if size not in (1, 2) or len({law.coordinate for law in every}) < size:
+        return {}
+    rates = [f"{law.coordinate}dd" for law in every]
+    rows = [law.vanishing(used) for law in every]
+    matrix = [[_slope(row, rate) for rate in rates] for row in rows]
+    rest = [substitute(row, lambda n: number(0) if isinstance(n, ast.Name) and n.id in rates else None) for row in rows]
+    if size == 1:
+        return {rates[0]: negative(over(rest[0], matrix[0][0]))}
+    (a, b), (c, d) = matrix
+    whole = minus(times(a, d), times(b, c))
+    return {
+        rates[0]: over(minus(times(b, rest[1]), times(d, rest[0])), whole),
+        rates[1]: over(minus(times(c, rest[0]), times(a, rest[1])), whole),
+    }
+
+
+def scaled(law: Law, printed: Node, used: set[str]) -> Node:
+    """What an equation has to come to, whose author divided it by what stands before the acceleration."""
+    rate = f"{law.coordinate}dd"
+    own, theirs = (_slope(tree, rate) for tree in (law.residual, printed))
+    whole = law.vanishing(used)
+    return whole if is_zero(own) or is_zero(theirs) else binary(ast.Mult, whole, over(theirs, own))
+
+
+def same_motion(theory: Theory, coordinates: frozenset[str], left: Node, right: Node) -> bool:
+    """Whether two expressions vanish for the same motions: one is the other times what does not move."""
+    at = states(theory)
+    moving = {f"{q}{dots}" for q in coordinates for dots in ("", "d", "dd")}
+    for letter in theory.letters.keys() - moving:
+        at.values[letter] = np.full_like(at.values[letter], at.values[letter][0])
+    first, second = at.value(left), at.value(right)
+    if not (np.isfinite(first).all() and np.isfinite(second).all() and np.any(second)):
+        return False
+    ratio = float(first @ second / (second @ second))
+    return bool(ratio and np.abs(first - ratio * second).max() <= _SAME * np.abs(first).max())
