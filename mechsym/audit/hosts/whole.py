@@ -85,7 +85,7 @@ def _rows_of(file: Path) -> list[Row]:
     misfits, _ = of_units.odd(kinds, paper.said)
     slips, left = of_units.table_slips(paper, kinds, misfits)
     odd: dict[str, list[of_units.Odd]] = {}
-    for one in of_units.findings(kinds, left):
+    for one in of_units.findings(kinds, left, paper.said):
         odd.setdefault(of_units.id_of(one.said), []).append(one)
     _, fitted = of_units.odd(kinds, paper.said)
     world = World(paper=paper, kinds=kinds)

@@ -12,7 +12,7 @@ from mechsym.audit.read.tree import function_of, letters, walk
 from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
 
-_ABOUT = 8  # words in front of an equation that say what it gives
+_ABOUT = 6  # words in front of an equation that say what it gives
 _LETTERS = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
 _OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
 _ENDED = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)")
@@ -66,4 +66,5 @@ def _about(before: str) -> str:
     # the end of the sentence in front of an equation, without its formulas
     words = _OPENED.sub("", before).rstrip(" \n:;.")
     sentence = _ENDED.split(words)[-1]
-    return " ".join(_LETTERS.sub(" ", sentence).split()[-_ABOUT:])
+    words = re.sub(r"[\s,]+(?:is|are|be|becomes|follows|as)?\s*$", "", _LETTERS.sub(" ", sentence))
+    return " ".join(words.split()[-_ABOUT:])

@@ -103,6 +103,14 @@ class Kinds:
         }
         return kind if like <= {kind[:4]} else None
 
+    def is_lent(self, letter: str) -> bool:
+        """Whether a letter with a letter for an index has its kind from the one without it."""
+        within = _MARKED.fullmatch(letter)
+        if letter in self.printed or letter in self.inferred or _RATE.fullmatch(letter) or _SLOPE.fullmatch(letter):
+            return False
+        base = _INDEX.fullmatch(within[1] if within else letter)
+        return base is not None and not base[2][0].isdigit() and self.of(letter) is not None
+
     def kind(self, tree: Node) -> Kind:
         """Kind of an expression. Raises Clash, and _Unknown where a letter is unknown or a number may have a unit."""
         value = value_of(tree)
@@ -182,12 +190,11 @@ def of_unit(unit: str) -> Kind:
 def kinds_of(paper: Text) -> Kinds:
     """What the nomenclature, units behind equations, and definitions tell."""
     kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")})
+    for letter, phrase in paper.called.items():
+        if letter not in paper.named and (usual := _usual(letter, phrase)):
+            kinds.printed[letter] = of_unit(usual)
     for letter, about in paper.named.items():
-        words = re.findall(r"[a-z]+", about.meaning.lower())
-        called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
-        called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
-        changed = any(OTHERS.fullmatch(word) for word in words) or re.match("(?:d|delta|Delta)[A-Za-z]", letter)
-        usual = "" if changed else KINDS.get(called, "")
+        usual = _usual(letter, about.meaning)
         # small letters of work and heat are often those of a kilogram
         unit = about.unit or ("" if usual == "J" and letter[0].islower() else usual)
         if unit:
@@ -221,6 +228,15 @@ def kinds_of(paper: Text) -> Kinds:
                 _infer(kinds, said)
     _numbers_of_turns(kinds, paper.said)
     return kinds
+
+
+def _usual(letter: str, meaning: str) -> str:
+    # what is measured in one unit by its name
+    words = re.findall(r"[a-z]+", meaning.lower())
+    called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
+    called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
+    changed = any(OTHERS.fullmatch(word) for word in words) or re.match("(?:d|delta|Delta)[A-Za-z]", letter)
+    return "" if changed else KINDS.get(called, "")
 
 
 def _infer(kinds: Kinds, said: Said) -> None:
@@ -386,11 +402,16 @@ def _mended(kinds: Kinds, letter: str, kind: Kind, said: Sequence[Said]) -> int:
     return 0 if has - had else len(had - has)
 
 
-def findings(kinds: Kinds, misfits: Sequence[Odd]) -> list[Odd]:
+def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list[Odd]:
     """Misfits that no letter of doubtful unit explains: a form of several, or a left side whose own unit is printed."""
+    _, fitting = odd(kinds, said)
+    sure = {n for one in said if id_of(one) in fitting for n in letters_of(one)}
     kept = []
     for one in misfits:
         left = one.said.sides[0]
+        doubtful = letters_of(one.said) if "argument of" in one.why else [getattr(left, "id", "")]
+        if "factor" not in one.why and any(kinds.is_lent(n) and n not in sure for n in doubtful):
+            continue  # S_p beside a stroke S is a speed
         named = isinstance(left, ast.Name) and kinds.of(left.id) is not None and left.id not in kinds.inferred
         if len(one.said.sides) > 2 or named or one.part and not isinstance(left, ast.Name):
             kept.append(one)

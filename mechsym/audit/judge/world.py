@@ -29,7 +29,9 @@ from mechsym.audit.read.tree import (
     is_operation,
     letters,
     name,
+    number,
     substitute,
+    value_of,
     walk,
 )
 from mechsym.audit.theory.record import Letter, Theory, complete, dependencies
@@ -147,15 +149,20 @@ class World:
                         self.defined.append(Defined(order=order, letter=left.id, tree=side, side=k))
                         return
             return
+        below = left.right if is_operation(left, ast.Div) and value_of(left.left) == 1 else None
+        if isinstance(below, ast.Name) and self._may_define(below.id, said, order):
+            if below.id not in self._reach(sides[1]):  # 1/R = 1/R_1 + 1/R_2
+                turned = binary(ast.Div, number(1), sides[1])
+                self.defined.append(Defined(order=order, letter=below.id, tree=turned, against=1))
+            return
         self._solve(order, left, sides[1:], any_letter=False)
 
     def _may_define(self, letter: str, said: Said, order: int) -> bool:
-        if (
-            letter in RESERVED
-            or _OPAQUE.fullmatch(letter)
-            or letter == self.angle
-            or letter in (f"{self.angle}d", f"{self.angle}dd")
-        ):
+        if letter in RESERVED or _OPAQUE.fullmatch(letter):
+            return False
+        if letter in (self.angle, f"{self.angle}d", f"{self.angle}dd"):
+            return False
+        if self.energetic and said.spelled.get(letter, "").startswith("\\ddot"):
             return False
         if _PRIME.fullmatch(letter) or re.fullmatch(r"d\d?\w+_d\w+", letter) or self._rate_of(letter):
             return False

@@ -35,6 +35,7 @@ KINDS = {
     "width": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m", "stress": "Pa",
     "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s", 
     "angular acceleration": "rad/s^2",
+    "piston speed": "m/s",
 }  # fmt: skip
 
 
@@ -89,15 +90,26 @@ _AHEAD = re.compile(
     rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+\$([^$\n=]{{1,40}})(?:=[^$\n]*)?\$"
 )
 _PHRASE = r"(?:[A-Za-z-]{2,20}\s+){0,6}[A-Za-z-]{3,20}"
+_NAMED = r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$"
 _CALLED = re.compile(
-    rf"\b(?:the|an?|its|their|and|of|with)\s+({_PHRASE}),?\s+\$([^$\n=]{{1,40}})(?:=[^$\n]*)?\$", re.IGNORECASE
+    rf"\b(?:the|an?|its|their|and|of|with)\s+({_PHRASE}),?\s+(?:(?:is|are|be)\s+)?{_NAMED}"
+    r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)",
+    re.IGNORECASE,
 )
 _COUNTED = re.compile(
-    r"\$([^$\n=]{1,40})\$\s+((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
+    r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
+    r"((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
+)
+_PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius", "cranks": "crank"}
+_PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
+_ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about)$", re.IGNORECASE)
+_MEASURED = re.compile(  # a spring of stiffness $k$
+    r"^((?!moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
+    r"(stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|volume)$"
 )
 _BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|and|with|by|has|is)\s+", re.IGNORECASE)
 #: Words that change what the next one is measured in
-OTHERS = re.compile("per|unit|specific|by|relative|dimensionless|normali[sz]ed|molar|section|internal")
+OTHERS = re.compile("per|unit|specific|by|relative|dimensionless|normali[sz]ed|molar|section|internal|moment|polar")
 _FORMULA = re.compile(r"=|\\(?:approx|simeq|frac|sqrt|left|sin|cos|tan)\b")
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
 
@@ -121,8 +133,10 @@ def nomenclature(text: str) -> dict[str, Named]:
             one = spelled(match[2])
             if match[1] in KINDS and one and len(one) < 20 and one not in names:
                 names[one] = Named(meaning=match[1], unit="", line=number)
-    told = [(m[1], m[3], m.start()) for m in _WHERE.finditer(text)]
-    told += [(m[3], m[2], m.start()) for m in _AHEAD.finditer(text) if not OTHERS.fullmatch(m[1])]
+    told = [(m[1], m[3], m.start()) for m in _WHERE.finditer(text) if not _is_called_before(text, m)]
+    told += [
+        (m[3], m[2], m.start()) for m in _AHEAD.finditer(text) if not OTHERS.fullmatch(m[1]) and not _is_moment(text, m)
+    ]
     for symbol, meaning, start in told:
         one = spelled(symbol.partition("=")[0])
         if one and one not in names:
@@ -130,13 +144,32 @@ def nomenclature(text: str) -> dict[str, Named]:
     return names
 
 
+def _is_moment(text: str, match: re.Match[str]) -> bool:
+    # the second moment of area $I$
+    before = text[max(0, match.start() - 20) : match.start()]
+    return match[1] == "of" and bool(re.search(r"\b(?:moments?|rate|flow|flux|loss)\s+$", before))
+
+
+def _is_called_before(text: str, match: re.Match[str]) -> bool:
+    # the load $F$ the stress: what follows without a comma or a verb is said of something else
+    apart = match[2] or text[match.end(1) + 1 : match.end(1) + 2] == ","
+    before = re.search(r"([A-Za-z-]+)\s*$", text[max(0, match.start() - 40) : match.start()])
+    return not apart and before is not None and before[1].lower() not in ("where", "with", "and", "let", "here")
+
+
 def called(text: str) -> dict[str, str]:
     """Letters as they are spelled there, with the words in front of them: the rod force $S$."""
-    told = [(m[2], _BEGINS.split(" ".join(m[1].split()))[-1]) for m in _CALLED.finditer(text)]
-    told += [(m[1], " ".join(m[2].split())) for m in _COUNTED.finditer(text)]
+    told = []
+    for match in _COUNTED.finditer(text):
+        told.append((match[2], " ".join([match[1] or "", *match[3].split()]).strip()))
+    for match in _CALLED.finditer(text):
+        words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
+        phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
+        told += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
     names: dict[str, str] = {}
     for symbol, phrase in told:
-        names.setdefault(spelled(symbol), phrase)
+        if phrase:
+            names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase))
     return names
 
 
