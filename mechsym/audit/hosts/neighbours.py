@@ -33,6 +33,7 @@ from mechsym.errors import BadInput
 _NEAR = 0.6  # of a quantity's largest size: farther off, something else is meant [-]
 _WITNESSES = 2  # formulas that agree beside one that is more than a slip away
 _HEAVY = 8  # operations of a formula that comes to no quantity by chance
+_BY_A_SIGN, _TWICE = 3, 1.0 + 1e-9  # rank of a name that no words tell; away where a factor of two is lost or doubled
 _ASKED = 4  # quantities that a slip of a formula is searched for
 
 
@@ -172,6 +173,8 @@ def _is_told(near: Near, beside: Sequence[Near]) -> bool:
     if near.quantity not in fitted.quantities:
         alike = bool(beside) and of_same_letters(fitted.theory, near.form, near.quantity)
         return near.away <= _NEAR and many > 2 and (strong > 1 or alike)
+    if fitted.rank > _BY_A_SIGN and strong and many > 1 and near.away <= _TWICE:
+        return True
     if many == strong and many > 1 or many > 4 and strong > 1 or near.away <= _NEAR and many > 2 and strong > 0:
         return True
     if beside:

@@ -1,6 +1,5 @@
 """Equations of a text held against theories by their words, as the formulas of a program are by names and comments."""
 
-import re
 from dataclasses import dataclass, field
 from functools import cache
 
@@ -11,11 +10,6 @@ from mechsym.audit.read.programs.claims import Claim
 from mechsym.audit.read.tree import function_of, letters, walk
 from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
-
-_ABOUT = 6  # words in front of an equation that say what it gives
-_LETTERS = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
-_OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
-_ENDED = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)")
 
 
 @cache
@@ -40,7 +34,7 @@ class Worded:
             left = said.sides[0].id if said.sides and hasattr(said.sides[0], "id") else ""
             if not left or said.claim or said.inline:
                 continue
-            about = called.get(left) or _about(said.before)
+            about = called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
                 if len(letters(side)) > 1 and not any(function_of(n) == "sum" for _, n in walk(side)):
                     others = {name: tree for name, tree in values.items() if name not in (left, *called)}
@@ -60,11 +54,3 @@ class Worded:
             return None
         row = self.neighbours.outcome(claim)
         return row if row is not None and row["verdict"] in ("agrees", "misprint") else None
-
-
-def _about(before: str) -> str:
-    # the end of the sentence in front of an equation, without its formulas
-    words = _OPENED.sub("", before).rstrip(" \n:;.")
-    sentence = _ENDED.split(words)[-1]
-    words = re.sub(r"[\s,]+(?:is|are|be|becomes|follows|as)?\s*$", "", _LETTERS.sub(" ", sentence))
-    return " ".join(words.split()[-_ABOUT:])

@@ -409,8 +409,8 @@ def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list
     kept = []
     for one in misfits:
         left = one.said.sides[0]
-        doubtful = letters_of(one.said) if "argument of" in one.why else [getattr(left, "id", "")]
-        if "factor" not in one.why and any(kinds.is_lent(n) and n not in sure for n in doubtful):
+        two = len(one.said.sides) == 2
+        if two and "factor" not in one.why and any(kinds.is_lent(n) and n not in sure for n in letters_of(one.said)):
             continue  # S_p beside a stroke S is a speed
         named = isinstance(left, ast.Name) and kinds.of(left.id) is not None and left.id not in kinds.inferred
         if len(one.said.sides) > 2 or named or one.part and not isinstance(left, ast.Name):

@@ -32,9 +32,10 @@ class Law:
     residual: Node  #: What the energies give, in letters that the text does not define
     acts: str | None  #: The letter that stands on the other side, empty for 0, None where it is not known
 
-    def vanishing(self, used: set[str]) -> Node:
-        """Both sides on one side; what acts is 0 where an equation does not have it."""
-        return minus(self.residual, name(self.acts)) if self.acts in used and self.acts else self.residual
+    def vanishing(self, used: set[str], right: str = "") -> Node:
+        """Both sides on one side; what acts is 0 where an equation does not have it, `right` where no law names it."""
+        acts = right if self.acts is None else self.acts if self.acts in used else ""
+        return minus(self.residual, name(acts)) if acts else self.residual
 
 
 @dataclass
@@ -82,7 +83,9 @@ class Motion:
         if isinstance(left, ast.Name):
             return any(alike(states(theory), tree, right) for tree in self._of_letter(left.id, right, theory))
         used, whole = _used(theory, sides), minus(left, right)
-        return any(same_motion(theory, self.world.coordinates, whole, law.vanishing(used)) for law in self.laws)
+        acts = right.id if isinstance(right, ast.Name) else ""
+        wanted = [law.vanishing(used, acts) for law in self.laws]
+        return any(same_motion(theory, self.world.coordinates, whole, tree) for tree in wanted)
 
     def wanted(self, theory: Theory, sides: Sequence[Node]) -> tuple[Node, list[Node]]:
         """The side that a slip is looked for in, and what it may have to be."""
@@ -93,7 +96,7 @@ class Motion:
         printed = left if acting or value_of(right) == 0 else minus(left, right)
         own = [law for law in self.laws if f"{law.coordinate}dd" in letters(printed)]
         used = _used(theory, sides) - acting
-        return printed, [scaled(law, printed, used) for law in own if not acting or law.acts in acting]
+        return printed, [scaled(law, printed, used) for law in own if not acting or law.acts in {*acting, None}]
 
 
 def _used(theory: Theory, sides: Sequence[Node]) -> set[str]:

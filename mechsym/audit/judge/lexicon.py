@@ -91,6 +91,7 @@ class Lexicon:
         own, said = _word_list(name), _word_list(_UNIT.sub(" ", about))
         tail = _word_list(name.rpartition(OF)[2])
         counts: dict[str, int] = {}
+        standing: list[tuple[tuple[str, ...], str]] = []
         for phrase, meaning in self.phrases:
             rank, whole = 0, _joined(phrase)
             if whole in (_joined(own), _joined(tail)):
@@ -101,8 +102,12 @@ class Lexicon:
             alone = phrase == said and len(whole) > 2 and not _UNIT.search(about)
             if alone or len(phrase) > 1 and len(whole) > 4 and _stands_in(phrase, said):
                 rank = max(rank, 4)
+                standing.append((phrase, meaning))
             if rank > counts.get(meaning, 0):
                 counts[meaning] = rank
+        for phrase, meaning in standing:  # the damped natural frequency is no natural frequency
+            if any(len(other) > len(phrase) and _inside(phrase, other) and m != meaning for other, m in standing):
+                counts.pop(meaning, None)
         if slope := self._slope(name.rpartition(OF)[2]):
             counts[slope] = 3
         return sorted(((r, m) for m, r in counts.items()), reverse=True)
@@ -137,6 +142,10 @@ _QUALIFIERS = set(
 def _stands_in(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
     n = len(phrase)
     return any(said[i : i + n] == phrase for i in range(min(6, len(said) - n + 1)))
+
+
+def _inside(phrase: tuple[str, ...], other: tuple[str, ...]) -> bool:
+    return any(other[i : i + len(phrase)] == phrase for i in range(len(other)))
 
 
 def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:

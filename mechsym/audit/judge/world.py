@@ -131,7 +131,8 @@ class World:
         for usual in SPEEDS:
             about = self.paper.named.get(usual)
             fits = usual != "w" or about and about.unit == "rad/s"
-            if self.angle and usual in written and f"{self.angle}d" not in self.aliases.values() and fits:
+            free = self.angle and not {f"{self.angle}d", f"{self.angle}d"} & {*self.aliases.values(), *written}
+            if free and usual in written and fits:
                 self.aliases[usual] = f"{self.angle}d"
 
     def _define(self, order: int, said: Said) -> None:

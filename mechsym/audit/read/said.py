@@ -6,6 +6,7 @@ A text has its own words: `CR` is one letter where a table names it, `S(\theta)`
 import ast
 import re
 from bisect import bisect_right
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from itertools import islice
@@ -19,7 +20,7 @@ from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
 from mechsym.audit.read.tree import Node, check
 from mechsym.audit.read.tree import name as name_of
-from mechsym.audit.read.units import Named, called, nomenclature
+from mechsym.audit.read.units import Named, called, nomenclature, subject
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -87,6 +88,7 @@ class Said:
     why: str = ""
     section: int = 0  #: Which section it stands in, counted [-]
     before: str = ""  #: Words in front of it
+    about: str = ""  #: What they call what it gives
     inline: bool = False
     spelled: Mapping[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX
 
@@ -136,12 +138,18 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         delta=bool(_ALONE_DELTA.search(text)),
     )
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
+    together = Counter(equation.opens for equation in shown)
     said = []
     for equation, inline in everything:
         section = sum(start <= lines[equation.line - 1] for start in starts)
         words_end = equation.opens or equation.begins  # of a row of many, the words in front of all
         before = text[max(0, words_end - 240) : words_end]
         one = _read(equation, spelling, section, before, inline)
+        if one.sides and not inline and isinstance(one.sides[0], ast.Name):
+            phrase, about = subject(before, together[equation.opens] == 1)
+            one = replace(one, about=about)
+            if phrase:
+                ahead.setdefault(one.sides[0].id, phrase)
         if one.sides or not inline:
             said.append(one)
     return Text(said=said, named=named, called=ahead, prose=text)

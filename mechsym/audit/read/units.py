@@ -96,9 +96,15 @@ _CALLED = re.compile(
     r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)",
     re.IGNORECASE,
 )
+_LAST = 6  # words in front of an equation
+_VERB = re.compile(r"\b(?:has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b")
+_SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
+_UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
+_OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
+_SENTENCE = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)")
 _COUNTED = re.compile(
     r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
-    r"((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
+    r"(?:in\s+)?((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
 )
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius", "cranks": "crank"}
 _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
@@ -171,6 +177,24 @@ def called(text: str) -> dict[str, str]:
         if phrase:
             names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase))
     return names
+
+
+def subject(before: str, alone: bool) -> tuple[str, str]:
+    """What the sentence in front of an equation says that it gives, and its last words: `The stress of a bar is`.
+
+    before: the text up to the equation. alone: whether it gives one thing.
+    """
+    words = _OPENED.sub("", before).rstrip(" \n:;.,")
+    sentence = " ".join(_UNWORDED.sub(" ", _SENTENCE.split(words)[-1]).split())
+    bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
+    tail = " ".join(bare.split()[-_LAST:])
+    if not alone:
+        return "", tail
+    first = re.match(rf"(?:The|Its|A)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|per)\b", bare)
+    last = re.search(rf"\b(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
+    chosen = first if first and not _VERB.search(bare) else last
+    phrase = _ENDS.sub("", chosen[1]) if chosen else ""
+    return phrase, phrase or tail
 
 
 def _cells(row: str) -> Iterator[tuple[str, str, str]]:
