@@ -8,7 +8,8 @@ import pytest
 
 from mechsym import cli
 from mechsym.audit.hosts.whole import check_whole, page_of, summary_of
-from mechsym.audit.judge.kinds import findings, kinds_of, odd, table_slips
+from mechsym.audit.judge.kinds import findings, kinds_of, odd
+from mechsym.audit.judge.table_slips import table_slips
 from mechsym.audit.read.displays import displayed
 from mechsym.audit.read.said import read_text_whole
 from mechsym.audit.read.spelling import to_python
@@ -62,7 +63,7 @@ def test_units_find_the_slips_of_a_thesis():
     kinds = kinds_of(paper)
     slips, left = table_slips(paper, kinds, odd(kinds, paper.said)[0])
     assert [(s.letter, s.wanted) for s in slips] == [("gamma", "1")]
-    assert [o.said.name for o in findings(kinds, left)] == ["2.16", "2.17", "2.46", "2.46", "2.49", "2.53"]
+    assert [o.said.name for o in findings(kinds, left, paper.said)] == ["2.16", "2.17", "2.46", "2.46", "2.49", "2.53"]
     assert sum(bool(s.sides) for s in paper.said if not s.inline) == 133
 
 

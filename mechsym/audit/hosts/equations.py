@@ -10,9 +10,10 @@ from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.judge.lagrangian import Motion
+from mechsym.audit.judge.lagrangian import Energies
 from mechsym.audit.judge.resultants import squares_of_sums
-from mechsym.audit.judge.world import World, alike, free, is_slope, states, stems_of
+from mechsym.audit.judge.sampled import alike, free, states
+from mechsym.audit.judge.world import World, is_slope, stems_of
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.spelling import to_latex, to_python
@@ -54,7 +55,7 @@ class Judge:
     odd: Mapping[str, list[of_units.Odd]]
     agreeing: set[str]
     worded: Worded
-    motion: Motion
+    energies: Energies
     searches: int = _SEARCHES
     wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
 
@@ -99,20 +100,20 @@ class Judge:
 
     def _by_energies(self, order: int, said: Said) -> Judged | None:
         # an equation of motion, or what stands before an acceleration in one, by the energies of the text
-        if self.motion.is_law(said):
+        if self.energies.is_law(said):
             why = "Lagrange's equation: what follows from the text's energies by it is compared with what stands there"
             return Judged(verdict=DEFINED, note=why)
         theory = self.world.theory(len(self.world.paper.said) - 1)
         sides = [self._known(side, theory) for side in said.sides]
-        if not self.motion.tells(theory, sides):
+        if not self.energies.tells(theory, sides):
             return None
         matched = "the text's energies"
-        if self.motion.holds(theory, sides):
+        if self.energies.holds(theory, sides):
             return Judged(verdict="exact", matched=matched, error=0.0)
         for letter, (source, _, right) in self.wrong.items():
-            if self.motion.holds(self.world.theory(order, {letter: right}), sides):
+            if self.energies.holds(self.world.theory(order, {letter: right}), sides):
                 return Judged(verdict="exact", matched=matched, error=0.0, note=f"with ({source}) as corrected")
-        printed, wanted = self.motion.wanted(theory, sides)
+        printed, wanted = self.energies.wanted(theory, sides)
         return self._motion_slip(theory, wanted, printed, said)
 
     def _motion_slip(self, theory: Theory, wanted: Sequence[Node], printed: Node, said: Said) -> Judged | None:

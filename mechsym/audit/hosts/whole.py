@@ -13,7 +13,8 @@ from mechsym.audit.hosts.paper import CARRIED, EquationPlace, few
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
-from mechsym.audit.judge.lagrangian import Motion, laws
+from mechsym.audit.judge.lagrangian import Energies, laws
+from mechsym.audit.judge.table_slips import TableSlip, table_slips
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.displays import Displayed
 from mechsym.audit.read.notebook import LONGEST, words_of_notebook
@@ -83,7 +84,7 @@ def _rows_of(file: Path) -> list[Row]:
         raise BadInput(f"{file}: {error}") from None
     kinds = of_units.kinds_of(paper)
     misfits, _ = of_units.odd(kinds, paper.said)
-    slips, left = of_units.table_slips(paper, kinds, misfits)
+    slips, left = table_slips(paper, kinds, misfits)
     odd: dict[str, list[of_units.Odd]] = {}
     for one in of_units.findings(kinds, left, paper.said):
         odd.setdefault(of_units.id_of(one.said), []).append(one)
@@ -91,7 +92,7 @@ def _rows_of(file: Path) -> list[Row]:
     world = World(paper=paper, kinds=kinds)
     judge = Judge(
         world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted, worded=Worded(world),
-        motion=Motion(world=world, laws=laws(world)),
+        energies=Energies(world=world, laws=laws(world)),
     )  # fmt: skip
     rows = []
     for order, said in enumerate(world.paper.said):
@@ -100,7 +101,7 @@ def _rows_of(file: Path) -> list[Row]:
     return rows
 
 
-def _row(file: Path, said: Said, verdict: Judged | None, slips: Sequence[of_units.TableSlip]) -> Row:
+def _row(file: Path, said: Said, verdict: Judged | None, slips: Sequence[TableSlip]) -> Row:
     shown = said.shown
     place = {"file": str(file), **tell(EquationPlace(line=shown.line, label=shown.label or None))}
     if verdict is None:

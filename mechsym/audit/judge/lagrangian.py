@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mechsym.audit.judge.world import World, alike, states
+from mechsym.audit.judge.sampled import alike, states
+from mechsym.audit.judge.world import World
 from mechsym.audit.read.lagrange import lagrange_equation, plain_letter
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.tree import Node, binary, letters, name, negative, number, substitute, value_of
@@ -25,7 +26,7 @@ _DEEPEST = 12  # definitions within definitions
 
 
 @record
-class Law:
+class MotionLaw:
     """The equation of motion of a coordinate."""
 
     coordinate: str
@@ -39,11 +40,11 @@ class Law:
 
 
 @dataclass
-class Motion:
+class Energies:
     """What the energies of a text say of its equations of motion."""
 
     world: World
-    laws: Sequence[Law]
+    laws: Sequence[MotionLaw]
     shares: dict[str, Node] = field(default_factory=dict)  #: Letters before an acceleration, and what they have to be
 
     def __post_init__(self) -> None:
@@ -74,8 +75,20 @@ class Motion:
     def _of_letter(self, letter: str, right: Node, theory: Theory) -> list[Node]:
         used = _used(theory, [right])
         wanted = [law.residual for law in self.laws if law.acts == letter]
-        wanted += [tree for rate, tree in accelerations(self.laws, used).items() if rate == letter]
+        wanted += [tree for rate, tree in accelerations(self._coupled(letter), used).items() if rate == letter]
         return wanted + [tree for share, tree in self.shares.items() if share == letter]
+
+    def _coupled(self, rate: str) -> list[MotionLaw]:
+        # the laws that a second rate follows from: its own, and those of the second rates in them
+        chosen: dict[str, MotionLaw] = {}
+        waiting = [rate]
+        while waiting:
+            wish = waiting.pop()
+            own = next((law for law in self.laws if f"{law.coordinate}dd" == wish), None)
+            if own is not None and wish not in chosen:
+                chosen[wish] = own
+                waiting += [k for k in letters(own.residual) if k.endswith("dd")]
+        return [*chosen.values()]
 
     def holds(self, theory: Theory, sides: Sequence[Node]) -> bool:
         """Whether an equation follows from the energies, as it stands or times what does not move."""
@@ -108,19 +121,19 @@ def _slope(tree: Node, letter: str) -> Node:
     return derivative(tree, lambda k: number(int(k == letter)))
 
 
-def laws(world: World) -> list[Law]:
+def laws(world: World) -> list[MotionLaw]:
     """What the Lagrange equations of a text come to for its coordinates."""
     every = [law for said in world.paper.said for law in _of(world, said.shown.text)]
     return every if len(every) <= _MOST else []
 
 
-def _of(world: World, text: str) -> Iterator[Law]:
+def _of(world: World, text: str) -> Iterator[MotionLaw]:
     printed = lagrange_equation(text)
     if printed is None:
         return
     theory = world.theory(len(world.paper.said) - 1)
     written = next(t.by for t in printed.terms if t.timed).removesuffix("d")
-    generic = _INDEX.match(written)
+    generic = None if written in world.coordinates else _INDEX.match(written)
     coordinates = [written]
     if generic:
         coordinates = sorted(q for q in world.coordinates if re.fullmatch(rf"{generic[1]}\d", q))
@@ -137,7 +150,7 @@ def _of(world: World, text: str) -> Iterator[Law]:
             residual = (minus if term.sign < 0 else plus)(residual, part)
         if not is_zero(residual) and f"{q}dd" in theory.letters:
             index = q.removeprefix(generic[1]) if generic else ""
-            yield Law(coordinate=q, residual=residual, acts=_acts(printed.right, index, theory, world))
+            yield MotionLaw(coordinate=q, residual=residual, acts=_acts(printed.right, index, theory, world))
 
 
 def _rate(theory: Theory, letter: str) -> Node:
@@ -173,7 +186,7 @@ def _whole(theory: Theory, letter: str, depth: int = 0) -> Node | None:
     return substitute(tree, lambda n: inner.get(n.id) if isinstance(n, ast.Name) else None)
 
 
-def accelerations(every: Sequence[Law], used: set[str]) -> Mapping[str, Node]:
+def accelerations(every: Sequence[MotionLaw], used: set[str]) -> Mapping[str, Node]:
     """What the second rates of one or two coordinates are, by the rule of Cramer."""
     size = len(every)
     if size not in (1, 2) or len({law.coordinate for law in every}) < size:
@@ -192,7 +205,7 @@ def accelerations(every: Sequence[Law], used: set[str]) -> Mapping[str, Node]:
     }
 
 
-def scaled(law: Law, printed: Node, used: set[str]) -> Node:
+def scaled(law: MotionLaw, printed: Node, used: set[str]) -> Node:
     """What an equation has to come to, whose author divided it by what stands before the acceleration."""
     rate = f"{law.coordinate}dd"
     own, theirs = (_slope(tree, rate) for tree in (law.residual, printed))

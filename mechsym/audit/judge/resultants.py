@@ -6,7 +6,8 @@ Where a text gives the direction of a resultant, `tan(phi) = sum(X)/sum(Y) = u/v
 import ast
 from collections.abc import Iterator, Sequence
 
-from mechsym.audit.judge.world import World, alike, free, states
+from mechsym.audit.judge.sampled import alike, free, states
+from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.tree import (
     Node,

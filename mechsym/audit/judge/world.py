@@ -12,11 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 
-import numpy as np
-
 from mechsym.audit.judge.kinds import PURE, Kinds, text
 from mechsym.audit.judge.solving import isolate, targets
-from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
@@ -34,12 +31,10 @@ from mechsym.audit.read.tree import (
     value_of,
     walk,
 )
-from mechsym.audit.theory.record import Letter, Theory, complete, dependencies
+from mechsym.audit.theory.record import Letter, Theory
 from mechsym.audit.theory.tape import TheoryTape
 from mechsym.quantities import record
 
-_STATES = 48
-_CLOSE = 1e-9
 _ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
 _OPAQUE = re.compile(r"integral\w{8}|constant|function")
 _PRIME = re.compile(r"(\w+?)((?:prime)+)")
@@ -374,45 +369,3 @@ def _angle(said: Sequence[Said]) -> str:
                     if n not in given and any(n.startswith(a) for a in _ANGLES):
                         counts[n] += 1
     return counts.most_common(1)[0][0] if counts else ""
-
-
-@record
-class States:
-    """Random values of all letters of a theory, at which forms are compared."""
-
-    theory: Theory
-    values: dict[str, np.ndarray]
-
-    def value(self, tree: Node) -> np.ndarray:
-        """Values of an expression [SI], nan where it has none."""
-        with np.errstate(all="ignore"):
-            complete(self.theory, self.values, letters(tree), FLOATS)
-            return np.broadcast_to(np.asarray(evaluate(tree, self.values, FLOATS), dtype=float), (_STATES,))
-
-
-def states(theory: Theory, seed: int = 5) -> States:
-    """States of a theory, the same each time."""
-    rng = np.random.default_rng(seed)
-    values = {"pi": np.full(_STATES, np.pi)}
-    for letter, about in theory.letters.items():
-        signs = rng.choice((-1.0, 1.0), _STATES) if not about.positive else 1.0
-        values[letter] = about.value * rng.uniform(0.5, 1.6, _STATES) * signs
-        if letter == theory.angle:
-            values[letter] = rng.uniform(-6, 6, _STATES)
-    return States(theory=theory, values=values)
-
-
-def alike(at: States, left: Node, right: Node) -> bool | None:
-    """Whether two forms are the same at all states; None where too few have a value."""
-    first, second = at.value(left), at.value(right)
-    good = np.isfinite(first) & np.isfinite(second)
-    if np.count_nonzero(good) < 8 or np.isfinite(first).sum() != np.isfinite(second).sum() and good.sum() < 12:
-        return None
-    size = np.maximum(np.abs(first), np.abs(second))[good]
-    gap = np.abs(first - second)[good]
-    return bool(np.all(gap <= _CLOSE * np.maximum(size, 1e-12)) and np.any(size > 1e-12))
-
-
-def free(theory: Theory, tree: Node) -> set[str]:
-    """Letters that an expression is made of in the end."""
-    return dependencies(theory, letters(tree)) & theory.letters.keys()

@@ -11,6 +11,7 @@ _BEGINS = re.compile(
     r"|\\DeclareMathOperator\*?\s*\{?\s*\\(?P<operator>[A-Za-z]+)\s*\}?\s*(?=\{)"
     r"|\\def\s*\\(?P<defined>[A-Za-z]+)\s*(?P<marks>(?:#\d)*)\s*(?=\{)"
 )
+_LONGEST = 6000  # characters of an argument
 _DEEPEST = 8  # commands within commands
 _LARGEST = 4  # a text with its commands written out, by the text
 
@@ -66,7 +67,9 @@ def _written_out(text: str, used: re.Pattern[str], macros: Mapping[str, Macro]) 
             close = _closing(text, end) if text[end : end + 1] == "{" else None
             arguments.append(text[end + 1 : close - 1] if close else text[end : end + 1])
             end = close or end + 1
-        body = re.sub(r"#(\d)", lambda m, a=arguments: a[int(m[1]) - 1] if int(m[1]) <= len(a) else "", macro.body)
+        body = macro.body
+        for k, argument in enumerate(arguments, 1):
+            body = body.replace(f"#{k}", argument)
         lost = text.count("\n", match.start(), end) - body.count("\n")
         # a letter behind would become a part of a command that ends the body
         parts += [text[at : match.start()], body, " " * bool(re.search(r"\\[A-Za-z]+$", body)), "\n" * lost]
@@ -77,7 +80,7 @@ def _written_out(text: str, used: re.Pattern[str], macros: Mapping[str, Macro]) 
 def _closing(text: str, start: int) -> int | None:
     """Where the group that begins at a brace has ended; None where it never does."""
     depth = 0
-    for match in re.compile(r"\\.|[{}]", re.DOTALL).finditer(text, start):
+    for match in re.compile(r"\\.|[{}]", re.DOTALL).finditer(text, start, start + _LONGEST):
         depth += {"{": 1, "}": -1}.get(match[0], 0)
         if depth == 0:
             return match.end()

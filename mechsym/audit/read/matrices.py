@@ -11,6 +11,7 @@ _BLOCK = re.compile(
 _INSIDE = re.compile(rf"\\begin\{{(?!{_KIND}\}})|\\begin\{{{_KIND}\}}.*\\begin")
 _SPACE = re.compile(r"\\(?:q?quad|[,;:! ]|cdot|times)|~|\s")
 _OPERATOR = re.compile(r"frac\s*\{\s*(?:\\partial|d)|\\(?:nabla|int|sum|partial|frac\s*\{\s*\\mathrm)")
+_LETTER_OF_MATRIX = re.compile(r"\\(?:mathbf|boldsymbol|bm|vec)(?![A-Za-z])")
 _SIGNED = re.compile(r"^(.*?)\s*([+-])\s*([^+-]*)$")
 _BOLD = re.compile(r"(?:\\(?:mathbf|boldsymbol|bm|mathrm|vec|underline)\s*)?\{?\s*(\\?[A-Za-z]+)\s*\}?")
 _MOST = 16  # entries of a matrix that are one equation each
@@ -75,7 +76,7 @@ def _side(text: str) -> Entries | str | None:
             product, sign, between = None, signed[2], signed[3]
         elif product is None and between.startswith("-"):
             sign, between = "-", between[1:]
-        if _OPERATOR.search(between):
+        if _OPERATOR.search(between) or _LETTER_OF_MATRIX.search(between):
             return None
         entries = _entries(block[2])
         joint = _multiplied(product, entries) if product and entries else entries
@@ -83,7 +84,7 @@ def _side(text: str) -> Entries | str | None:
             return None
         product = _times("", between.strip(), joint)
     rest = _plain(text[at:])
-    if product is None or re.search(r"[+\-^=]|\\(?:mathbf|boldsymbol|bm|vec)", rest):
+    if product is None or re.search(r"[+\-^=]", rest) or _LETTER_OF_MATRIX.search(rest):
         return None
     terms.append(_times(sign, rest, product))
     alike = len({(len(term), len(term[0])) for term in terms}) == 1

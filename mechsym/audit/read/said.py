@@ -145,11 +145,12 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         words_end = equation.opens or equation.begins  # of a row of many, the words in front of all
         before = text[max(0, words_end - 240) : words_end]
         one = _read(equation, spelling, section, before, inline)
-        if one.sides and not inline and isinstance(one.sides[0], ast.Name):
-            phrase, about = subject(before, together[equation.opens] == 1)
-            one = replace(one, about=about)
+        left = one.sides[0] if one.sides and not inline else None
+        if isinstance(left, ast.Name):
+            phrase, words_ahead = subject(before, together[equation.opens] == 1)
+            one = replace(one, about=words_ahead)
             if phrase:
-                ahead.setdefault(one.sides[0].id, phrase)
+                ahead.setdefault(left.id, phrase)
         if one.sides or not inline:
             said.append(one)
     return Text(said=said, named=named, called=ahead, prose=text)

@@ -201,6 +201,9 @@ def _latex(node: Node, spelled: Mapping[str, str]) -> tuple[str, int]:
         mantissa, _, exponent = text.partition("e")
         return rf"{mantissa} \cdot 10^{{{int(exponent)}}}", PRODUCT
     if isinstance(node, ast.UnaryOp):
+        inner, negated = _latex(node.operand, spelled)[0], node.operand
+        if inner.startswith("-") and not (isinstance(negated, ast.BinOp) and isinstance(negated.op, ast.Add | ast.Sub)):
+            return inner[1:], PRODUCT
         return f"-{_at_least(node.operand, POWER, spelled)}", SUM
     if isinstance(node, ast.Call):
         function, argument = str(function_of(node)), node.args[0]
@@ -230,6 +233,8 @@ def _at_least(node: Node, level: int, spelled: Mapping[str, str]) -> str:
 
 def _operation(node: ast.BinOp, spelled: Mapping[str, str]) -> tuple[str, int]:
     if isinstance(node.op, ast.Div):
+        if isinstance(node.right, ast.Constant) and node.right.value == 1:
+            return _latex(node.left, spelled)
         return rf"\frac{{{_latex(node.left, spelled)[0]}}}{{{_latex(node.right, spelled)[0]}}}", ATOM
     if isinstance(node.op, ast.Pow):
         return _power(node, spelled), POWER

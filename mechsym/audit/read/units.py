@@ -191,8 +191,9 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if not alone:
         return "", tail
     first = re.match(rf"(?:The|Its|A)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|per)\b", bare)
-    last = re.search(rf"\b(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
-    chosen = first if first and not _VERB.search(bare) else last
+    last = re.search(rf".*\b(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
+    beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if bare != sentence else None
+    chosen = first if first and not _VERB.search(bare) else beside or last
     phrase = _ENDS.sub("", chosen[1]) if chosen else ""
     return phrase, phrase or tail
 

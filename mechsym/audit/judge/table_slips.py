@@ -1,0 +1,79 @@
+"""Letters of a nomenclature whose printed unit no equation can use."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from mechsym.audit.judge.kinds import Kind, Kinds, Odd, id_of, letters_of, odd, text
+from mechsym.audit.read.said import Said, Text
+from mechsym.quantities import dimension, record
+
+
+@record
+class TableSlip:
+    """A letter whose printed unit no equation can use."""
+
+    letter: str
+    printed: str
+    wanted: str
+    line: int
+    equations: Sequence[str]
+
+
+def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list[TableSlip], list[Odd]]:
+    """Letters of the table to blame, whose other unit mends two equations or more; and the misfits that are left."""
+    slips: list[TableSlip] = []
+    left = list(misfits)
+    while left:
+        best: tuple[int, str, Kind] | None = None
+        for letter in sorted({n for o in left for n in letters_of(o.said) if n in paper.named and paper.named[n].unit}):
+            for kind in _wanted(kinds, letter):
+                count = _mended(kinds, letter, kind, paper.said) + _sure(letter, left)
+                if count > 1 and (best is None or count > best[0]):
+                    best = (count, letter, kind)
+        if best is None:
+            return slips, left
+        _, letter, kind = best
+        about = paper.named[letter]
+        mended = [o for o in left if letter in letters_of(o.said)]
+        kinds.printed[letter] = kind
+        kinds.inferred.pop(letter, None)
+        left, _ = odd(kinds, paper.said)
+        names = list(dict.fromkeys(o.said.name for o in mended if all(o.said.name != m.said.name for m in left)))
+        slips.append(TableSlip(letter=letter, printed=about.unit, wanted=text(kind), line=about.line, equations=names))
+    return slips, left
+
+
+def _sure(letter: str, misfits: Sequence[Odd]) -> int:
+    # a table that says otherwise than all forms of the letter's own equation
+    return int(
+        any(o.part == 0 and len(o.said.sides) > 2 and getattr(o.said.sides[0], "id", "") == letter for o in misfits)
+    )
+
+
+def _wanted(kinds: Kinds, letter: str) -> set[Kind]:
+    known = kinds.of(letter)
+    if known is None:
+        return set()
+    tried = {(*map(Fraction, dimension(u)), Fraction(0), Fraction(0)) for u in _TRIED}
+    return {k for k in tried if k[:4] != known[:4]}
+
+
+_TRIED = (
+    "-", "m", "m^2", "m^3", "s", "kg", "K", "N", "N*m", "Pa", "W", "J/kg/K", "m/s", "m/s^2", "rad/s", "rad/s^2",
+    "kg*m^2", "kg/m^3", "N/m", "J/kg", "kg/s", "W/m/K", "W/m^2/K", "N*s/m", "N*m*s", "kg*m", "m^3/s", "Pa*s",
+)  # fmt: skip
+
+
+def _mended(kinds: Kinds, letter: str, kind: Kind, said: Sequence[Said]) -> int:
+    # how many equations another unit mends; none where it spoils one
+    own = [s for s in said if letter in letters_of(s) or any(n.startswith(letter) for n in letters_of(s))]
+    before, _ = odd(kinds, own)
+    old = kinds.printed.get(letter)
+    kinds.printed[letter] = kind
+    now, _ = odd(kinds, own)
+    if old is None:
+        del kinds.printed[letter]
+    else:
+        kinds.printed[letter] = old
+    had, has = ({id_of(o.said) for o in misfits} for misfits in (before, now))
+    return 0 if has - had else len(had - has)

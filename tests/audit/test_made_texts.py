@@ -1,0 +1,187 @@
+"""Made texts of mechanics with planted slips: each is found and rightly corrected, and nothing else is blamed."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mechsym.audit.hosts.whole import check_whole
+from mechsym.audit.read.algebra import FLOATS, evaluate
+from mechsym.audit.read.displays import displayed
+from mechsym.audit.read.lagrange import lagrange_equation
+from mechsym.audit.read.latex import read_latex
+from mechsym.audit.read.macros import expanded
+from mechsym.audit.read.matrices import entrywise
+from mechsym.audit.read.tree import letters
+from mechsym.audit.read.units import called, subject
+from mechsym.audit.verdict import FINDINGS
+
+TEXTS = Path(__file__).parent / "texts"
+PLANTED = tomllib.loads((TEXTS / "planted.toml").read_text())
+
+
+def judged(tmp_path, text, name="text.tex"):
+    (tmp_path / name).write_text(text)
+    return check_whole(tmp_path / name)[0]
+
+
+def blamed(rows):
+    return [row for row in rows if row["verdict"] in FINDINGS]
+
+
+def same(one, other):
+    """Whether two formulas of LaTeX are one at random values of their letters."""
+    plain = (text.replace(r"\delta", r"{\delta}") for text in (one, other))  # not the small change of what follows
+    first, second = (read_latex(text, whole=True)[0] for text in plain)
+    rng = np.random.default_rng(7)
+    values = {k: rng.uniform(0.4, 1.6, 40) for k in {*letters(first), *letters(second)}} | {"pi": np.pi}
+    with np.errstate(invalid="ignore"):  # roots of what is below 0 in both
+        first, second = (evaluate(tree, values, FLOATS) for tree in (first, second))
+    return np.isfinite(first).sum() > 10 and np.allclose(first, second, rtol=1e-9, equal_nan=True)
+
+
+def test_every_text_has_its_list():
+    assert {path.stem for path in TEXTS.glob("*.[tm][ed]*")} == set(PLANTED)
+
+
+@pytest.mark.parametrize("name", PLANTED)
+def test_planted_slips_are_found_and_nothing_else_is_blamed(name):
+    (path,) = (p for p in TEXTS.glob(f"{name}.*"))
+    rows, cover = check_whole(path)
+    wanted = {int(line): right for line, right in PLANTED[name].items() if line != "missed"}
+    assert {row["line"]: row["verdict"] for row in blamed(rows)} == {
+        line: "wrong" if right == "units" else "misprint" for line, right in wanted.items()
+    }
+    for row in blamed(rows):
+        right = wanted[row["line"]]
+        assert right == "units" or same(row["correction"], right), row["correction"]
+    assert cover.read >= 0.85 * cover.equations and PLANTED[name].get("missed", {}).keys().isdisjoint(wanted)
+
+
+def test_own_commands_are_written_out_and_lines_keep_their_numbers():
+    text = (
+        "\\newcommand{\\dd}{\\mathrm{d}}\n\\newcommand{\\pd}[2]{\\frac{\\partial #1}{\\partial #2}}\n"
+        "\\def\\half{\\tfrac12}\n\\DeclareMathOperator{\\inv}{inv}\n\\newcommand{\\be}{\\begin{equation}}\n"
+        "\\newcommand{\\ee}{\\end{equation}}\n\\newcommand{\\opt}[2][x]{#1_{#2}}\n"
+        "\\be v = \\half\\pd{T}{\\dot q} + \\opt{1}\\opt[y]{2}\\ddot z \\ee\n"
+    )
+    (equation,) = displayed(expanded(text))
+    assert equation.line == 8 and expanded(text).count("\n") == text.count("\n")
+    assert equation.text == r"v = \tfrac12\frac{\partial T}{\partial \dot q} + x_{1}y_{2}\ddot z"
+
+
+def test_commands_within_themselves_come_to_an_end():
+    loop = r"\newcommand{\a}{\a\a}$$x = \a$$"
+    assert len(expanded(loop)) < 12_000
+    assert expanded(r"\newcommand{\open}{ $x = \open$") == r"\newcommand{\open}{ $x = \open$"
+
+
+def test_equations_side_by_side_are_told_apart():
+    rows = displayed("\\begin{align}\na &= b + c, & d &= e,\\\\\nf &= g \\\\\n&\\quad + h\n\\end{align}")
+    assert [(row.text, row.number) for row in rows] == [("a = b + c", "1"), ("d = e", "1"), (r"f = g \quad + h", "2")]
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        (r"\begin{bmatrix} u \\ v \end{bmatrix} = \begin{bmatrix} a & 0 \\ b & c \end{bmatrix}\begin{bmatrix} x \\ y"
+         r" \end{bmatrix}", ["u = a x", "v = b x + c y"]),
+        (r"\begin{pmatrix} u \\ v \end{pmatrix} = -2\begin{pmatrix} a \\ b \end{pmatrix} + \begin{pmatrix} x \\ y"
+         r" \end{pmatrix} k", ["u = -2 a + x k", "v = -2 b + y k"]),
+        (r"\mathbf{M} = \left[\begin{array}{cc} m & 1 \\ 1 & J + n \end{array}\right]",
+         ["M_{11} = m", "M_{22} = J + n"]),
+    ],
+)  # fmt: skip
+def test_matrices_are_multiplied_out(text, parts):
+    found = entrywise(text)
+    assert len(found) == len(parts)
+    for one, right in zip(found, parts, strict=True):
+        (left, value), (wanted, formula) = (t.split("=") for t in (one, right))
+        assert left.strip() == wanted.strip() and same(value, formula)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"x = \begin{cases} a & b < c \\ d \end{cases}",
+        r"\frac{d}{dt}\begin{bmatrix} x \\ y \end{bmatrix} = \begin{bmatrix} u \\ v \end{bmatrix}",
+        r"\begin{bmatrix} u & v \end{bmatrix} = \begin{bmatrix} x \\ y \end{bmatrix}",
+        r"\mathbf{A} = \begin{bmatrix} 1 & \cdots \\ \vdots & n \end{bmatrix}",
+        r"\mathbf{y} = \mathbf{C}\begin{bmatrix} x \\ y \end{bmatrix}",
+        r"\begin{bmatrix} u \\ v \end{bmatrix}^T = \begin{bmatrix} x \\ y \end{bmatrix}",
+    ],
+)
+def test_what_is_no_matrix_equation_of_entries_stays_as_it_is(text):
+    assert entrywise(text) == [text]
+
+
+def test_words_in_front_of_letters_name_them():
+    text = (
+        "With the rod force $S$, the side thrust $N$ and a spring of stiffness $k$ the load $F$ the stress is high; "
+        "the compression ratio is $\\varepsilon$, the moments of inertia $J_1$ and $J_2$, the sun has $z_s$ teeth."
+    )
+    assert called(text) == {
+        "S": "rod force", "N": "side thrust", "k": "spring stiffness", "F": "load", "\\varepsilon": "compression ratio",
+        "J_1": "moment of inertia", "J_2": "moment of inertia", "z_s": "sun teeth",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("before", "phrase"),
+    [
+        ("The hoop stress of a cylinder of diameter $D$ and thickness $t$ is\n\\begin{equation}", "hoop stress"),
+        ("With the torque $T_1$ of the pinion the tangential force is\n\n$$", "tangential force"),
+        ("The piston has the kinetic energy\n\\[", "kinetic energy"),
+        ("The gas force on the piston, with the pressure $p_0$:\n$$", "gas force"),
+        ("It follows.\n\n$$", ""),
+    ],
+)
+def test_a_sentence_says_what_its_equation_gives(before, phrase):
+    assert subject(before, alone=True)[0] == phrase
+    assert subject(before, alone=False)[0] == ""
+
+
+def test_a_lagrange_equation_is_taken_apart():
+    text = (
+        r"\frac{\mathrm{d}}{\mathrm{d} t}\left(\frac{\partial\mathcal{L}}{\partial\dot{q}_i}\right)"
+        r"- \frac{\partial \mathcal{L}}{\partial q_i} = Q_i,"
+    )
+    equation = lagrange_equation(text)
+    assert [(t.of, t.by, t.sign, t.timed) for t in equation.terms] == [
+        ("calL", "qid", 1, True), ("calL", "qi", -1, False),
+    ]  # fmt: skip
+    assert equation.right == "Q_i"
+    assert (
+        lagrange_equation(r"\frac{d}{dt} x = v") is None
+        and lagrange_equation(r"\frac{\partial U}{\partial q} = Q") is None
+    )
+
+
+ENERGIES = r"""$$T = \frac12 m\dot x^2 + \frac12 J\dot\varphi^2$$ $$V = \frac12 k(x - r\varphi)^2$$
+$$\frac{d}{dt}\frac{\partial T}{\partial\dot x} - \frac{\partial T}{\partial x} + \frac{\partial V}{\partial x} = F$$
+$$\frac{d}{dt}\frac{\partial T}{\partial\dot\varphi} + \frac{\partial V}{\partial\varphi} = 0$$
+"""
+
+
+@pytest.mark.parametrize(
+    ("equation", "verdict"),
+    [
+        (r"m\ddot x + k(x - r\varphi) = F", "exact"),
+        (r"\ddot x + \frac{k}{m}(x - r\varphi) = \frac{F}{m}", "exact"),
+        (r"J\ddot\varphi = k r(x - r\varphi)", "exact"),
+        (r"\ddot\varphi = \frac{k r}{J}(x - r\varphi)", "exact"),
+        (r"m\ddot x + k(x + r\varphi) = F", "misprint"),
+        (r"\ddot\varphi = \frac{k}{J r}(x - r\varphi)", "misprint"),
+    ],
+)
+def test_equations_of_motion_follow_from_the_energies(equation, verdict, tmp_path):
+    row = judged(tmp_path, f"{ENERGIES}\n$${equation}$$", "text.md")[-1]
+    assert (row["verdict"], row["matched"]) == (verdict, "the text's energies"), row["note"]
+
+
+def test_an_index_that_lends_no_unit_blames_nobody(tmp_path):
+    """S_p of a piston's speed is no stroke, and a_w no crank radius."""
+    table = "| S | stroke | m |\n| a | crank radius | m |\n| N | speed | 1/s |\n"
+    text = f"{table}\n$$S_p = 2 S N$$\n\nThe share is\n\n$$x = 1 - \\exp(-a_w y)$$"
+    assert not blamed(judged(tmp_path, text, "text.md"))
