@@ -21,6 +21,7 @@ from mechsym.audit.judge.nearness import (
     is_slip,
     nearest,
     of_same_letters,
+    of_sign,
     of_units,
 )
 from mechsym.audit.read import tree as trees
@@ -40,8 +41,9 @@ _ASKED = 4  # quantities that a slip of a formula is searched for
 class Neighbours:
     """The claims of a program with what they are in theories."""
 
-    def __init__(self, claims: Sequence[Claim], vocabularies: Sequence[Lexicon]) -> None:
-        self.vocabularies = vocabularies
+    def __init__(self, claims: Sequence[Claim], vocabularies: Sequence[Lexicon], si: bool = False) -> None:
+        """si: whether all is in one system of units, so that a factor of two units is a slip."""
+        self.vocabularies, self.si = vocabularies, si
         self.near = {id(claim): list(self._near(claim)) for claim in claims}
         self.witnesses = [
             near
@@ -114,7 +116,7 @@ class Neighbours:
                 except BadInput:
                     continue
                 states = _states(vocabulary, at_rest(fitted.theory, form))
-                met = list(_met(fitted, form, states))
+                met = list(_met(fitted, form, states, self.si))
                 for away, quantity in met:
                     yield Near(away=away, fitted=fitted, form=form, quantity=quantity, states=states)
                 if not met and len(fitted.meanings) > 1:
@@ -141,18 +143,18 @@ def _states(vocabulary: Lexicon, rest: tuple[str, ...]) -> Probes:
     return Probes(vocabulary.theory, rest)
 
 
-def _met(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
+def _met(fitted: Fitted, form: Formula, states: Probes, si: bool) -> Iterator[tuple[float, str]]:
     seen = set()
     for quantity in fitted.quantities:
         met = compared(form, states, quantity)
         if met is not None:
             seen.add(quantity)
-            right = of_units(met.ratio) or met.shift
+            right = of_sign(met.ratio) if si else of_units(met.ratio) or met.shift
             if right or is_slip(met.ratio):
                 yield (0.0 if right else max(met.away, 1e-9)), quantity
     many = len(fitted.meanings)
     if many > 2 or many > 1 and fitted.strong and seen:
-        for away, quantity in nearest(fitted, form, states):
+        for away, quantity in nearest(fitted, form, states, si):
             if quantity not in seen and (away == 0.0 or not fitted.quantities and away <= _NEAR):
                 yield away, quantity
 

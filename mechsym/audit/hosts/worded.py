@@ -28,7 +28,7 @@ class Worded:
     def __post_init__(self) -> None:
         """Every side of a letter's equation is a claim, the letter's name in the text its comment."""
         paper = self.world.paper
-        called = dict(paper.called)
+        called = dict(paper.called) | dict.fromkeys(self.world.kinds.turns, "revolutions per minute")
         values = {d.letter: d.tree for d in self.world.defined}
         for order, said in enumerate(paper.said):
             left = said.sides[0].id if said.sides and hasattr(said.sides[0], "id") else ""
@@ -45,7 +45,7 @@ class Worded:
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}
         names |= {word for name in names for word in called.get(name, "").split()}
         touched = [v for v in _vocabularies() if v.touches(names)]
-        self.neighbours = Neighbours([*self.claims.values()], touched)
+        self.neighbours = Neighbours([*self.claims.values()], touched, si=True)
 
     def outcome(self, order: int, side: int) -> Row | None:
         """What theories say of one side of an equation; None where they say nothing."""

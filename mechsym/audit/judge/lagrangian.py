@@ -142,19 +142,21 @@ def _of(world: World, text: str) -> Iterator[MotionLaw]:
         residual: Node = number(0)
         for term in printed.terms:
             by = f"{q}d" if term.by == f"{written}d" else q if term.by == written else term.by
-            whole = _whole(theory, term.of)
+            whole = _whole(theory, world.coordinates, term.of)
             if whole is None:
                 return
             part = _slope(whole, by)
-            part = derivative(part, lambda k: _rate(theory, k)) if term.timed else part
+            part = derivative(part, lambda k: _rate(world.coordinates, k)) if term.timed else part
             residual = (minus if term.sign < 0 else plus)(residual, part)
         if not is_zero(residual) and f"{q}dd" in theory.letters:
             index = q.removeprefix(generic[1]) if generic else ""
             yield MotionLaw(coordinate=q, residual=residual, acts=_acts(printed.right, index, theory, world))
 
 
-def _rate(theory: Theory, letter: str) -> Node:
-    return name(f"{letter}d") if f"{letter}d" in theory.letters else number(0)
+def _rate(coordinates: frozenset[str], letter: str) -> Node:
+    # J_d is no rate of J
+    moves = letter in coordinates or letter.removesuffix("d") in coordinates
+    return name(f"{letter}d") if moves else number(0)
 
 
 def _acts(right: str, index: str, theory: Theory, world: World) -> str | None:
@@ -168,7 +170,7 @@ def _acts(right: str, index: str, theory: Theory, world: World) -> str | None:
     return letter if letter and used else None
 
 
-def _whole(theory: Theory, letter: str, depth: int = 0) -> Node | None:
+def _whole(theory: Theory, coordinates: frozenset[str], letter: str, depth: int = 0) -> Node | None:
     """A letter in those that the text does not define, with rates of the others multiplied out."""
     tree = theory.tape.get(letter)
     if not isinstance(tree, ast.expr) or depth > _DEEPEST:
@@ -177,10 +179,10 @@ def _whole(theory: Theory, letter: str, depth: int = 0) -> Node | None:
     for k in letters(tree):
         stem = k.removesuffix("d")
         if k in theory.tape:
-            inner[k] = _whole(theory, k, depth + 1)
+            inner[k] = _whole(theory, coordinates, k, depth + 1)
         elif k.endswith("d") and k not in theory.letters and stem in theory.tape:
-            of = _whole(theory, stem, depth + 1)
-            inner[k] = None if of is None else derivative(of, lambda one: _rate(theory, one))
+            of = _whole(theory, coordinates, stem, depth + 1)
+            inner[k] = None if of is None else derivative(of, lambda one: _rate(coordinates, one))
     if any(v is None for v in inner.values()):
         return None
     return substitute(tree, lambda n: inner.get(n.id) if isinstance(n, ast.Name) else None)

@@ -158,7 +158,12 @@ def of_units(ratio: float | None) -> bool:
     return ratio is not None and any(abs(ratio / u - 1) < 1e-5 for u in _UNITS)
 
 
-def nearest(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[float, str]]:
+def of_sign(ratio: float | None) -> bool:
+    """Whether a ratio of numbers [-] is 1 or -1."""
+    return ratio is not None and abs(abs(ratio) - 1) < 1e-9
+
+
+def nearest(fitted: Fitted, form: Formula, states: Probes, si: bool = False) -> Iterator[tuple[float, str]]:
     """Quantities whose numbers a formula comes near to, the nearest first, with how far it is off [-]."""
     theory = fitted.theory
     used = {m for t in form.letters.values() for m in letters(t)}
@@ -168,5 +173,6 @@ def nearest(fitted: Fitted, form: Formula, states: Probes) -> Iterator[tuple[flo
         if quantity in used or not used & needed or isinstance(theory.tape[quantity], tuple):
             continue
         if (met := compared(form, states, quantity)) is not None:
-            near.append((0.0 if of_units(met.ratio) or met.shift else met.away, quantity))
+            right = of_sign(met.ratio) if si else of_units(met.ratio) or met.shift
+            near.append((0.0 if right else max(met.away, 1e-9), quantity))
     yield from sorted(near)

@@ -101,7 +101,7 @@ _VERB = re.compile(r"\b(?:has|have|gives?|follows?|yields?|stores?|carries|carry
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
 _OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
-_SENTENCE = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)")
+_SENTENCE = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)|\n\s*\n")
 _COUNTED = re.compile(
     r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
     r"(?:in\s+)?((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
@@ -158,7 +158,10 @@ def _is_moment(text: str, match: re.Match[str]) -> bool:
 
 def _is_called_before(text: str, match: re.Match[str]) -> bool:
     # the load $F$ the stress: what follows without a comma or a verb is said of something else
-    apart = match[2] or text[match.end(1) + 1 : match.end(1) + 2] == ","
+    comma = text[match.end(1) + 1 : match.end(1) + 2] == ","
+    if comma and not match[2] and re.match(r"\s*(?:\$\$|\\\[|\\begin)", text[match.end() :]):
+        return True  # it is said of the equation behind
+    apart = match[2] or comma
     before = re.search(r"([A-Za-z-]+)\s*$", text[max(0, match.start() - 40) : match.start()])
     return not apart and before is not None and before[1].lower() not in ("where", "with", "and", "let", "here")
 
@@ -190,7 +193,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     tail = " ".join(bare.split()[-_LAST:])
     if not alone:
         return "", tail
-    first = re.match(rf"(?:The|Its|A)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|per)\b", bare)
+    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|per)\b", bare)
     last = re.search(rf".*\b(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
     beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if bare != sentence else None
     chosen = first if first and not _VERB.search(bare) else beside or last
