@@ -97,7 +97,9 @@ _CALLED = re.compile(
     re.IGNORECASE,
 )
 _LAST = 6  # words in front of an equation
-_VERB = re.compile(r"\b(?:has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b")
+_VERB = re.compile(
+    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b"
+)
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
 _OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
