@@ -12,6 +12,7 @@ from mechsym.audit.read.displays import displayed
 from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.macros import expanded
+from mechsym.audit.read.mathml import formula as formula_of_page
 from mechsym.audit.read.matrices import entrywise
 from mechsym.audit.read.tree import letters
 from mechsym.audit.read.units import called, subject
@@ -185,3 +186,15 @@ def test_an_index_that_lends_no_unit_blames_nobody(tmp_path):
     table = "| S | stroke | m |\n| a | crank radius | m |\n| N | speed | 1/s |\n"
     text = f"{table}\n$$S_p = 2 S N$$\n\nThe share is\n\n$$x = 1 - \\exp(-a_w y)$$"
     assert not blamed(judged(tmp_path, text, "text.md"))
+
+
+@pytest.mark.parametrize(("formula", "verdict"), [(r"m_1\dot x_1", "exact"), (r"2 m_1\dot x_1", "misprint")])
+def test_a_slope_by_a_rate_is_that_of_the_text(formula, verdict, tmp_path):
+    text = rf"$$T = \frac12 m_1\dot x_1^2$$ and $$p_1 = \frac{{\partial T}}{{\partial\dot x_1}} = {formula}$$"
+    assert judged(tmp_path, text, "text.md")[-1]["verdict"] == verdict
+
+
+def test_a_page_shows_indices_as_they_are_printed_and_what_is_not_read_as_its_source():
+    assert "<mi>l</mi><mi>c2</mi>" in formula_of_page(r"x = l_{c2}\cos\varphi")
+    assert formula_of_page(r"\det\mathbf J = l_1").startswith("<code>")
+    assert formula_of_page(r"\frac{d}{dt}\frac{\partial L}{\partial\dot q} = 0").startswith("<code>")

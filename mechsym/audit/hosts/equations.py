@@ -101,7 +101,11 @@ class Judge:
     def _by_energies(self, order: int, said: Said) -> Judged | None:
         # an equation of motion, or what stands before an acceleration in one, by the energies of the text
         if self.energies.is_law(said):
-            why = "Lagrange's equation: what follows from the text's energies by it is compared with what stands there"
+            why = "Lagrange's equation: " + (
+                "what follows from the text's energies by it is compared with what stands there"
+                if self.energies.laws
+                else "the text prints no energies that it can be told of"
+            )
             return Judged(verdict=DEFINED, note=why)
         theory = self.world.theory(len(self.world.paper.said) - 1)
         sides = [self._known(side, theory) for side in said.sides]

@@ -227,7 +227,7 @@ class World:
     def turns(self, letter: str) -> bool:
         """Whether a defined letter changes with the angle, or another coordinate."""
         reached = self._reach(name(letter))
-        return self.angle in reached or not self.moving.isdisjoint(reached)
+        return self.angle in reached or not {m for q in self.moving for m in (q, f"{q}d")}.isdisjoint(reached)
 
     def plain(self, tree: Node) -> Node:
         """A side with the rates of the angle under their names, and sums over parts as one letter."""

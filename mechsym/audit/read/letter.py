@@ -170,18 +170,22 @@ def _subscript(cursor: Cursor) -> str:
 
 def derivative(cursor: Cursor) -> str | None:
     r"""Read what follows `\frac` as `dx_dphi` or `d2x_dphi2`; None when it is an ordinary fraction."""
-    # \frac{d x}{d \varphi} and \frac{d^2 x}{d \varphi^2} are one letter, dx_dphi and d2x_dphi2
-    text = "".join(cursor.tokens[cursor.position : cursor.position + 24])
+    # \frac{d x}{d \varphi} and \frac{d^2 x}{d \varphi^2} are one letter, dx_dphi and d2x_dphi2; dL_dqd by a rate
+    text = "".join(cursor.tokens[cursor.position : cursor.position + 28])
     d, letter = r"(?:d|\\mathrm\{d\}|\\partial)", r"\\?[A-Za-z]+(?:_\w|_\{\w+\})?"
-    match = re.match(rf"\{{{d}(\^2|\^\{{2\}})?({letter})\}}\{{{d}({letter})(\^2|\^\{{2\}})?\}}", text)
-    if match is None or bool(match[1]) != bool(match[4]):
+    rate = rf"\\dot(?:\{{)?({letter})(?:\}})?"
+    match = re.match(rf"\{{{d}(\^2|\^\{{2\}})?({letter})\}}\{{{d}(?:{rate}|({letter}))(\^2|\^\{{2\}})?\}}", text)
+    if match is None or bool(match[1]) != bool(match[5]):
         return None
     end, length = cursor.position, 0
     while length < match.end():
         length += len(cursor.tokens[end])
         end += 1
     cursor.position = end
-    above, below = (plain(*re.sub(r"[\\{}]", "", match[i]).partition("_")[::2]) for i in (2, 3))
+    above, below = (
+        plain(*re.sub(r"[\\{}]", "", part).partition("_")[::2], dots=dots)
+        for part, dots in ((match[2], 0), (match[3] or match[4], int(bool(match[3]))))
+    )
     whole = f"d2{above}_d{below}2" if match[1] else f"d{above}_d{below}"
     cursor.spelled[whole] = rf"\frac{match[0]}"
     return whole

@@ -7,16 +7,19 @@ A computer algebra system would order the terms anew; here they stand as printed
 import ast
 import difflib
 import html
+import re
 from collections.abc import Sequence
 
+from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.spelling import ATOM, NAME, POWER, PRODUCT, SIDES, SUM, SYMBOLS
 from mechsym.audit.read.statement import statement
-from mechsym.audit.read.tree import Node, children, digest, function_of
+from mechsym.audit.read.tree import Node, children, digest, function_of, name, substitute
 from mechsym.errors import BadInput
 
 _DOTS = {"d": "˙", "dd": "¨"}
 _FUNCTIONS = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "log": "ln"}
+_INDEXED = re.compile(r"\\?([A-Za-z]+)_\{?([A-Za-z0-9]+)\}?")
 _ONE_PIECE = 60  # characters of a formula that stays on its line
 Marks = frozenset[int]  # of nodes, by identity; the negative of one marks the sign before it
 _NONE: Marks = frozenset()
@@ -98,16 +101,22 @@ def _factors(node: Node) -> list[Signed]:
 
 def _read(text: str) -> Node | None:
     try:
-        return read_expression(statement(text).right[-1], (), AnyLetter())[0]
+        tree, spelled = read_expression(statement(text).right[-1], (), AnyLetter())
     except (BadInput, IndexError):
         return None
+    # l_{c2} where its plain name does not tell the index
+    apart = {k: m for k, v in spelled.items() if NAME.fullmatch(k) is None and (m := _INDEXED.fullmatch(v.strip()))}
+    return substitute(
+        tree,
+        lambda n: name(f"{apart[n.id][1]}_{apart[n.id][2]}") if isinstance(n, ast.Name) and n.id in apart else None,
+    )
 
 
 def _whole(text: str, tree: Node | None, marked: Marks) -> str:
-    if tree is None:
-        return f"<code>{html.escape(text)}</code>"
-    left = statement(text).left
+    left = statement(text).left if tree is not None else ""
     lead = _read(left) if left else None
+    if tree is None or left and lead is None or lagrange_equation(text):
+        return f"<code>{html.escape(text)}</code>"
     parts = [*([_set(lead, marked)[0] + _operator("=")] if lead is not None else [])]
     parts += _pieces(tree, marked) if len(text) > _ONE_PIECE else [_set(tree, marked)[0]]
     shown = "&#8203;".join(f"<math>{part}</math>" for part in parts)  # where a line may break
@@ -198,7 +207,11 @@ def letter(name: str) -> str:
     if match is None:
         base, _, index = name.partition("_")
         words = html.escape(index.replace("_", " "))
-        return f"<msub><mi>{html.escape(base)}</mi><mtext>{words}</mtext></msub>" if index else f"<mi>{base}</mi>"
+        return (
+            f"<msub><mi>{html.escape(SYMBOLS.get(base, base))}</mi><mtext>{words}</mtext></msub>"
+            if index
+            else f"<mi>{base}</mi>"
+        )
     stem, index, dots = match["stem"], match["digits"] or match["word"], match["dots"]
     base = f"<mi>{SYMBOLS.get(stem, stem)}</mi>"
     base = f"<mover>{base}<mo>{_DOTS[dots]}</mo></mover>" if dots else base
