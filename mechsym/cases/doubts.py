@@ -90,6 +90,8 @@ def judged(sections: Records, mechanism: str) -> tuple[Doubt, ...]:
     if any(d.code == "reciprocating_mass" for d in alone):  # one slip is told once
         together = tuple(d for d in together if not d.quantity.startswith(MOVING) and d.code != "crank_inertia")
     doubts += (*alone, *together, *laws.by_firing(sections, parameters), *laws.by_throws(parameters))
+    if not own.is_file(mechanism) and not any("mass" in d.code for d in doubts):
+        doubts += links.by_mass(parameters)
     shaft = elastic(mechanism, parameters)
     if shaft is None:
         return doubts

@@ -163,6 +163,10 @@ def _burning(sections: Records) -> Iterator[Doubt]:
         yield from proportion("spark_compression", "chamber.compression_ratio of an engine with a spark", ratio)
     if shares := getattr(sections.get("rings"), "gas_shares", ()):
         yield from proportion("ring_shares", "sum of rings.gas_shares", sum(shares))
+    if hasattr(cycle, "c_v") and hasattr(cycle, "R"):
+        yield from proportion(
+            "gas_gamma", "1 + cycle.R / cycle.c_v, the ratio of specific heats", 1 + cycle.R / cycle.c_v
+        )
     if hasattr(cycle, "stoichiometric_ratio"):
         what = "cycle.heating_value / cycle.stoichiometric_ratio"
         yield from proportion("fuel_heat", what, cycle.heating_value / cycle.stoichiometric_ratio)

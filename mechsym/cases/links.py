@@ -13,7 +13,8 @@ section A is that of the stoutest link, a square bar of steel of its mass and le
 import contextlib
 import itertools
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -171,9 +172,18 @@ def _masses(
         if unit == "kg" and letters[name] > 0:
             what = f"parameters.{name} / ({'longest link' if links else 'twice the longest letter'})^3"
             yield from proportion("link_density", what, letters[name] / longest**3)
-    masses = [letters[name] for name, unit in units.items() if unit == "kg" and letters[name] > 0]
-    if masses:
-        yield from proportion("mass_spread", "heaviest mass / lightest", max(masses) / min(masses))
+    yield from _spread(letters[name] for name, unit in units.items() if unit == "kg")
+
+
+def by_mass(parameters: object) -> tuple[Doubt, ...]:
+    """The masses of a mechanism that comes with the program, by one another."""
+    every = (getattr(parameters, f.name) for f in fields(parameters) if f.metadata.get("unit") == "kg")  # type: ignore[arg-type]
+    return _spread(m for mass in every for m in (mass if isinstance(mass, tuple) else (mass,)))
+
+
+def _spread(masses: Iterable[float]) -> tuple[Doubt, ...]:
+    weighed = [mass for mass in masses if mass > 0]
+    return proportion("mass_spread", "heaviest mass / lightest", max(weighed) / min(weighed)) if weighed else ()
 
 
 def _stress(
