@@ -97,8 +97,17 @@ def _rows_of(file: Path) -> list[Row]:
     rows = []
     for order, said in enumerate(world.paper.said):
         if not said.inline:
-            rows.append(_row(file, said, judge.verdict(order, said) if said.sides else None, slips))
+            rows.append(_row(file, said, _verdict(judge, order, said), slips))
     return rows
+
+
+def _verdict(judge: Judge, order: int, said: Said) -> Judged | None:
+    if not said.sides:
+        return None
+    try:
+        return judge.verdict(order, said)
+    except (BadInput, KeyError, RecursionError) as error:
+        return Judged(verdict="untestable", note=f"nothing can be told of it: {error}")
 
 
 def _row(file: Path, said: Said, verdict: Judged | None, slips: Sequence[TableSlip]) -> Row:

@@ -190,6 +190,8 @@ def of_unit(unit: str) -> Kind:
 def kinds_of(paper: Text) -> Kinds:
     """What the nomenclature, units behind equations, and definitions tell."""
     kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")})
+    if any(said.spelled.get("dt", "").startswith("d_") for said in paper.said):
+        del kinds.printed["dt"]  # a diameter of something
     for letter, phrase in paper.called.items():
         if letter not in paper.named and (usual := _usual(letter, phrase)):
             kinds.printed[letter] = of_unit(usual)

@@ -109,7 +109,9 @@ class Energies:
         printed = left if acting or value_of(right) == 0 else minus(left, right)
         own = [law for law in self.laws if f"{law.coordinate}dd" in letters(printed)]
         used = _used(theory, sides) - acting
-        return printed, [scaled(law, printed, used) for law in own if not acting or law.acts in {*acting, None}]
+        chosen = [law for law in own if not acting or law.acts in {*acting, None}]
+        # the slip may stand in what is before the acceleration
+        return printed, [tree for law in chosen for tree in (law.vanishing(used), scaled(law, printed, used))]
 
 
 def _used(theory: Theory, sides: Sequence[Node]) -> set[str]:

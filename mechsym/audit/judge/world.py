@@ -134,7 +134,7 @@ class World:
         if not said.sides or said.claim:
             return
         sides = [self.plain(s) for s in said.sides]
-        left = sides[0]
+        left, *sides[1:] = sides[0], *map(self._sloped, sides[1:])
         if isinstance(left, ast.Name):
             if left.id == f"{self.angle}d" and self.angle:
                 self._solve(order, sides[0], sides[1:], any_letter=True)
@@ -152,6 +152,12 @@ class World:
                 self.defined.append(Defined(order=order, letter=below.id, tree=turned, against=1))
             return
         self._solve(order, left, sides[1:], any_letter=False)
+
+    def _sloped(self, tree: Node) -> Node:
+        # the prime of what is defined, within another definition: its slope by the angle
+        known = {d.letter for d in self.defined} if self.angle else set()
+        slopes = {f"{k}prime": f"d{k}_d{self.angle}" for k in known}
+        return substitute(tree, lambda n: name(slopes[n.id]) if isinstance(n, ast.Name) and n.id in slopes else None)
 
     def _may_define(self, letter: str, said: Said, order: int) -> bool:
         if letter in RESERVED or _OPAQUE.fullmatch(letter):

@@ -92,9 +92,9 @@ _AHEAD = re.compile(
 _PHRASE = r"(?:[A-Za-z-]{2,20}\s+){0,6}[A-Za-z-]{3,20}"
 _NAMED = r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$"
 _CALLED = re.compile(
-    rf"\b(?:the|an?|its|their|and|of|with)\s+({_PHRASE}),?\s+(?:(?:is|are|be)\s+)?{_NAMED}"
+    rf"(?:\b(?:the|an?|its|their|and|of|with)\s+|(?:^|[,;:(])[ \t]*)({_PHRASE}),?\s+(?:(?:is|are|be)\s+)?{_NAMED}"
     r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)",
-    re.IGNORECASE,
+    re.IGNORECASE | re.MULTILINE,
 )
 _LAST = 6  # words in front of an equation
 _VERB = re.compile(
@@ -211,7 +211,12 @@ def _cells(row: str) -> Iterator[tuple[str, str, str]]:
         group = cells[start : start + 3]
         symbol = group[0]
         wordy = len(group) > 1 and re.search(r"[A-Za-z]{3}", group[1]) and not _FORMULA.search(group[1])
-        if symbol and len(symbol) <= 60 and wordy and not re.search(r"[A-Za-z]{3,} [A-Za-z]", symbol.replace("\\", "")):
+        if (
+            symbol
+            and len(symbol) <= 60
+            and wordy
+            and not re.search(r"[A-Za-z]{3,} [A-Za-z]", re.sub(r"\\[A-Za-z]+", "", symbol))
+        ):
             yield symbol, group[1], group[2] if len(group) > 2 else ""
 
 
