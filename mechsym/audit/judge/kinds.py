@@ -190,13 +190,14 @@ def of_unit(unit: str) -> Kind:
 def kinds_of(paper: Text) -> Kinds:
     """What the nomenclature, units behind equations, and definitions tell."""
     kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")})
-    if any(said.spelled.get("dt", "").startswith("d_") for said in paper.said):
+    indexed = {k for said in paper.said for k, v in said.spelled.items() if v.startswith("d_")}
+    if "dt" in indexed:
         del kinds.printed["dt"]  # a diameter of something
     for letter, phrase in paper.called.items():
-        if letter not in paper.named and (usual := _usual(letter, phrase)):
+        if letter not in paper.named and (usual := _usual(letter, phrase, letter in indexed)):
             kinds.printed[letter] = of_unit(usual)
     for letter, about in paper.named.items():
-        usual = _usual(letter, about.meaning)
+        usual = _usual(letter, about.meaning, letter in indexed)
         # small letters of work and heat are often those of a kilogram
         unit = about.unit or ("" if usual == "J" and letter[0].islower() else usual)
         if unit:
@@ -232,12 +233,13 @@ def kinds_of(paper: Text) -> Kinds:
     return kinds
 
 
-def _usual(letter: str, meaning: str) -> str:
+def _usual(letter: str, meaning: str, indexed: bool) -> str:
     # what is measured in one unit by its name
     words = re.findall(r"[a-z]+", meaning.lower())
     called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
     called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
-    changed = any(OTHERS.fullmatch(word) for word in words) or re.match("(?:d|delta|Delta)[A-Za-z]", letter)
+    step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
+    changed = step or any(OTHERS.fullmatch(word) for word in words)
     return "" if changed else KINDS.get(called, "")
 
 
