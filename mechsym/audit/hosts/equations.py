@@ -108,17 +108,17 @@ class Judge:
                 else "the text prints no energies that it can be told of"
             )
             return Judged(verdict=DEFINED, note=why)
-        theory = self.world.theory(len(self.world.paper.said) - 1)
+        theory = self.world.theory(order)
         sides = [self._known(side, theory) for side in said.sides]
-        if not self.energies.tells(theory, sides):
+        if not self.energies.tells(order, theory, sides):
             return None
         matched = "the text's energies"
-        if self.energies.holds(theory, sides):
+        if self.energies.holds(order, theory, sides):
             return Judged(verdict="exact", matched=matched, error=0.0)
         for letter, (source, _, right) in self.wrong.items():
-            if self.energies.holds(self.world.theory(order, {letter: right}), sides):
+            if self.energies.holds(order, self.world.theory(order, {letter: right}), sides):
                 return Judged(verdict="exact", matched=matched, error=0.0, note=f"with ({source}) as corrected")
-        printed, wanted = self.energies.wanted(theory, sides)
+        printed, wanted = self.energies.wanted(order, theory, sides)
         return self._motion_slip(theory, wanted, printed, said)
 
     def _motion_slip(self, theory: Theory, wanted: Sequence[Node], printed: Node, said: Said) -> Judged | None:

@@ -1,5 +1,6 @@
 """Equations of a text held against theories by their words, as the formulas of a program are by names and comments."""
 
+import ast
 from dataclasses import dataclass, field
 from functools import cache
 
@@ -31,9 +32,10 @@ class Worded:
         called = dict(paper.called) | dict.fromkeys(self.world.kinds.turns, "revolutions per minute")
         values = {d.letter: d.tree for d in self.world.defined}
         for order, said in enumerate(paper.said):
-            left = said.sides[0].id if said.sides and hasattr(said.sides[0], "id") else ""
-            if not left or said.claim or said.inline:
+            letter = said.sides[0] if said.sides else None
+            if not isinstance(letter, ast.Name) or said.claim or said.inline:
                 continue
+            left = letter.id
             about = called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
                 if len(letters(side)) > 1 and not any(function_of(n) == "sum" for _, n in walk(side)):

@@ -198,8 +198,7 @@ def kinds_of(paper: Text) -> Kinds:
             kinds.printed[letter] = of_unit(usual)
     for letter, about in paper.named.items():
         usual = _usual(letter, about.meaning, letter in indexed)
-        # small letters of work and heat are often those of a kilogram
-        unit = about.unit or ("" if usual == "J" and letter[0].islower() else usual)
+        unit = about.unit or usual
         if unit:
             kinds.printed[letter] = of_unit(unit)
         if about.unit == "rpm":
@@ -240,7 +239,9 @@ def _usual(letter: str, meaning: str, indexed: bool) -> str:
     called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
     step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
     changed = step or any(OTHERS.fullmatch(word) for word in words)
-    return "" if changed else KINDS.get(called, "")
+    unit = "" if changed else KINDS.get(called, "")
+    # small letters of work and heat are often those of a kilogram
+    return "" if unit == "J" and letter[0].islower() else unit
 
 
 def _infer(kinds: Kinds, said: Said) -> None:

@@ -31,6 +31,7 @@ class MotionLaw:
 
     coordinate: str
     residual: Node  #: What the energies give, in letters that the text does not define
+    order: int  #: Place of its Lagrange equation in the text [-]
     acts: str | None  #: The letter that stands on the other side, empty for 0, None where it is not known
 
     def vanishing(self, used: set[str], right: str = "") -> Node:
@@ -50,8 +51,8 @@ class Energies:
     def __post_init__(self) -> None:
         """Find the letters that stand before an acceleration in an equation of motion."""
         defined = {d.letter for d in self.world.defined}
-        for law in self.laws:
-            for said in self.world.paper.said:
+        for order, said in enumerate(self.world.paper.said):
+            for law in self._at(order):
                 if len(said.sides) != 2 or not isinstance(said.sides[0], ast.Name) or said.sides[0].id != law.acts:
                     continue
                 for q in self.world.coordinates:
@@ -59,55 +60,65 @@ class Energies:
                     if isinstance(before, ast.Name) and before.id in defined:
                         self.shares[before.id] = wanted
 
+    def _at(self, order: int) -> list[MotionLaw]:
+        # of each coordinate the last law in front of an equation, or behind it in its section
+        said = self.world.paper.said
+        chosen: dict[str, MotionLaw] = {}
+        for law in self.laws:
+            behind = law.coordinate not in chosen and said[law.order].section == said[order].section
+            if law.order <= order or behind:
+                chosen[law.coordinate] = law
+        return [*chosen.values()]
+
     def is_law(self, said: Said) -> bool:
         """Whether an equation is the Lagrange equation itself."""
         return bool(said.sides) and lagrange_equation(said.shown.text) is not None
 
-    def tells(self, theory: Theory, sides: Sequence[Node]) -> bool:
+    def tells(self, order: int, theory: Theory, sides: Sequence[Node]) -> bool:
         """Whether the energies say something of an equation: it has an acceleration, or is what stands before one."""
-        if not self.laws or len(sides) != 2:
+        if not self._at(order) or len(sides) != 2:
             return False
         left, right = sides
         if isinstance(left, ast.Name):
-            return bool(self._of_letter(left.id, right, theory)) and left.id not in letters(right)
+            return bool(self._of_letter(order, left.id, right, theory)) and left.id not in letters(right)
         return any(f"{q}dd" in letters(side) for side in sides for q in self.world.coordinates)
 
-    def _of_letter(self, letter: str, right: Node, theory: Theory) -> list[Node]:
+    def _of_letter(self, order: int, letter: str, right: Node, theory: Theory) -> list[Node]:
         used = _used(theory, [right])
-        wanted = [law.residual for law in self.laws if law.acts == letter]
-        wanted += [tree for rate, tree in accelerations(self._coupled(letter), used).items() if rate == letter]
+        wanted = [law.residual for law in self._at(order) if law.acts == letter]
+        wanted += [tree for rate, tree in accelerations(self._coupled(order, letter), used).items() if rate == letter]
         return wanted + [tree for share, tree in self.shares.items() if share == letter]
 
-    def _coupled(self, rate: str) -> list[MotionLaw]:
+    def _coupled(self, order: int, rate: str) -> list[MotionLaw]:
         # the laws that a second rate follows from: its own, and those of the second rates in them
         chosen: dict[str, MotionLaw] = {}
         waiting = [rate]
         while waiting:
             wish = waiting.pop()
-            own = next((law for law in self.laws if f"{law.coordinate}dd" == wish), None)
+            own = next((law for law in self._at(order) if f"{law.coordinate}dd" == wish), None)
             if own is not None and wish not in chosen:
                 chosen[wish] = own
                 waiting += [k for k in letters(own.residual) if k.endswith("dd")]
         return [*chosen.values()]
 
-    def holds(self, theory: Theory, sides: Sequence[Node]) -> bool:
+    def holds(self, order: int, theory: Theory, sides: Sequence[Node]) -> bool:
         """Whether an equation follows from the energies, as it stands or times what does not move."""
         left, right = sides
         if isinstance(left, ast.Name):
-            return any(alike(states(theory), tree, right) for tree in self._of_letter(left.id, right, theory))
+            return any(alike(states(theory), tree, right) for tree in self._of_letter(order, left.id, right, theory))
         used, whole = _used(theory, sides), minus(left, right)
         acts = right.id if isinstance(right, ast.Name) else ""
-        wanted = [law.vanishing(used, acts) for law in self.laws]
+        wanted = [law.vanishing(used, acts) for law in self._at(order)]
         return any(same_motion(theory, self.world.coordinates, whole, tree) for tree in wanted)
 
-    def wanted(self, theory: Theory, sides: Sequence[Node]) -> tuple[Node, list[Node]]:
+    def wanted(self, order: int, theory: Theory, sides: Sequence[Node]) -> tuple[Node, list[Node]]:
         """The side that a slip is looked for in, and what it may have to be."""
         left, right = sides
         if isinstance(left, ast.Name):
-            return right, self._of_letter(left.id, right, theory)
+            return right, self._of_letter(order, left.id, right, theory)
         acting = {right.id} if isinstance(right, ast.Name) else set()
         printed = left if acting or value_of(right) == 0 else minus(left, right)
-        own = [law for law in self.laws if f"{law.coordinate}dd" in letters(printed)]
+        own = [law for law in self._at(order) if f"{law.coordinate}dd" in letters(printed)]
         used = _used(theory, sides) - acting
         chosen = [law for law in own if not acting or law.acts in {*acting, None}]
         # the slip may stand in what is before the acceleration
@@ -125,15 +136,15 @@ def _slope(tree: Node, letter: str) -> Node:
 
 def laws(world: World) -> list[MotionLaw]:
     """What the Lagrange equations of a text come to for its coordinates."""
-    every = [law for said in world.paper.said for law in _of(world, said.shown.text)]
+    every = [law for order, said in enumerate(world.paper.said) for law in _of(world, order, said.shown.text)]
     return every if len(every) <= _MOST else []
 
 
-def _of(world: World, text: str) -> Iterator[MotionLaw]:
+def _of(world: World, order: int, text: str) -> Iterator[MotionLaw]:
     printed = lagrange_equation(text)
     if printed is None:
         return
-    theory = world.theory(len(world.paper.said) - 1)
+    theory = world.theory(order)
     written = next(t.by for t in printed.terms if t.timed).removesuffix("d")
     generic = None if written in world.coordinates else _INDEX.match(written)
     coordinates = [written]
@@ -152,7 +163,8 @@ def _of(world: World, text: str) -> Iterator[MotionLaw]:
             residual = (minus if term.sign < 0 else plus)(residual, part)
         if not is_zero(residual) and f"{q}dd" in theory.letters:
             index = q.removeprefix(generic[1]) if generic else ""
-            yield MotionLaw(coordinate=q, residual=residual, acts=_acts(printed.right, index, theory, world))
+            acts = _acts(printed.right, index, theory, world)
+            yield MotionLaw(coordinate=q, residual=residual, order=order, acts=acts)
 
 
 def _rate(coordinates: frozenset[str], letter: str) -> Node:

@@ -61,10 +61,13 @@ class World:
     aliases: dict[str, str] = field(default_factory=dict)  #: Author's letter to the rate of the angle that it is
     defined: list[Defined] = field(default_factory=list)
     theories: dict[tuple[int, ...], Theory] = field(default_factory=dict)
+    dotted: frozenset[str] = frozenset()  #: Letters with a dot somewhere
     energetic: bool = False  #: Whether a Lagrange equation stands in it
 
     def __post_init__(self) -> None:
         """Find the angle that runs, its rates, and all definitions."""
+        spelled = {k: v for said in self.paper.said for k, v in said.spelled.items()}
+        self.dotted = frozenset(k.rstrip("d") for k, v in spelled.items() if v.startswith(("\\dot", "\\ddot")))
         self.energetic = any(lagrange_equation(said.shown.text) for said in self.paper.said)
         self._name_time()
         self.angle = _angle(self.paper.said)
@@ -126,15 +129,15 @@ class World:
         for usual in SPEEDS:
             about = self.paper.named.get(usual)
             fits = usual != "w" or about and about.unit == "rad/s"
-            free = self.angle and not {f"{self.angle}d", f"{self.angle}d"} & {*self.aliases.values(), *written}
-            if free and usual in written and fits:
+            taken = {*self.aliases.values(), *written}
+            if self.angle and f"{self.angle}d" not in taken and usual in written and fits:
                 self.aliases[usual] = f"{self.angle}d"
 
     def _define(self, order: int, said: Said) -> None:
         if not said.sides or said.claim:
             return
         sides = [self.plain(s) for s in said.sides]
-        left, *sides[1:] = sides[0], *map(self._sloped, sides[1:])
+        left, sides[1:] = sides[0], [self._sloped(side) for side in sides[1:]]
         if isinstance(left, ast.Name):
             if left.id == f"{self.angle}d" and self.angle:
                 self._solve(order, sides[0], sides[1:], any_letter=True)
@@ -221,9 +224,7 @@ class World:
     @property
     def moving(self) -> frozenset[str]:
         """Letters with a dot somewhere that no equation defines: coordinates."""
-        spelled = {k: v for said in self.paper.said for k, v in said.spelled.items()}
-        dotted = {k.rstrip("d") for k, v in spelled.items() if v.startswith(("\\dot", "\\ddot"))}
-        return frozenset(dotted - {d.letter for d in self.defined} - {self.angle})
+        return self.dotted - {d.letter for d in self.defined} - {self.angle}
 
     @property
     def coordinates(self) -> frozenset[str]:

@@ -8,12 +8,10 @@ _KIND = r"(?:[bpvBV]?matrix|smallmatrix|array)"
 _BLOCK = re.compile(
     rf"(?:\\left\s*)?[\[(]?\s*\\begin\{{({_KIND})\}}\s*(?:\{{[lcr|]*\}})?(.*?)\\end\{{\1\}}\s*(?:(?:\\right\s*)?[\])])?"
 )
-_INSIDE = re.compile(rf"\\begin\{{(?!{_KIND}\}})|\\begin\{{{_KIND}\}}.*\\begin")
 _SPACE = re.compile(r"\\(?:q?quad|[,;:! ]|cdot|times)|~|\s")
 _OPERATOR = re.compile(r"frac\s*\{\s*(?:\\partial|d)|\\(?:nabla|int|sum|partial|frac\s*\{\s*\\mathrm)")
 _LETTER_OF_MATRIX = re.compile(r"\\(?:mathbf|boldsymbol|bm|vec)(?![A-Za-z])")
 _SIGNED = re.compile(r"^(.*?)\s*([+-])\s*([^+-]*)$")
-_BOLD = re.compile(r"(?:\\(?:mathbf|boldsymbol|bm|mathrm|vec|underline)\s*)?\{?\s*(\\?[A-Za-z]+)\s*\}?")
 _MOST = 16  # entries of a matrix that are one equation each
 
 Entries = list[list[str]]
@@ -25,25 +23,13 @@ def entrywise(text: str) -> list[str]:
         return [text]
     sides = [_side(side) for side in _sides(text)]
     known = [side for side in sides if isinstance(side, list)]
-    if len(sides) < 2 or not known:
+    if len(sides) < 2 or len(known) < len(sides):
         return [text]
     rows, columns = len(known[0]), len(known[0][0])
     shapes = {(len(side), len(row)) for side in known for row in side}
     if shapes != {(rows, columns)} or rows * columns > _MOST:
         return [text]
-    if len(known) == len(sides):
-        return [" = ".join(side[i][k] for side in known) for i in range(rows) for k in range(columns)]
-    name = sides[0]
-    if not isinstance(name, str) or len(sides) - len(known) > 1 or not (letter := _BOLD.fullmatch(name)):
-        return [text]
-    # what a letter of a matrix is: M_{12} = ..; of a column F_{1}
-    index = [[f"{i + 1}{k + 1}" if columns > 1 else f"{i + 1}" for k in range(columns)] for i in range(rows)]
-    return [
-        f"{letter[1]}_{{{index[i][k]}}} = " + " = ".join(side[i][k] for side in known)
-        for i in range(rows)
-        for k in range(columns)
-        if not re.fullmatch(r"-?[\d.]+", known[0][i][k])
-    ] or [text]
+    return [" = ".join(side[i][k] for side in known) for i in range(rows) for k in range(columns)]
 
 
 def _sides(text: str) -> Iterator[str]:
@@ -106,7 +92,7 @@ def _entries(body: str) -> Entries:
 def _times(sign: str, factor: str, entries: Entries) -> Entries:
     if not factor and sign != "-":
         return entries
-    front = ("-" if sign == "-" else "") + (_bracketed(factor) if factor else "")
+    front = ("-" if sign == "-" else "") + (rf"{_bracketed(factor)} \cdot " if factor else "")
     return [[f"{front}{_bracketed(entry)}" for entry in row] for row in entries]
 
 
@@ -125,8 +111,12 @@ def _multiplied(left: Entries, right: Entries) -> Entries | None:
 
 
 def _dot(row: Sequence[str], column: Sequence[str]) -> str:
-    terms = [(a, b) for a, b in zip(row, column, strict=True) if "0" not in (a, b)]
-    return " + ".join(a if b == "1" else b if a == "1" else f"{_bracketed(a)}{_bracketed(b)}" for a, b in terms) or "0"
+    products = [
+        a if b == "1" else b if a == "1" else rf"{_bracketed(a)} \cdot {_bracketed(b)}"
+        for a, b in zip(row, column, strict=True)
+        if "0" not in (a, b)
+    ]
+    return " + ".join(products) or "0"
 
 
 def _bracketed(text: str) -> str:

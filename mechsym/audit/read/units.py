@@ -87,19 +87,21 @@ _WHERE = re.compile(
     r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|(?(2)\$|(?!))|\Z))"
 )
 _AHEAD = re.compile(
-    rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+\$([^$\n=]{{1,40}})(?:=[^$\n]*)?\$"
+    rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+"
+    r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$(?!\s+per\b)"
 )
 _PHRASE = r"(?:[A-Za-z-]{2,20}\s+){0,6}[A-Za-z-]{3,20}"
 _NAMED = r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$"
 _CALLED = re.compile(
     rf"(?:\b(?:the|an?|its|their|and|of|with)\s+|(?:^|[,;:(])[ \t]*)({_PHRASE}),?\s+(?:(?:is|are|be)\s+)?{_NAMED}"
-    r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)",
+    r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)(?!\s+per\b)",
     re.IGNORECASE | re.MULTILINE,
 )
 _LAST = 6  # words in front of an equation
 _VERB = re.compile(
     r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b"
 )
+_PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
 _OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
@@ -117,7 +119,9 @@ _MEASURED = re.compile(  # a spring of stiffness $k$
 )
 _BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|and|with|by|has|is)\s+", re.IGNORECASE)
 #: Words that change what the next one is measured in
-OTHERS = re.compile("per|unit|specific|by|relative|dimensionless|normali[sz]ed|molar|section|internal|moment|polar")
+OTHERS = re.compile(
+    "per|unit|specific|by|relative|(?:non)?dimension(?:less|al)|normali[sz]ed|scaled|molar|section|internal|moment|polar"
+)
 _FORMULA = re.compile(r"=|\\(?:approx|simeq|frac|sqrt|left|sin|cos|tan)\b")
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
 
@@ -195,11 +199,16 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     tail = " ".join(bare.split()[-_LAST:])
     if not alone:
         return "", tail
-    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|per)\b", bare)
+    ends = bare != sentence  # with a verb
+    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between)\b", bare)
+    beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if ends else None
     last = re.search(rf".*\b(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
-    beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if bare != sentence else None
-    chosen = first if first and not _VERB.search(bare) else beside or last
-    phrase = _ENDS.sub("", chosen[1]) if chosen else ""
+    given = re.search(rf"\b(?:has|gives?|yields?)\s+(?:the|an?)\s+({_SHORT})$", bare)
+    other = _VERB.search(bare)
+    chosen = given or (first if not other else None) or beside or (last if ends or not other else None)
+    if chosen is None or _PER.search(bare) or chosen[1] == "ratio":
+        return "", tail
+    phrase = _ENDS.sub("", chosen[1])
     return phrase, phrase or tail
 
 
