@@ -94,9 +94,9 @@ def test_equations_side_by_side_are_told_apart():
     ],
 )  # fmt: skip
 def test_matrices_are_multiplied_out(text, parts):
-    found = entrywise(text)
-    assert len(found) == len(parts)
-    for one, right in zip(found, parts, strict=True):
+    entries = entrywise(text)
+    assert len(entries) == len(parts)
+    for one, right in zip(entries, parts, strict=True):
         (left, value), (wanted, formula) = (t.split("=") for t in (one, right))
         assert left.strip() == wanted.strip() and same(value, formula)
 

@@ -145,11 +145,11 @@ def nomenclature(text: str) -> dict[str, Named]:
             one = spelled(match[2])
             if match[1] in KINDS and one and len(one) < 20 and one not in names:
                 names[one] = Named(meaning=match[1], unit="", line=number)
-    told = [(m[1], m[3], m.start()) for m in _WHERE.finditer(text) if not _is_called_before(text, m)]
-    told += [
+    phrases = [(m[1], m[3], m.start()) for m in _WHERE.finditer(text) if not _is_called_before(text, m)]
+    phrases += [
         (m[3], m[2], m.start()) for m in _AHEAD.finditer(text) if not OTHERS.fullmatch(m[1]) and not _is_moment(text, m)
     ]
-    for symbol, meaning, start in told:
+    for symbol, meaning, start in phrases:
         one = spelled(symbol.partition("=")[0])
         if one and one not in names:
             names[one] = Named(meaning=" ".join(meaning.split()), unit="", line=text.count("\n", 0, start) + 1)
@@ -174,15 +174,15 @@ def _is_called_before(text: str, match: re.Match[str]) -> bool:
 
 def called(text: str) -> dict[str, str]:
     """Letters as they are spelled there, with the words in front of them: the rod force $S$."""
-    told = []
+    pairs = []
     for match in _COUNTED.finditer(text):
-        told.append((match[2], " ".join([match[1] or "", *match[3].split()]).strip()))
+        pairs.append((match[2], " ".join([match[1] or "", *match[3].split()]).strip()))
     for match in _CALLED.finditer(text):
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
         phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
-        told += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
+        pairs += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
     names: dict[str, str] = {}
-    for symbol, phrase in told:
+    for symbol, phrase in pairs:
         if phrase:
             names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase))
     return names
