@@ -82,7 +82,7 @@ _BOLD = re.compile(
 )
 _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
-    r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
+    r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|be|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
     # the force $F$, the mass $m$: what stands before a letter is not said of the one before it
     r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|(?(2)\$|(?!))|\Z))"
 )
@@ -93,7 +93,8 @@ _AHEAD = re.compile(
 _PHRASE = r"(?:[A-Za-z-]{2,20}\s+){0,6}[A-Za-z-]{3,20}"
 _NAMED = r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$"
 _CALLED = re.compile(
-    rf"(?:\b(?:the|an?|its|their|and|of|with)\s+|(?:^|[,;:(])[ \t]*)({_PHRASE}),?\s+(?:(?:is|are|be)\s+)?{_NAMED}"
+    rf"(?:\b(?:the|an?|its|their|and|of|with)\s+|(?:^|[,;:(])[ \t]*)({_PHRASE})"
+    rf"(?:\s+(?:is|are|be)\s+|\s+|,\s+(?=\$[^$\n]+\$,)){_NAMED}"
     r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)(?!\s+per\b)",
     re.IGNORECASE | re.MULTILINE,
 )
@@ -112,7 +113,7 @@ _COUNTED = re.compile(
 )
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius", "cranks": "crank"}
 _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
-_ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about)$", re.IGNORECASE)
+_ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
 _MEASURED = re.compile(  # a spring of stiffness $k$
     r"^((?!moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
     r"(stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|volume)$"
@@ -184,7 +185,7 @@ def called(text: str) -> dict[str, str]:
     names: dict[str, str] = {}
     for symbol, phrase in pairs:
         if phrase:
-            names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase))
+            names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase.replace(" of the ", " of ")))
     return names
 
 
