@@ -237,3 +237,22 @@ def test_each_section_has_energies_of_its_own(tmp_path):
         text += rf"$$m\ddot x + {force} = 0$$" + "\n\n"
     rows = judged(tmp_path, text, "text.md")
     assert [row["verdict"] for row in rows if r"\ddot" in row["printed"]] == ["exact", "exact"] and not blamed(rows)
+
+
+@pytest.mark.parametrize(
+    ("formula", "verdict"),
+    [
+        (r"F\tan\psi", "exact"),
+        (r"-F\tan\psi", "convention"),
+        (r"F\sin\psi", "truncation"),
+        (r"\frac{F}{\tan\psi}", "misprint"),
+    ],
+)
+def test_what_words_tell_is_no_more_than_it_is(formula, verdict, tmp_path):
+    """The sine of a rod's angle is nearly its tangent, and the other way round is another sense."""
+    text = (
+        "The crank of radius $r$ and the rod of length $l$ with the rod angle $\\psi$ carry the piston force $F$.\n\n"
+        f"$$\\psi = \\arcsin\\frac{{r\\sin\\alpha}}{{l}}$$\n\nThe side thrust is\n\n$$N = {formula}$$"
+    )
+    row = judged(tmp_path, text, "text.md")[-1]
+    assert (row["verdict"], row["matched"]) == (verdict, "slider_forces.side_force"), row["note"]

@@ -136,7 +136,8 @@ class Judge:
         for k in range(1, len(said.sides)):
             row = self.worded.outcome(order, k)
             if row is not None and row["verdict"] == "agrees":
-                return Judged(verdict="exact", matched=row["claim"], error=0.0)
+                passed, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
+                return Judged(verdict=passed, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
                 right = read_expression(row["correction"], (), AnyLetter())[0]
                 return Judged(

@@ -63,7 +63,7 @@ class Neighbours:
         )
         for near in every:
             if near.away == 0.0 and (near.quantity in near.fitted.quantities or not other and not self._clashes(near)):
-                return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"}
+                return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"} | self._sense(near)
         beside = [(near, self._beside(near)) for near in every if near.quantity]
         beside.sort(key=lambda b: _unlikely(*b))
         worse, misprints = None, []
@@ -81,6 +81,12 @@ class Neighbours:
         if misprints:
             return misprints[likeness.index(max(likeness))]
         return worse or {"verdict": "", "claim": ""}
+
+    def _sense(self, near: Near) -> Row:
+        # where signs are told, what is counted the other way round
+        met = compared(near.form, near.states, near.quantity) if self.si else None
+        turned = met is not None and met.ratio is not None and met.ratio < 0
+        return {"passed": "convention", "note": "exact with the opposite sense"} if turned else {}
 
     def _clashes(self, near: Near) -> bool:
         # by number it is a quantity of another name, with a letter that elsewhere in the program means something else
