@@ -108,6 +108,8 @@ class Judge:
                 else "the text prints no energies that it can be told of"
             )
             return Judged(verdict=DEFINED, note=why)
+        if not self.energies.laws or len(said.sides) != 2:
+            return None
         theory = self.world.theory(order)
         sides = [self._known(side, theory) for side in said.sides]
         if not self.energies.tells(order, theory, sides):
@@ -134,7 +136,8 @@ class Judge:
     def _by_words(self, order: int, said: Said) -> Judged | None:
         # by what the letters are called, as in a program
         for k in range(1, len(said.sides)):
-            row = self.worded.outcome(order, k)
+            row = self.worded.outcome(order, k) if self.searches > 0 else None
+            self.searches -= row is not None and row["verdict"] != "agrees"
             if row is not None and row["verdict"] == "agrees":
                 passed, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
                 return Judged(verdict=passed, matched=row["claim"], note=row.get("note", ""), error=error)

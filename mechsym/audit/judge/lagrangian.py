@@ -84,9 +84,10 @@ class Energies:
         return any(f"{q}dd" in letters(side) for side in sides for q in self.world.coordinates)
 
     def _of_letter(self, order: int, letter: str, right: Node, theory: Theory) -> list[Node]:
-        used = _used(theory, [right])
         wanted = [law.residual for law in self._at(order) if law.acts == letter]
-        wanted += [tree for rate, tree in accelerations(self._coupled(order, letter), used).items() if rate == letter]
+        if coupled := self._coupled(order, letter):
+            rates = accelerations(coupled, _used(theory, [right]))
+            wanted += [tree for rate, tree in rates.items() if rate == letter]
         return wanted + [tree for share, tree in self.shares.items() if share == letter]
 
     def _coupled(self, order: int, rate: str) -> list[MotionLaw]:
