@@ -175,9 +175,9 @@ def _masses(
     yield from _spread(letters[name] for name, unit in units.items() if unit == "kg")
 
 
-def by_mass(parameters: object) -> tuple[Doubt, ...]:
+def by_mass(parameters: Any) -> tuple[Doubt, ...]:
     """The masses of a mechanism that comes with the program, by one another."""
-    every = (getattr(parameters, f.name) for f in fields(parameters) if f.metadata.get("unit") == "kg")  # type: ignore[arg-type]
+    every = (getattr(parameters, f.name) for f in fields(parameters) if f.metadata.get("unit") == "kg")
     return _spread(m for mass in every for m in (mass if isinstance(mass, tuple) else (mass,)))
 
 

@@ -8,9 +8,9 @@ from mechsym.audit.hosts.whole import check_whole
 from mechsym.audit.judge.kinds import kinds_of
 from mechsym.audit.judge.kinds import text as unit_words
 from mechsym.audit.read.displays import displayed
+from mechsym.audit.read.nomenclature import nomenclature
 from mechsym.audit.read.said import read_text_whole
 from mechsym.audit.read.spelling import to_python
-from mechsym.audit.read.units import nomenclature
 from mechsym.audit.verdict import FINDINGS
 from mechsym.errors import BadInput
 

@@ -11,9 +11,10 @@ from mechsym.audit.hosts.whole import check_whole, page_of, summary_of
 from mechsym.audit.judge.kinds import findings, kinds_of, odd
 from mechsym.audit.judge.table_slips import table_slips
 from mechsym.audit.read.displays import displayed
+from mechsym.audit.read.nomenclature import nomenclature
 from mechsym.audit.read.said import read_text_whole
 from mechsym.audit.read.spelling import to_python
-from mechsym.audit.read.units import nomenclature, unit_of
+from mechsym.audit.read.units import unit_of
 from mechsym.audit.verdict import FINDINGS
 from mechsym.errors import BadInput
 

@@ -101,7 +101,7 @@ class Judge:
 
     def _by_energies(self, order: int, said: Said) -> Judged | None:
         # an equation of motion, or what stands before an acceleration in one, by the energies of the text
-        if self.energies.is_law(said):
+        if said.law is not None:
             why = "Lagrange's equation: " + (
                 "what follows from the text's energies by it is compared with what stands there"
                 if self.energies.laws
@@ -151,7 +151,7 @@ class Judge:
 
     def _spelled(self, said: Said) -> dict[str, str]:
         everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
-        return {f"{self.world.angle}d": rf"\dot{{\{self.world.angle or 'varphi'}}}"} | everywhere | dict(said.spelled)
+        return everywhere | dict(said.spelled)
 
     def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
         # one slip away from the quantity that the text's words name, in letters that are all known
@@ -277,8 +277,7 @@ class Judge:
     def _steady(self, theory: Theory) -> Theory:
         # at constant speed, which a text takes for granted where no acceleration of the angle stands in it
         rate = f"{self.world.angle}dd"
-        used = {n for s in self.world.paper.said for side in s.sides for n in letters(self.world.plain(side))}
-        if rate in used or rate not in theory.letters:
+        if rate in self.world.used or rate not in theory.letters:
             return theory
         still = replace(theory.letters[rate], value=1e-300)
         return replace(theory, letters={**theory.letters, rate: still})

@@ -182,10 +182,8 @@ def slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row | 
         rest = at_rest(fitted.theory, form)
         row, repair = asked_once(to_python(tree), fitted.theory, quantity, own, rest, twice, beside, of_angle)
         if row["verdict"] in PASSED:
-            return row | {
-                "verdict": "agrees",
-                "passed": row["verdict"],
-            }  # as what: exact, a truncation, by a convention
+            # it passes as what: exact, a truncation, by a convention
+            return row | {"verdict": "agrees", "passed": row["verdict"]}
         if row["verdict"] == "misprint" and repair is not None:
             repair = replace(repair, tree=trees.substitute(repair.tree, lambda n: renamed_to(n, _own_names(own))))
             if _explains(repair, near, tree, own, beside):

@@ -106,8 +106,11 @@ def _verdict(judge: Judge, order: int, said: Said) -> Judged | None:
         return None
     try:
         return judge.verdict(order, said)
-    except (BadInput, KeyError, RecursionError) as error:
-        return Judged(verdict="untestable", note=f"nothing can be told of it: {error}")
+    except BadInput as error:
+        why = str(error)
+    except (KeyError, RecursionError):
+        why = "a letter has no value, or it is nested too deep"
+    return Judged(verdict="untestable", note=f"nothing can be told of it: {why}")
 
 
 def _row(file: Path, said: Said, verdict: Judged | None, slips: Sequence[TableSlip]) -> Row:

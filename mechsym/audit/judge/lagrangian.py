@@ -12,8 +12,7 @@ import numpy as np
 
 from mechsym.audit.judge.sampled import alike, states
 from mechsym.audit.judge.world import World
-from mechsym.audit.read.lagrange import lagrange_equation, plain_letter
-from mechsym.audit.read.said import Said
+from mechsym.audit.read.lagrange import LagrangeEquation, plain_letter
 from mechsym.audit.read.tree import Node, binary, letters, name, negative, number, substitute, value_of
 from mechsym.audit.theory.record import Theory, dependencies
 from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, times
@@ -69,10 +68,6 @@ class Energies:
             if law.order <= order or behind:
                 chosen[law.coordinate] = law
         return [*chosen.values()]
-
-    def is_law(self, said: Said) -> bool:
-        """Whether an equation is the Lagrange equation itself."""
-        return bool(said.sides) and lagrange_equation(said.shown.text) is not None
 
     def tells(self, order: int, theory: Theory, sides: Sequence[Node]) -> bool:
         """Whether the energies say something of an equation: it has an acceleration, or is what stands before one."""
@@ -137,14 +132,12 @@ def _slope(tree: Node, letter: str) -> Node:
 
 def laws(world: World) -> list[MotionLaw]:
     """What the Lagrange equations of a text come to for its coordinates."""
-    every = [law for order, said in enumerate(world.paper.said) for law in _of(world, order, said.shown.text)]
+    printed = [(order, said.law) for order, said in enumerate(world.paper.said) if said.law is not None]
+    every = [law for order, equation in printed for law in _of(world, order, equation)]
     return every if len(every) <= _MOST else []
 
 
-def _of(world: World, order: int, text: str) -> Iterator[MotionLaw]:
-    printed = lagrange_equation(text)
-    if printed is None:
-        return
+def _of(world: World, order: int, printed: LagrangeEquation) -> Iterator[MotionLaw]:
     theory = world.theory(order)
     written = next(t.by for t in printed.terms if t.timed).removesuffix("d")
     generic = None if written in world.coordinates else _INDEX.match(written)
@@ -160,7 +153,7 @@ def _of(world: World, order: int, text: str) -> Iterator[MotionLaw]:
             if whole is None:
                 return
             part = _slope(whole, by)
-            part = derivative(part, lambda k: _rate(world.coordinates, k)) if term.timed else part
+            part = derivative(part, lambda k: _rate(theory, world.coordinates, k)) if term.timed else part
             residual = (minus if term.sign < 0 else plus)(residual, part)
         if not is_zero(residual) and f"{q}dd" in theory.letters:
             index = q.removeprefix(generic[1]) if generic else ""
@@ -168,10 +161,10 @@ def _of(world: World, order: int, text: str) -> Iterator[MotionLaw]:
             yield MotionLaw(coordinate=q, residual=residual, order=order, acts=acts)
 
 
-def _rate(coordinates: frozenset[str], letter: str) -> Node:
-    # J_d is no rate of J
+def _rate(theory: Theory, coordinates: frozenset[str], letter: str) -> Node:
+    # J_d is no rate of J, and what moves in another section is still here
     moves = letter in coordinates or letter.removesuffix("d") in coordinates
-    return name(f"{letter}d") if moves else number(0)
+    return name(f"{letter}d") if moves and f"{letter}d" in theory.letters else number(0)
 
 
 def _acts(right: str, index: str, theory: Theory, world: World) -> str | None:
@@ -197,7 +190,7 @@ def _whole(theory: Theory, coordinates: frozenset[str], letter: str, depth: int 
             inner[k] = _whole(theory, coordinates, k, depth + 1)
         elif k.endswith("d") and k not in theory.letters and stem in theory.tape:
             of = _whole(theory, coordinates, stem, depth + 1)
-            inner[k] = None if of is None else derivative(of, lambda one: _rate(coordinates, one))
+            inner[k] = None if of is None else derivative(of, lambda one: _rate(theory, coordinates, one))
     if any(v is None for v in inner.values()):
         return None
     return substitute(tree, lambda n: inner.get(n.id) if isinstance(n, ast.Name) else None)

@@ -26,8 +26,11 @@ def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list
     while left:
         best: tuple[int, str, Kind] | None = None
         for letter in sorted({n for o in left for n in letters_of(o.said) if n in paper.named and paper.named[n].unit}):
+            own = [s for s in paper.said if any(n.startswith(letter) for n in letters_of(s))]
+            before = {id_of(o.said) for o in odd(kinds, own)[0]}
+            sure = _sure(letter, left)
             for kind in _wanted(kinds, letter):
-                count = _mended(kinds, letter, kind, paper.said) + _sure(letter, left)
+                count = _mended(kinds, letter, kind, own, before) + sure
                 if count > 1 and (best is None or count > best[0]):
                     best = (count, letter, kind)
         if best is None:
@@ -64,16 +67,13 @@ _TRIED = (
 )  # fmt: skip
 
 
-def _mended(kinds: Kinds, letter: str, kind: Kind, said: Sequence[Said]) -> int:
-    # how many equations another unit mends; none where it spoils one
-    own = [s for s in said if letter in letters_of(s) or any(n.startswith(letter) for n in letters_of(s))]
-    before, _ = odd(kinds, own)
+def _mended(kinds: Kinds, letter: str, kind: Kind, own: Sequence[Said], before: set[str]) -> int:
+    # how many equations of a letter another unit mends; none where it spoils one
     old = kinds.printed.get(letter)
     kinds.printed[letter] = kind
-    now, _ = odd(kinds, own)
+    after = {id_of(o.said) for o in odd(kinds, own)[0]}
     if old is None:
         del kinds.printed[letter]
     else:
         kinds.printed[letter] = old
-    had, has = ({id_of(o.said) for o in misfits} for misfits in (before, now))
-    return 0 if has - had else len(had - has)
+    return 0 if after - before else len(before - after)

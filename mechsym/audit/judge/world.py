@@ -10,11 +10,10 @@ import zlib
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial, reduce
+from functools import cached_property, partial, reduce
 
 from mechsym.audit.judge.kinds import PURE, Kinds, text
 from mechsym.audit.judge.solving import isolate, targets
-from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.spelling import SPEEDS
@@ -67,8 +66,9 @@ class World:
     def __post_init__(self) -> None:
         """Find the angle that runs, its rates, and all definitions."""
         spelled = {k: v for said in self.paper.said for k, v in said.spelled.items()}
-        self.dotted = frozenset(k.rstrip("d") for k, v in spelled.items() if v.startswith(("\\dot", "\\ddot")))
-        self.energetic = any(lagrange_equation(said.shown.text) for said in self.paper.said)
+        dots = {k: 1 + v.startswith("\\ddot") for k, v in spelled.items() if v.startswith(("\\dot", "\\ddot"))}
+        self.dotted = frozenset(k[:-count] for k, count in dots.items())
+        self.energetic = any(said.law is not None for said in self.paper.said)
         self._name_time()
         self.angle = _angle(self.paper.said)
         self._name_alike()
@@ -265,10 +265,16 @@ class World:
             self.theories[key] = theory
         return theory
 
+    @cached_property
+    def used(self) -> frozenset[str]:
+        """All letters of a text whose rates and angles have their names."""
+        return frozenset(n for said in self.paper.said for side in said.sides for n in letters(self.plain(side)))
+
     def _made(self, tape: Mapping[str, Node]) -> Theory:
-        used = {n for said in self.paper.said for side in said.sides for n in letters(self.plain(side))}
-        used |= {n for tree in tape.values() for n in letters(tree)} | (
-            {self.angle, f"{self.angle}d", f"{self.angle}dd"} if self.angle else set()
+        used = (
+            self.used
+            | {n for tree in tape.values() for n in letters(tree)}
+            | ({self.angle, f"{self.angle}d", f"{self.angle}dd"} if self.angle else set())
         )
         bare = {n for n in used if n not in tape and not self._derivative(n, tape) and n != "pi"}
         known = all(self.kinds.of(n) is not None for n in bare)

@@ -13,14 +13,14 @@ from itertools import islice
 from zlib import crc32
 
 from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
-from mechsym.audit.read.lagrange import calligraphic, lagrange_equation
+from mechsym.audit.read.lagrange import LagrangeEquation, calligraphic, lagrange_equation
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.macros import expanded
+from mechsym.audit.read.nomenclature import Named, called, nomenclature, subject
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
-from mechsym.audit.read.tree import Node, check
+from mechsym.audit.read.tree import Node, check, number
 from mechsym.audit.read.tree import name as name_of
-from mechsym.audit.read.units import Named, called, nomenclature, subject
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -89,6 +89,7 @@ class Said:
     section: int = 0  #: Which section it stands in, counted [-]
     before: str = ""  #: Words in front of it
     about: str = ""  #: What they call what it gives
+    law: LagrangeEquation | None = None
     inline: bool = False
     spelled: Mapping[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX
 
@@ -260,9 +261,9 @@ def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inli
             raise BadInput("it multiplies matrices, whose order counts")
         if _COUNTED.search(shown.text):
             raise BadInput("raised 0 and 1 are indices, no powers")
-        if lagrange_equation(shown.text):
+        if (law := lagrange_equation(shown.text)) is not None:
             sign = f"integral{crc32(shown.text.encode()):08x}"  # one symbol, of which the energies tell
-            return replace(head, sides=(name_of(sign), name_of("lagrange")), texts=(shown.text,))
+            return replace(head, law=law, sides=(name_of(sign), number(0)), texts=(shown.text, "0"))
         return _sides(head, _prepared(shown.text, spelling))
     except BadInput as error:
         return replace(head, why=str(error))

@@ -1,11 +1,9 @@
-r"""Units as papers print them, and the nomenclature of a text: what each letter is called and measured in."""
+"""Units as papers print them, and what is measured in one by its name."""
 
 import re
-from collections.abc import Iterator
 
-from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.errors import BadInput
-from mechsym.quantities import dimension, record
+from mechsym.quantities import dimension
 
 _MARKS = (
     (re.compile(r"\\(?:mathrm|text|textrm|mathbf|mathit|rm|textsuperscript|unit|mbox|operatorname)\b"), " "),
@@ -33,19 +31,13 @@ KINDS = {
     "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
     "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
     "width": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m", "stress": "Pa",
-    "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s", 
-    "angular acceleration": "rad/s^2",
-    "piston speed": "m/s",
+    "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
+    "angular acceleration": "rad/s^2", "piston speed": "m/s",
 }  # fmt: skip
-
-
-@record
-class Named:
-    """A letter of a nomenclature."""
-
-    meaning: str
-    unit: str  #: As `dimension` reads it, empty where none is printed
-    line: int  #: Of the file [-]
+#: Words that change what the next one is measured in
+OTHERS = re.compile(
+    "per|unit|specific|by|relative|(?:non)?dimension(?:less|al)|normali[sz]ed|scaled|molar|section|internal|moment|polar"
+)
 
 
 def unit_of(text: str) -> str | None:
@@ -67,173 +59,3 @@ def unit_of(text: str) -> str | None:
     except BadInput:
         return None
     return text if text.strip() else None
-
-
-_SYMBOL = r"(\$[^$\n]{1,40}\$|\\\([^\n]{1,40}?\\\)|[A-Za-zα-ωΑ-Ω][\w{}\\^]{0,12})"
-_LISTED = re.compile(
-    rf"{_SYMBOL}\s*(?:[–—=:-]|is the|denotes the)\s*([A-Za-z][^\[\]\n;,$&|]{{2,70}}?)\s*\[([^\[\]\n]{{1,40}})\]"
-)
-_BACKWARDS = re.compile(
-    r"^\s*[-*+]\s*([A-Za-z][^:`$\[\]\n]{2,60}):\s*[`$]([^`$\n]{1,24})[`$]\s*(?:\([^()]*\)\s*)?\[([^\[\]\n]{1,40})\]"
-)
-_BOLD = re.compile(
-    r"^\s*[-*+]\s*(?:\*\*|[`$])([^*`$\n]{1,24}?)(?:\*\*|[`$])\s*[=:–—-]\s*"
-    r"([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*$"
-)
-_PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
-_WHERE = re.compile(
-    r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|be|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
-    # the force $F$, the mass $m$: what stands before a letter is not said of the one before it
-    r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|(?(2)\$|(?!))|\Z))"
-)
-_AHEAD = re.compile(
-    rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+"
-    r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$(?!\s+per\b)"
-)
-_PHRASE = r"(?:[A-Za-z-]{2,20}\s+){0,6}[A-Za-z-]{3,20}"
-_NAMED = r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$"
-_CALLED = re.compile(
-    rf"(?:\b(?:the|an?|its|their|and|of|with)\s+|(?:^|[,;:(])[ \t]*)({_PHRASE})"
-    rf"(?:\s+(?:is|are|be)\s+|\s+|,\s+(?=\$[^$\n]+\$,)){_NAMED}"
-    r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)(?!\s+per\b)",
-    re.IGNORECASE | re.MULTILINE,
-)
-_LAST = 6  # words in front of an equation
-_VERB = re.compile(
-    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b"
-)
-_PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
-_SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
-_UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
-_OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
-_SENTENCE = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)|\n\s*\n")
-_COUNTED = re.compile(
-    r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
-    r"(?:in\s+)?((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
-)
-_PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius", "cranks": "crank"}
-_PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
-_ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
-_MEASURED = re.compile(  # a spring of stiffness $k$
-    r"^((?!moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
-    r"(stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|volume)$"
-)
-_BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|and|with|by|has|is)\s+", re.IGNORECASE)
-#: Words that change what the next one is measured in
-OTHERS = re.compile(
-    "per|unit|specific|by|relative|(?:non)?dimension(?:less|al)|normali[sz]ed|scaled|molar|section|internal|moment|polar"
-)
-_FORMULA = re.compile(r"=|\\(?:approx|simeq|frac|sqrt|left|sin|cos|tan)\b")
-_CELLS = re.compile(r"(?<!\\)&|\||\t")
-
-
-def nomenclature(text: str) -> dict[str, Named]:
-    """Letters as they are spelled there, with what they are called and measured in."""
-    names: dict[str, Named] = {}
-    for number, row in enumerate(text.split("\n"), 1):
-        if len(row) > 6000:
-            continue
-        listed = [*_cells(row), *((m[1], m[2], m[3]) for m in _LISTED.finditer(row))]
-        listed += [(m[2], m[1], m[3]) for m in _BACKWARDS.finditer(row)]
-        listed += [(m[1], m[2], m[3] if m[3] and unit_of(m[3]) else "") for m in _BOLD.finditer(row)]
-        for symbol, meaning, unit in listed:
-            known = unit_of(unit) if unit else None
-            for one in re.split(r",\s*(?![^{]*\})", symbol.strip("$ ")):
-                one = spelled(one.partition("=")[0])
-                if one and one not in names and (known or not unit.strip()):
-                    names[one] = Named(meaning=meaning.strip(), unit=known or "", line=number)
-        for match in _PROSE.finditer(row):
-            one = spelled(match[2])
-            if match[1] in KINDS and one and len(one) < 20 and one not in names:
-                names[one] = Named(meaning=match[1], unit="", line=number)
-    phrases = [(m[1], m[3], m.start()) for m in _WHERE.finditer(text) if not _is_called_before(text, m)]
-    phrases += [
-        (m[3], m[2], m.start()) for m in _AHEAD.finditer(text) if not OTHERS.fullmatch(m[1]) and not _is_moment(text, m)
-    ]
-    for symbol, meaning, start in phrases:
-        one = spelled(symbol.partition("=")[0])
-        if one and one not in names:
-            names[one] = Named(meaning=" ".join(meaning.split()), unit="", line=text.count("\n", 0, start) + 1)
-    return names
-
-
-def _is_moment(text: str, match: re.Match[str]) -> bool:
-    # the second moment of area $I$
-    before = text[max(0, match.start() - 20) : match.start()]
-    return match[1] == "of" and bool(re.search(r"\b(?:moments?|rate|flow|flux|loss)\s+$", before))
-
-
-def _is_called_before(text: str, match: re.Match[str]) -> bool:
-    # the load $F$ the stress: what follows without a comma or a verb is said of something else
-    comma = text[match.end(1) + 1 : match.end(1) + 2] == ","
-    if comma and not match[2] and re.match(r"\s*(?:\$\$|\\\[|\\begin)", text[match.end() :]):
-        return True  # it is said of the equation behind
-    apart = match[2] or comma
-    before = re.search(r"([A-Za-z-]+)\s*$", text[max(0, match.start() - 40) : match.start()])
-    return not apart and before is not None and before[1].lower() not in ("where", "with", "and", "let", "here")
-
-
-def called(text: str) -> dict[str, str]:
-    """Letters as they are spelled there, with the words in front of them: the rod force $S$."""
-    pairs = []
-    for match in _COUNTED.finditer(text):
-        pairs.append((match[2], " ".join([match[1] or "", *match[3].split()]).strip()))
-    for match in _CALLED.finditer(text):
-        words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
-        phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
-        pairs += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
-    names: dict[str, str] = {}
-    for symbol, phrase in pairs:
-        if phrase:
-            names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase.replace(" of the ", " of ")))
-    return names
-
-
-def subject(before: str, alone: bool) -> tuple[str, str]:
-    """What the sentence in front of an equation says that it gives, and its last words: `The stress of a bar is`.
-
-    before: the text up to the equation. alone: whether it gives one thing.
-    """
-    words = _OPENED.sub("", before).rstrip(" \n:;.,")
-    sentence = " ".join(_UNWORDED.sub(" ", _SENTENCE.split(words)[-1]).split())
-    bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
-    tail = " ".join(bare.split()[-_LAST:])
-    if not alone:
-        return "", tail
-    ends = bare != sentence  # with a verb
-    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between)\b", bare)
-    beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if ends else None
-    last = re.search(rf".*\b(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
-    given = re.search(rf"\b(?:has|gives?|yields?)\s+(?:the|an?)\s+({_SHORT})$", bare)
-    other = _VERB.search(bare)
-    chosen = given or (first if not other else None) or beside or (last if ends or not other else None)
-    if chosen is None or _PER.search(bare) or chosen[1] == "ratio":
-        return "", tail
-    phrase = _ENDS.sub("", chosen[1])
-    return phrase, phrase or tail
-
-
-def _cells(row: str) -> Iterator[tuple[str, str, str]]:
-    # symbol, meaning and unit of a row of a table; what has no unit in its last cell may still name a letter
-    cells = [c.strip() for c in _CELLS.split(row.replace(r"\\", "").replace(r"\hline", ""))]
-    cells = cells[1:-1] if row.strip().startswith("|") else cells
-    for start in range(0, len(cells) - 1, 3):
-        group = cells[start : start + 3]
-        symbol = group[0]
-        wordy = len(group) > 1 and re.search(r"[A-Za-z]{3}", group[1]) and not _FORMULA.search(group[1])
-        if (
-            symbol
-            and len(symbol) <= 60
-            and wordy
-            and not re.search(r"[A-Za-z]{3,} [A-Za-z]", re.sub(r"\\[A-Za-z]+", "", symbol))
-        ):
-            yield symbol, group[1], group[2] if len(group) > 2 else ""
-
-
-def spelled(symbol: str) -> str:
-    """A letter of prose as LaTeX: `σ _{FP}` is `\\sigma_{FP}`."""
-    symbol = re.sub(r"</?sub>|<[^<>]*>", "", symbol.strip(" $*").replace("<sub>", "_"))
-    symbol = re.sub(r"\s*([_^{}])\s*", r"\1", symbol)
-    back = {sign: rf"\{'lambda' if name == 'lam' else name} " for name, sign in SYMBOLS.items()}
-    symbol = "".join(back.get(c, c) for c in symbol).strip()
-    return re.sub(r"\\(?:mathrm|text|textrm|rm|mathbf)\b\s*", "", symbol)
