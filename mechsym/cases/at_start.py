@@ -112,14 +112,20 @@ def _swinging(
     for q, acceleration in zip(mechanism.coordinates, first.ravel(), strict=True):
         if mechanism.units.get(q) == "m":
             yield from proportion("start_push", f"acceleration along {q} at the start", abs(float(acceleration)))
-    step = case.need("simulation").output_step or 0.0
+    if np.isfinite(slope).all():
+        rates = np.linalg.eigvals(np.vstack([np.eye(n, 2 * n, n), slope]))
+        swings = np.sqrt(np.maximum(-np.linalg.eigvals(slope[:, :n]).real, 0.0))
+        if swings.max() > 0:
+            what = "fastest decay at the start / (2 * fastest vibration without dampers)"
+            yield from proportion("damping_share", what, float(-rates.real.min() / (2 * swings.max())))
+    wanted = case.need("simulation")
+    step = 0.0 if wanted.t_end is None else wanted.step
     for q, acceleration in zip(mechanism.coordinates, first.ravel(), strict=True):
         if (fastest := float(np.nanmax(np.abs(columns[f"{q}d"]), initial=0.0))) > 0:
             what = f"change of {q}d between two results at the start / its largest in the run"
             yield from proportion("start_jolt", what, abs(float(acceleration)) * step / fastest)
-    if not step or not np.isfinite(slope).all():
+    if not wanted.output_step or not np.isfinite(slope).all():
         return
-    rates = np.linalg.eigvals(np.vstack([np.eye(n, 2 * n, n), slope]))
     # of what is no vibration less than a fifth is left after one swing
     fastest = max((abs(rate.imag) for rate in rates if abs(rate.imag) > 4 * abs(rate.real)), default=0.0)
     what = "simulation.output_step in periods of the fastest vibration"

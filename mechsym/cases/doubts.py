@@ -84,6 +84,7 @@ def judged(sections: Records, mechanism: str) -> tuple[Doubt, ...]:
         steady = dataclasses.asdict(sections["inputs"]) if "inputs" in sections else {}
         steady |= {next(iter(coordinates)): value(sections, "drive", "torque")}
         fast = dict.fromkeys(coordinates, speed) if speed else {}
+        fast |= {q: rate for q in coordinates if (rate := value(sections, "start", f"{q}d"))}
         return doubts + links.by_links(plan.listing(None), dataclasses.asdict(parameters), steady, fast)
     bore = None if area is None else math.sqrt(4 * area / math.pi)
     alone, together = _sizes(sections, sizes, bore), by_size(sections, sizes, bore)
@@ -217,6 +218,8 @@ def _inertias(sections: Records, sizes: Proportions) -> Iterator[_Told]:
     for letter, (inertia, like) in sizes.parts.items():
         if like > 0:
             yield "part_inertia", f"parameters.{letter} / (mass * length^2)", inertia / like
+    for letter, ratio in sizes.ends.items():
+        yield "rod_ends", f"parameters.{letter} / (mass * l1 * l2)", ratio
     scale = sizes.mass * (sizes.stroke / 2) ** 2
     if scale <= 0:
         return

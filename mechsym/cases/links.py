@@ -30,6 +30,7 @@ _STEEL = 7850.0  # its density [kg/m^3]
 _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
 _OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its joints, by its length [-]
+_MIDDLE = 0.25  # how far the centre of a bar is from the middle of its joints, by its length [-]
 _SWINGS = 8.0  # inertia of what swings about its joint by mass and the longest link squared [-]
 _CARRIES = 5.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
 _BEHIND_GEARS = 1e4  # inertia of a load by that of its motor, seen through the gear [-]
@@ -116,10 +117,22 @@ def _solids(listing: "Listing", letters: Mapping[str, float], rotors: Collection
     """Inertias of bodies that are no links by their mass and the longest letter squared."""
     longest = max((abs(letters[name]) for name, unit in listing["parameters"].items() if unit == "m"), default=0.0)
     for mass, inertia, angle in listing.get("solids", ()) if longest > 0 else ():
-        ratio = value_of(inertia, letters) / (value_of(mass, letters) * longest**2)
+        weighed, turned = value_of(mass, letters), value_of(inertia, letters)
+        yield from _thin(inertia, weighed, turned)
+        ratio = turned / (weighed * longest**2)
         if ratio > 1:
             what = f"inertia {inertia} / ({mass} * (longest letter)^2)"
             yield from proportion("link_inertia", what, ratio, _WHEEL if angle in rotors else _SWINGS)
+
+
+def _thin(of: str, mass: float, inertia: float) -> Iterator[Doubt]:
+    r"""How long a shaft of steel is that has a mass and an inertia about its axis: no body is a thread.
+
+    .. math:: L = \frac{m^2}{2\pi\rho I}
+    """
+    if mass > 0 and inertia > 0:
+        what = f"length of a steel shaft with the mass and the inertia of {of}"
+        yield from proportion("shaft_length", what, mass**2 / (2 * math.pi * _STEEL * inertia))
 
 
 def _turning(listing: "Listing", letters: Mapping[str, float], torque: float, longer: float) -> Iterator[Doubt]:
@@ -260,6 +273,7 @@ def _of(
     points = [_point(pair, letters) for pair in link["points"]]
     length = _length(link, letters)
     mass, inertia = (value_of(link[name], letters) for name in ("mass", "inertia"))
+    yield from _thin(name, mass, inertia)
     if length <= 0:
         return
     if len(points) == 1:  # its size is that of its centre's distance: a disc beside its axis is wider, a bob thinner
@@ -292,6 +306,9 @@ def _of(
         about, ratio = f"inertia of {name} / (mass * ({of})^2)", inertia / (mass * size**2)
         if inertia and link["turns"]:
             yield from proportion("link_needle", about, ratio, _CARRIES)
+            if away < _MIDDLE * length:  # else its mass may sit at one end
+                thin = f"inertia of {name} / (mass * (distance of its joints)^2)"
+                yield from proportion("link_inertia", thin, inertia / (mass * length**2), math.inf)
         elif inertia:
             # of all that weighs m within a circle about the middle, whose centre of mass lies beside it
             reach = _BEYOND * (max(math.dist(middle, p) for p in points) + away)

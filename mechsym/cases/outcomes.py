@@ -170,17 +170,21 @@ def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
         elif number:  # the first is judged by itself
             beyond = results({"speed_max": fastest})
             doubts += tuple(replace(doubt, quantity=f"highest speed of {name}") for doubt in beyond)
-    if run.rate != "rad/s":
+    rotors = (str(rotor.angle) for rotor in roles_of(case.mechanism).rotors)
+    shaft = next((angle for angle in rotors if angle in run.speeds), next(iter(run.speeds)))
+    turning = run.speeds[shaft]
+    if turning.units["mean"] != "rad/s":
         return doubts
     if wanted is not None and wanted.output_step:
-        fastest = max(abs(run.speed_min), abs(run.speed_max))
         what = "simulation.output_step in turns of the run"
-        doubts += proportion("aliasing", what, wanted.output_step * fastest / math.tau)
-    driven = "drive" in work or "cycle" in case.sections  # what swings by itself goes either way
+        doubts += proportion("aliasing", what, wanted.output_step * _fastest(run)[shaft] / math.tau)
+    driven, mean = "drive" in work or "cycle" in case.sections, turning["mean"]  # what swings by itself goes either way
     if driven and (getattr(wanted, "speed_start", None) or 0.0) >= 0:
-        doubts += proportion("backwards", "mean speed at the end of the run", run.speed_mean)
-        if (start := getattr(wanted, "speed_start", None)) and run.speed_mean >= 0 and work.get("drive", 0.0) > 0:
-            doubts += proportion("stall", "mean speed at the end of the run / at its start", run.speed_mean / start)
+        doubts += proportion("backwards", "mean speed at the end of the run", mean)
+        first = asdict(case.sections["start"]) if "start" in case.sections else {}
+        start = getattr(wanted, "speed_start", None) or first.get(f"{shaft}d")
+        if start and start > 0 and mean >= 0 and work.get("drive", 0.0) > 0:
+            doubts += proportion("stall", "mean speed at the end of the run / at its start", mean / start)
     return doubts + (proportion("drive_work", "work of [drive] in the run", work["drive"]) if "drive" in work else ())
 
 

@@ -34,6 +34,8 @@ class Proportions:
     flywheel: str = ""  #: Letter of the shaft's inertia that is one
     #: Inertia about a part's own centre by its letter, and the part's mass by its length squared [kg*m^2]
     parts: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    #: Inertia of a rod by that of its mass at both joints, m l_1 l_2, by its letter [-]
+    ends: Mapping[str, float] = field(default_factory=dict)
     unbalances: Mapping[str, float] = field(default_factory=dict)  #: By their letter [kg*m]
     pistons: int = 1  #: How many drive its shaft
     unequal: Mapping[str, float] = field(default_factory=dict)  #: Largest over least of a list, by its letter [-]

@@ -54,7 +54,7 @@ Viscosity = Annotated[V, "Pa*s"]
 MassFlow = Annotated[V, "kg/s"]
 
 # unit: (factor to SI, exponents of kg, m, s, K, rad). Angles carry a dimension of their own so that
-# "5 m" is refused where radians are wanted; rpm and Hz are angular speeds only where rad/s is wanted.
+# "5 m" is refused where radians are wanted, and "50 Hz" where rad/s are: nobody says whether of turns or of radians.
 _BASE: dict[str, tuple[float, tuple[int, ...]]] = {
     "kg": (1.0, (1, 0, 0, 0, 0)), "g": (1e-3, (1, 0, 0, 0, 0)), "t": (1e3, (1, 0, 0, 0, 0)),
     "m": (1.0, (0, 1, 0, 0, 0)), "mm": (1e-3, (0, 1, 0, 0, 0)), "cm": (1e-2, (0, 1, 0, 0, 0)),
@@ -200,5 +200,8 @@ def _scale(value: str, text: str, unit: str, key: str) -> float:
     # a torque per angle is written N*m/rad or N*m: the radian counts only where it stands alone or per second
     angular = wanted[:4] in ((0, 0, 0, 0), (0, 0, -1, 0))
     if not (dims == wanted if angular else dims[:4] == wanted[:4]):
-        raise BadInput(f"{key} = {shown(value)} has the wrong dimension; give it in {unit} or a multiple of that unit")
+        way_out = f"{unit} or a multiple of that unit"
+        if wanted == (0, 0, -1, 0, 1) and dims == (0, 0, -1, 0, 0):
+            way_out = "rps, turns a second, in rpm, or in rad/s"
+        raise BadInput(f"{key} = {shown(value)} has the wrong dimension; give it in {way_out}")
     return factor

@@ -77,6 +77,23 @@ def test_a_drive_that_cannot_hold_its_shaft_stalls():
     assert 0 <= told("3 kN*s/m")["stall"] < 0.02
 
 
+def test_a_drive_stalls_from_the_speed_that_a_case_starts_with():
+    """A weight that a damper of its shaft holds: at the end M/b by the speed of `[start]`, but for the trough's last swings."""
+    case = cases.load(str(OWN / "conveyor.toml"), {"parameters.b": "20 N*m*s/rad", "simulation.window": "1 s"})
+    (share,) = (d.value for d in run(case, check="none").doubts if d.code == "stall")
+    assert share == pytest.approx(4 / 20 / (960 * math.pi / 30), rel=1e-2)
+
+
+def test_a_damper_beside_a_spring_by_what_swings_on_both():
+    r"""Engine and tractor on their shaft, 1/m = 1/I_e + i^2/(I_w + m_v R^2): the fast root of m s^2 + c s + k."""
+    mass = 1 / (1 / 1.1 + 75**2 / (160 + 5200 * 0.82**2))
+    omega, c = math.sqrt(14e3 / mass), 25e3
+    fast = (c + math.sqrt(c**2 - 4 * mass * 14e3)) / (2 * mass)
+    share = doubts("driveline", {"parameters.c": f"{c!r} N*m*s/rad", "parameters.b": 0})["damping_share"]
+    assert share == pytest.approx(fast / (2 * omega), rel=1e-9)
+    assert "damping_share" not in doubts("driveline")
+
+
 def test_what_acts_turns_no_speed_round_between_two_results():
     """The strip on rolls that are far too light, F R / I_r beside what the spindle's damper gives."""
     light = {"parameters.I_r": "6.2 kg*m^2", "simulation.output_step": "1 ms"}

@@ -88,6 +88,35 @@ def test_a_rod_of_a_ton_a_centre_far_off_and_a_crank_that_bursts_are_told(tmp_pa
     assert {c for c in told if c.startswith(("link", "point"))} == codes
 
 
+OWN = Path(__file__).parents[1] / "plausible" / "own"
+
+
+@pytest.mark.parametrize(
+    ("machine", "values", "code", "value"),
+    [
+        # 32 kg as a shaft of steel, m = rho pi r^2 L and I = m r^2 / 2
+        ("conveyor", {"I_u": "2e-3 kg*m^2"}, "shaft_length", None),
+        ("conveyor", {"I_u": "2e-6 kg*m^2"}, "shaft_length", 32**2 / (2 * math.pi * 7850 * 2e-6)),
+        ("conveyor", {"e": 80.0}, "point_speed", 80 * 960 * math.pi / 30),
+        ("scara", {"I_a": "0.0129 kg*m^2"}, "link_inertia", None),
+        ("scara", {"I_a": "0.012 kg*m^2"}, "link_inertia", 0.012 / (8 * 0.4**2)),
+    ],
+)
+def test_bodies_by_the_shaft_that_they_would_be_and_by_the_speed_of_the_start(machine, values, code, value):
+    changes = {f"parameters.{letter}": text for letter, text in values.items()}
+    values_of = {d.code: d.value for d in cases.load(str(OWN / f"{machine}.toml"), changes).doubts}
+    assert values_of.get(code) == (None if value is None else pytest.approx(value))
+
+
+def test_a_rod_by_the_same_mass_at_both_its_joints(tmp_path):
+    file, *_ = write_engine("v", 0.095, 0.088, 8, tmp_path / "engine")
+    assert "rod_ends" not in {d.code for d in cases.load(str(file)).doubts}
+    changes = {"parameters.l1": "5.133 mm", "parameters.l2": "102.7 mm", "parameters.m_rod": "0.77 kg",
+               "parameters.I_rod": "0.00366 kg*m^2"}  # fmt: skip
+    (ratio,) = (d.value for d in cases.load(str(file), changes).doubts if d.code == "rod_ends")
+    assert ratio == pytest.approx(0.00366 / (0.77 * 5.133e-3 * 0.1027))
+
+
 @pytest.mark.parametrize(
     ("element", "value", "codes"),
     [
@@ -163,8 +192,9 @@ SECTION = 4.0 / 7850 / 0.35  # of a bar of steel of that mass and length [m^2]
         ({}, {}, 0.0, None),
         ({"I": 4.5 * 4 * 0.35**2}, {}, 0.0, None),  # with a motor behind its gear
         ({"I": 5.5 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
-        ({"I": 1.1e-5 * 4 * 0.35**2}, {}, 0.0, None),  # its mass at one end
-        ({"I": 0.9e-5 * 4 * 0.35**2}, {}, 0.0, "link_needle"),
+        ({"I": 1.1e-5 * 4 * 0.35**2}, {"centre": ["l", "0"]}, 0.0, None),  # its mass at one end
+        ({"I": 0.9e-5 * 4 * 0.35**2}, {"centre": ["l", "0"]}, 0.0, "link_needle"),
+        ({"I": 0.9e-2 * 4 * 0.35**2}, {}, 0.0, "link_inertia"),
         ({"I": 4 * 0.1**2 / 2, "l": 0.02, "L": 0.1}, {}, 0.0, None),  # a disc with a crank pin
         ({"I": 50.0}, {"centre": ["0", "0"]}, 0.0, None),  # balanced: a wheel
         ({"l": 0.05}, {}, 0.0, None),  # a crank whose webs are wider than its throw

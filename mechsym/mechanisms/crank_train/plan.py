@@ -132,6 +132,7 @@ def _proportions(p: CrankTrainParameters) -> Proportions:
         stroke=2 * r, rod_ratio=(l1 + l2) / r, moving=moving, mass=m0 + m_rod + piston,
         shafts={"I0": max(each(p, "I0")), "I_f": p.I_f}, flywheel="I_f",
         parts={"I_rod": (max(each(p, "I_rod")), m_rod * (l1 + l2) ** 2)},
+        ends={"I_rod": max(each(p, "I_rod")) / (m_rod * l1 * l2)} if m_rod * l1 * l2 else {},
         unbalances={"u0": max(each(p, "u0"), key=abs)}, pistons=len(p.throw), pitch=pitch(p), span=span(p),
         unequal=unequal(p),
     )  # fmt: skip
