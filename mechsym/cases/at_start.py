@@ -23,6 +23,7 @@ from mechsym.plausible import Doubt, proportion
 
 NOTHING = 1e-12  #: Lever of a force [m], or share of a torque, that is rounding
 _SEEN = 0.2  # of a period: five results show a vibration
+_SHORT = 0.01  # of a run, that a result is apart from the next at the most
 _STATES = 200  # of a run, at which forces are compared
 
 
@@ -119,7 +120,8 @@ def _swinging(
             what = "fastest decay at the start / (2 * fastest vibration without dampers)"
             yield from proportion("damping_share", what, float(-rates.real.min() / (2 * swings.max())))
     wanted = case.need("simulation")
-    step = 0.0 if wanted.t_end is None else wanted.step
+    # a short run with results that nobody asked for so far apart shows nothing, which is no jolt
+    step = 0.0 if wanted.t_end is None else min(wanted.step, max(wanted.output_step or 0.0, _SHORT * wanted.t_end))
     for q, acceleration in zip(mechanism.coordinates, first.ravel(), strict=True):
         if (fastest := float(np.nanmax(np.abs(columns[f"{q}d"]), initial=0.0))) > 0:
             what = f"change of {q}d between two results at the start / its largest in the run"

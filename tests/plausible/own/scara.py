@@ -3,7 +3,7 @@
 S (frame) -- arm a -- E -- arm b -- tool; psi1 of the first arm, psi2 of the second against the first
 """
 
-from mechsym.derive import Mechanism, output
+from mechsym.derive import Mechanism
 
 
 def scara():
