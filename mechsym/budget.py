@@ -49,7 +49,7 @@ def require(what: str, seconds: Second, size: float, way_out: str) -> None:
     if seconds <= chosen.seconds and size <= chosen.size:
         return
     hours = f"{seconds / 3600:.2g} h" if seconds >= 3600 else f"{seconds / 60:.2g} min"
-    needs = f"about {hours} and {size / 1e9:.2g} GB"
+    needs = f"about {hours}" + f" and {size / 1e9:.2g} GB" * (size > 0)
     limits = f"{chosen.seconds / 60:.3g} min and {chosen.size / 1e9:.3g} GB are allowed"
     asked = f"--budget '{1.5 * seconds / 60:.2g} min, {max(1.5 * size, 2e9) / 1e9:.2g} GB'"
     raise BadInput(f"{what} takes {needs}; {limits}: {way_out}, or say {asked}")

@@ -107,14 +107,16 @@ def audit(
 
 
 def _whole(paper: Path, against: str | None, out: Path | None, said: dict[str, Any]) -> int:
-    from mechsym.audit.hosts.whole import check_whole, listed, page_of, summary_of
+    from mechsym.audit.hosts.whole import check_texts, count_of, listed, page_of, read_texts, summary_of
     from mechsym.files import write_text
     from mechsym.quantities.results import tell
 
     kinds = ("letters", "case", "assume", "claim", "convention")
     if given := [f"--{k}" for k in kinds if said[k]] + ["--against"] * bool(against):
         raise BadInput(f"{', '.join(given)}: a whole paper is judged by its own letters; with them give --theory too")
-    rows, cover = check_whole(paper)
+    texts = read_texts(paper)
+    with progress(count_of(texts), "auditing") as bar:
+        rows, cover = check_texts(texts, lambda: bar.update(1))
     if out is not None:
         click.echo(str(write_text(out / "audit.html", page_of(str(paper), rows, cover))), err=True)
     result = {"rows": rows, "coverage": tell(cover)}

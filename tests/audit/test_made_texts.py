@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mechsym.audit.hosts.whole import check_whole
+from mechsym.audit.hosts.whole import check_texts, read_texts
 from mechsym.audit.judge.kinds import kinds_of
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
@@ -28,7 +28,7 @@ PLANTED = tomllib.loads((TEXTS / "planted.toml").read_text())
 
 def judged(tmp_path, text, name="text.tex"):
     (tmp_path / name).write_text(text)
-    return check_whole(tmp_path / name)[0]
+    return check_texts(read_texts(tmp_path / name))[0]
 
 
 def blamed(rows):
@@ -53,7 +53,7 @@ def test_every_text_has_its_list():
 @pytest.mark.parametrize("name", PLANTED)
 def test_planted_slips_are_found_and_nothing_else_is_blamed(name):
     (path,) = (p for p in TEXTS.glob(f"{name}.*"))
-    rows, cover = check_whole(path)
+    rows, cover = check_texts(read_texts(path))
     planted = PLANTED[name]
     wanted = {int(line): right for line, right in planted.items() if line.isdigit()}
     assert {row["line"]: row["verdict"] for row in blamed(rows)} == {

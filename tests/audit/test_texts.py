@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from mechsym.audit.hosts.whole import check_whole
+from mechsym.audit.hosts.whole import check_texts, read_texts
 from mechsym.audit.judge.kinds import kinds_of
 from mechsym.audit.judge.kinds import text as unit_words
 from mechsym.audit.read.displays import displayed
@@ -29,7 +29,7 @@ $\dot x = -\omega r \sin(\omega t) - \frac{{\omega r^2 \sin(\omega t) \cos(\omeg
 
 def judged(tmp_path, text, name="text.md"):
     (tmp_path / name).write_text(text, encoding="utf-8")
-    return check_whole(tmp_path / name)[0]
+    return check_texts(read_texts(tmp_path / name))[0]
 
 
 def sides(text):
@@ -229,10 +229,10 @@ def test_a_program_in_a_page_is_no_formula(tmp_path):
 def test_of_a_folder_what_cannot_be_read_is_a_row(tmp_path):
     (tmp_path / "a.ipynb").write_text("no notebook")
     with pytest.raises(BadInput, match=r"a\.ipynb: no notebook"):
-        check_whole(tmp_path)
+        check_texts(read_texts(tmp_path))
     (tmp_path / ".hidden").mkdir()
     (tmp_path / ".hidden" / "b.md").write_text("$$a = b$$")
-    rows = judged(tmp_path, "$$a = b$$", "c.md") and check_whole(tmp_path)[0]
+    rows = judged(tmp_path, "$$a = b$$", "c.md") and check_texts(read_texts(tmp_path))[0]
     assert [(row["file"].rpartition("/")[2], row["read"]) for row in rows] == [("a.ipynb", False), ("c.md", True)]
 
 

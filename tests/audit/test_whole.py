@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mechsym import cli
-from mechsym.audit.hosts.whole import check_whole, page_of, summary_of
+from mechsym.audit.hosts.whole import check_texts, page_of, read_texts, summary_of
 from mechsym.audit.judge.kinds import findings, kinds_of, odd
 from mechsym.audit.judge.table_slips import table_slips
 from mechsym.audit.read.displays import displayed
@@ -44,7 +44,7 @@ def test_the_five_slips_of_a_made_paper_and_what_two_of_them_carry(tmp_path, mon
 
 @pytest.mark.slow
 def test_the_four_slips_of_a_paper_of_another_kind():
-    rows, cover = check_whole(FOLDER / "unseen.md")
+    rows, cover = check_texts(read_texts(FOLDER / "unseen.md"))
     assert blamed(rows) == ["2", "8", "9", "16"] and cover.equations == cover.read == 22
     assert "Es in N" in summary_of(rows, cover) and "judged" in page_of("p", rows, cover)
 
@@ -53,7 +53,7 @@ def test_the_four_slips_of_a_paper_of_another_kind():
 @pytest.mark.skipif(not SEEDS, reason="MECHSYM_TEST_SEEDS names the folder of the five sources")
 def test_three_sources_as_they_are_have_no_false_finding():
     for stem, count in (("001", 10), ("002", 11), ("003", 10)):
-        rows, cover = check_whole(next(Path(SEEDS).glob(f"{stem}*")))
+        rows, cover = check_texts(read_texts(next(Path(SEEDS).glob(f"{stem}*"))))
         assert blamed(rows) == (["4"] if stem == "003" else []) and cover.read == cover.equations == count
 
 
@@ -72,7 +72,7 @@ def test_units_find_the_slips_of_a_thesis():
 @pytest.mark.heavy
 @pytest.mark.skipif(not SEEDS, reason="MECHSYM_TEST_SEEDS names the folder of the five sources")
 def test_a_thesis_as_it_is_has_seven_findings_that_its_registry_knows():
-    rows, cover = check_whole(next(Path(SEEDS).glob("004*")))
+    rows, cover = check_texts(read_texts(next(Path(SEEDS).glob("004*"))))
     assert blamed(rows) == ["2.16", "2.17", "2.46", "2.49", "2.53", "2.60", "2.71"]
     assert cover.read == cover.equations == 133 and cover.judged >= 0.6 * cover.equations
 
@@ -82,7 +82,7 @@ def test_equations_of_plain_text_are_listed_with_why_they_are_not_read(tmp_path,
     file.write_text(
         "The speed of the pin is found from the crank, v=rω, and\n\n3\nT=12mv2+12Iφ˙2,\n\nwhere m is a mass.\n"
     )
-    rows, cover = check_whole(file)
+    rows, cover = check_texts(read_texts(file))
     assert [(r["equation"], r["line"], r["read"]) for r in rows] == [("3", 4, False)] and cover.read == 0
     assert "12 may be 1/2" in rows[0]["note"]
     monkeypatch.setattr("sys.argv", ["mechsym", "audit", str(file)])
@@ -139,21 +139,21 @@ def test_a_nomenclature_in_a_table_or_a_sentence():
 def test_broken_texts_are_refused_in_a_line(tmp_path, text, why):
     (tmp_path / "p.txt").write_text(text, encoding="utf-8")
     with pytest.raises(BadInput, match=why) as refused:
-        check_whole(tmp_path)
+        check_texts(read_texts(tmp_path))
     assert "\n" not in str(refused.value)
 
 
 @pytest.mark.parametrize("text", ["$$x = " + "(" * 1000 + "r$$", "\ufffd$$=$$", "$$x = \\frac{1}{$$"])
 def test_what_cannot_be_read_is_a_row_that_says_why(tmp_path, text):
     (tmp_path / "p.txt").write_text(text, encoding="utf-8")
-    (row,), cover = check_whole(tmp_path)
+    (row,), cover = check_texts(read_texts(tmp_path))
     assert not row["read"] and row["note"] and "\n" not in row["note"] and cover.read == 0 and len(cover.unread) == 1
 
 
 def test_a_text_of_another_encoding_is_refused_in_a_line(tmp_path):
     (tmp_path / "p.txt").write_text("$$x = r$$", encoding="utf-16")
     with pytest.raises(BadInput, match=r"p\.txt is no text"):
-        check_whole(tmp_path)
+        check_texts(read_texts(tmp_path))
 
 
 def test_what_is_nested_too_deep_is_a_row_that_says_so():

@@ -78,7 +78,7 @@ def test_a_drive_that_cannot_hold_its_shaft_stalls():
 
 
 def test_a_drive_stalls_from_the_speed_that_a_case_starts_with():
-    """A weight that a damper of its shaft holds: M/b by the speed of `[start]`, but for the last swings of the trough."""
+    """A weight that a damper of its shaft holds: M/b by that of `[start]`, but for last swings of the trough."""
     case = cases.load(str(OWN / "conveyor.toml"), {"parameters.b": "20 N*m*s/rad", "simulation.window": "1 s"})
     (share,) = (d.value for d in run(case, check="none").doubts if d.code == "stall")
     assert share == pytest.approx(4 / 20 / (960 * math.pi / 30), rel=1e-2)

@@ -55,6 +55,13 @@ def test_a_fit_beyond_its_budget_does_not_begin(tmp_path):
         raise fit(tmp_path / "t.csv", "--budget", "1 s").exception
 
 
+def test_a_long_text_begins_only_where_its_budget_holds(tmp_path):
+    text = tmp_path / "long.md"
+    text.write_text("$$y = m x$$\n" * 2000)
+    with pytest.raises(BadInput, match=r"2000 equations takes about 2.3 min; 1 min .* or say --budget"):
+        raise CliRunner().invoke(mechsym, ["audit", str(text), "--budget", "1 min"]).exception
+
+
 @pytest.mark.parametrize("words", [["audit", "--source", "zotov2024"], ["audit"], ["optimise", "nunes-hypocycloid"]])
 def test_sources_and_designs_beyond_their_budget_do_not_begin(words):
     with pytest.raises(BadInput, match=r"takes about .* --budget"):
