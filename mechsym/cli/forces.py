@@ -100,10 +100,10 @@ def _over_time(report: "DrivenNumbers") -> str:
 
 def _text(report: Json, result: "Forces", said: set[str]) -> str:
     from mechsym.forces.result import ComparedFriction, ComparedMechanism
-    from mechsym.forces.shown import borne
+    from mechsym.forces.shown import borne, named
 
     lines = [f"{report['case']}: {report['mechanism']} at {report['speed_rpm']:.6g} rpm", ""]
-    rows = [row | {"quantity": row["quantity"].replace("_*", "").replace("*", "")} for row in borne(result)]
+    rows = [row | {"quantity": named(row)} for row in borne(result)]
     columns = ["quantity", *(["of"] if any(row["of"] for row in rows) else []), "max", "min", "unit", "on"]
     lines += [table(in_rows(rows, ("max", "min")), columns, named=["quantity"]), "", *_journals(report["journals"])]
     lines.append(f"power residual {residual_text(report['power_residual'])}")

@@ -264,12 +264,11 @@ _WHOLE: Mapping[str, str] = {
     "p_max": "largest pressure", "p_max_mpa": "largest pressure", "p_max_angle": "angle of the largest pressure",
     "t_end": "end of the run", "wall": "time it took", "steps": "steps of the integrator", "backend": "integrator",
     "energy_residual": "energy left over", "power_residual": "power left over", "facts": "assumed",
-    "tolerance_difference": "difference to a finer run", "each": "one is a", "F": "gas force F",
+    "tolerance_difference": "difference to a finer run", "each": "one is a",
     "misfire_speed_share": "speed left by a lost combustion", "p": "pressure p",
     "natural": "natural frequency", "natural_bare": "natural frequency, bare",
-    "x": "travel x", "psi": "rod angle psi",
     "closing_share": "closing", "failing": "safety factors too low",
-    "dx_dphi": "slope of x", "rms_before": "before, root mean square", "rms_after": "after, root mean square",
+    "rms_before": "before, root mean square", "rms_after": "after, root mean square",
 }  # fmt: skip
 _FRONT = {"max": "largest", "min": "least", "mean": "mean", "avg": "mean", "peak": "largest", "rms": "rms"}
 _TOKENS = {"mep": "IMEP", "sfc": "consumption", "deg": "", "ca10": "CA10", "ca50": "CA50", "ca90": "CA90"}

@@ -49,7 +49,7 @@ def test_what_belongs_together_stands_in_one_row():
              "wiebe": {"start": {"value": 0.1, "confidence": 0.01}}}  # fmt: skip
     assert told(given, {"max.F": "N", "wiebe.start.value": "rad", "torque_orders.amplitude": "N*m"}) == [
         ("assumed", "one"), ("assumed", "two"),
-        ("least to largest over the turn, gas force F", "-0.01 to 2 kN, largest at 12.5 deg"),
+        ("least to largest over the turn, F", "-0.01 to 2 kN, largest at 12.5 deg"),
         ("torque orders", "mean 9 kN m; order 1: 500 N m"), ("wiebe, start", "5.73 deg ± 0.573 deg"),
     ]  # fmt: skip
 
@@ -58,7 +58,7 @@ def test_what_swings_is_drawn_before_an_angle_that_goes_on(tmp_path):
     lines = ["t [s],phi [rad],work [J],psi [rad]", "0,0,5,0.1", "1,50,2500,-0.2", "2,100,7000,0.1"]
     (tmp_path / "series.csv").write_text("\n".join(lines), encoding="utf-8")
     found = commands._curves(tmp_path / "series.csv", "t")
-    assert [c.y_name for c in found] == ["work [kJ]", "rod angle psi [deg]", "phi [deg]"]
+    assert [c.y_name for c in found] == ["work [kJ]", "psi [deg]", "phi [deg]"]
     assert found[0].y == pytest.approx((0.005, 2.5, 7.0)) and found[0].x_name == "time [s]"
 
 
@@ -114,7 +114,7 @@ def test_torque_and_pressure_are_drawn_first_in_units_of_people(tmp_path):
              "0,1e5,0,0,0,1,300,2000", "1,2e6,1,1,1,2,400,-3000"]  # fmt: skip
     (tmp_path / "cycle.csv").write_text("\n".join(lines), encoding="utf-8")
     found = commands._curves(tmp_path / "cycle.csv", "phi")
-    assert [c.y_name for c in found][:3] == ["pressure p [MPa]", "torque [kN m]", "travel x [mm]"] and found[
+    assert [c.y_name for c in found][:3] == ["pressure p [MPa]", "torque [kN m]", "x [mm]"] and found[
         0
     ].x_name == "crank angle [deg]"
 
