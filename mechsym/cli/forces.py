@@ -116,8 +116,8 @@ def _text(report: Json, result: "Forces", said: set[str]) -> str:
                     f"{name.replace('_', ' about ')} on the frame: largest order {quantity_text(size, 'N*m', 4)}"
                 )
     for name, errors in (report["two_mass"] or {}).items():
-        named = {_LETTERS.get(k, k.replace("_", " ")): v for k, v in errors.items() if v > SMALLEST}
-        words = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in named.items())
+        beyond = {_LETTERS.get(k, k.replace("_", " ")): v for k, v in errors.items() if v > SMALLEST}
+        words = ", ".join(f"{k} {figure(100 * v, 3)} %" for k, v in beyond.items())
         lines.append(f"rod as two masses, {_SPLITS[name]}: the peak is wrong by {words or 'nothing'}")
     lines += _friction(report["friction"], report["friction_law"]) + _overconstrained(report.get(report["mechanism"]))
     lines += [f"balance not reached: {reason}" for reason in report["balance"]["reasons"]]

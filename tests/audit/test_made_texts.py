@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from mechsym.audit.hosts.whole import check_texts, read_texts
-from mechsym.audit.judge.kinds import kinds_of
+from mechsym.audit.judge.kinds import kinds_of, odd
+from mechsym.audit.judge.table_slips import table_slips
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.displays import displayed
@@ -40,7 +41,7 @@ def same(one, other):
     plain = (text.replace(r"\delta", r"{\delta}") for text in (one, other))  # not the small change of what follows
     first, second = (read_latex(text, whole=True)[0] for text in plain)
     rng = np.random.default_rng(7)
-    values = {k: rng.uniform(0.4, 1.6, 40) for k in {*letters(first), *letters(second)}} | {"pi": np.pi}
+    values = {k: rng.uniform(0.4, 1.6, 200) for k in {*letters(first), *letters(second)}} | {"pi": np.pi}
     with np.errstate(invalid="ignore"):  # roots of what is below 0 in both
         first, second = (evaluate(tree, values, FLOATS) for tree in (first, second))
     return np.isfinite(first).sum() > 10 and np.allclose(first, second, rtol=1e-9, equal_nan=True)
@@ -276,3 +277,52 @@ def test_a_dotted_letter_has_as_many_rates_as_dots(tmp_path):
     paper = read_text_whole(text)
     assert World(paper=paper, kinds=kinds_of(paper)).coordinates == {"zd"}
     assert judged(tmp_path, text, "text.md")[-1]["verdict"] == "exact"
+
+
+def test_an_angular_speed_in_turns_a_minute_that_nothing_converts_is_a_slip_of_the_table():
+    """Called so and used as rad/s; one that is converted, or is called a speed of rotation, is none."""
+    text = """| symbol | meaning | unit |
+|---|---|---|
+| $\\omega$ | NAME | 1/min |
+| $r$ | radius | m |
+
+$$ v = r \\omega $$
+$$ a = r \\omega^2 SIXTY $$
+"""
+
+    def slips(called, converts=""):
+        return _slips(text.replace("NAME", called).replace("SIXTY", converts))
+
+    assert slips("angular velocity of the disc") == [("omega", "rpm", "rad/s")]
+    assert slips("angular velocity of the disc", r"\frac{\pi^2}{30^2}") == []
+    assert slips("speed of rotation") == []
+
+
+def _slips(text):
+    paper = read_text_whole(text)
+    kinds = kinds_of(paper)
+    return [(s.letter, s.printed, s.wanted) for s in table_slips(paper, kinds, odd(kinds, paper.said)[0])[0]]
+
+
+def test_the_power_of_a_two_stroke_engine_is_none_of_one_with_four(tmp_path):
+    text = r"""\begin{tabular}{lll}
+$z$ & number of cylinders & -- \\
+$p_{mi}$ & mean indicated pressure & Pa \\
+$V_h$ & swept volume of a cylinder & m$^3$ \\
+$n$ & engine speed & 1/min \\
+$P_i$ & indicated power & W \\
+\end{tabular}
+The indicated power of a KIND-stroke engine is
+\begin{equation} P_i = z p_{mi} V_h \frac{n}{60} \end{equation}"""
+    two, four = (judged(tmp_path, text.replace("KIND", kind))[0] for kind in ("two", "four"))
+    assert (two["verdict"], two["matched"]) == ("exact", "engine_figures.indicated_two_stroke")
+    assert four["verdict"] == "misprint" and same(four["correction"], r"z p_{mi} V_h \frac{n}{120}")
+
+
+def test_what_follows_from_an_acceleration_with_dots_is_carried(tmp_path):
+    text = r"""The travel is $$ x = r (1 - \cos\alpha) $$ and its acceleration at constant speed $\dot\alpha = \omega$
+$$ \ddot x = r \omega^2 \sin\alpha $$ so that the inertia force
+$$ F = -m \ddot x $$ becomes $$ F = -m r \omega^2 \sin\alpha $$"""
+    assert [row["verdict"] for row in judged(tmp_path, text, "text.md")][-1] == "carried"
+    right = text.replace(r"\sin\alpha", r"\cos\alpha")
+    assert [row["verdict"] for row in judged(tmp_path, right, "text.md")][-1] == "exact"

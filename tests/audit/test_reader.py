@@ -36,6 +36,8 @@ READ = [
     (r"-\lambda \cdot 2 \times r", "-lam*2*r"),
     (r"\operatorname{tg}\psi", "tan(psi)"),
     (r"\left|\cos\varphi\right|", "abs(cos(phi))"),
+    (r"\lambda |l_1| F", "lam*abs(l1)*F"),
+    (r"|r_1| |r_2| (l - |l_1|)", "abs(r1)*abs(r2)*(l - abs(l1))"),
     (r"\lambda/2\sin2\varphi", "lam/2*sin(2*phi)"),
     (r"\sin\varphi\cos\varphi", "sin(phi)*cos(phi)"),
     (r"\cos\varphi\cdot l_2", "cos(phi)*l2"),

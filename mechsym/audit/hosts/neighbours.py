@@ -124,6 +124,8 @@ class Neighbours:
                 states = _states(vocabulary, at_rest(fitted.theory, form))
                 met = list(_met(fitted, form, states, self.si))
                 for away, quantity in met:
+                    if claim.ruled_out and claim.ruled_out in quantity:
+                        continue
                     yield Near(away=away, fitted=fitted, form=form, quantity=quantity, states=states)
                 if not met and len(fitted.meanings) > 1:
                     yield Near(away=1.0, fitted=fitted, form=form, quantity="", states=states)

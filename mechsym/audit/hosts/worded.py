@@ -1,6 +1,7 @@
 """Equations of a text held against theories by their words, as the formulas of a program are by names and comments."""
 
 import ast
+import re
 from dataclasses import dataclass, field
 from functools import cache
 
@@ -42,7 +43,7 @@ class Worded:
                     others = {name: tree for name, tree in values.items() if name not in (left, *called)}
                     self.claims[order, k] = Claim(
                         scope="", name=left, tree=side, line=said.shown.line, about=about, case=0, values=others,
-                        abouts=called,
+                        abouts=called, ruled_out=_ruled_out(said.before),
                     )  # fmt: skip
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}
         names |= {word for name in names for word in called.get(name, "").split()}
@@ -56,3 +57,10 @@ class Worded:
             return None
         row = self.neighbours.outcome(claim)
         return row if row is not None and row["verdict"] in ("agrees", "misprint") else None
+
+
+def _ruled_out(before: str) -> str:
+    """Of engines with two strokes and with four the kind that the sentence in front of an equation does not name."""
+    sentence = re.split(r"[.;]\s", before.strip())[-1]
+    named = {word.lower() for word in re.findall(r"\b(two|four)[- ]stroke", sentence, re.IGNORECASE)}
+    return {"two": "four_stroke", "four": "two_stroke"}[named.pop()] if len(named) == 1 else ""

@@ -208,11 +208,13 @@ def _quantity(fit: Match, world: World, tree: Node, reading: Mapping[str, str], 
         return "", 0
     kind = world.kinds.of(left) if left else None
     wanted = fit.meant.get(left, "")
+    others = {*reading.values(), *(q for letter, q in fit.meant.items() if left and letter != left)}
     for sign in (1, -1):
         close = np.all(np.abs(value - sign * fit.table) <= _CLOSE * (np.abs(fit.table) + 1e-300), axis=1)
         for quantity in (fit.asked[i] for i in np.flatnonzero(close)):
             same_kind = kind is None or fit.kinds.get(quantity) in (None, tuple(kind[:4]))
-            if same_kind and quantity not in reading.values() and wanted in ("", quantity):
+            # two letters of a text are two quantities: a second one with this formula may be a slip
+            if same_kind and quantity not in others and wanted in ("", quantity):
                 return quantity, sign
     return "", 0
 

@@ -261,10 +261,10 @@ def _kind(kinds: Kinds, tree: Node) -> Kind | None:
 
 
 def _numbers_of_turns(kinds: Kinds, said: Sequence[Said]) -> None:
-    # N/60 in two equations: N counts revolutions a minute, and stands for sixty times its value in all
-    counts = Counter(letter for s in said for side in s.sides for letter in _over_sixty(side) & kinds.turns)
+    # N/60 in two equations, or wherever it stands: N counts revolutions a minute, and is sixty times its value in all
     for letter in kinds.turns:
-        if counts[letter] > 1:
+        uses = [one for one in said if letter in letters_of(one)]
+        if (count := sum(converted(one, letter) for one in uses)) > 1 or count == len(uses):
             kinds.printed[letter] = (*kinds.printed[letter][:4], Fraction(1), Fraction(0))
 
 
@@ -274,10 +274,11 @@ def _sum(tree: Node) -> list[Node]:
     return [tree.right] if isinstance(tree, ast.BinOp) and value_of(tree.left) is not None else [tree]
 
 
-def _over_sixty(tree: Node) -> set[str]:
-    used: set[str] = set(letters(tree))
-    constants = {abs(Fraction(v)) for _, n in walk(tree) if (v := value_of(n)) is not None}
-    return used if constants & _CONVERTS else set()
+def converted(said: Said, letter: str) -> bool:
+    """Whether an equation takes a letter from a minute to a second."""
+    used = [side for side in said.sides if letter in letters(side)]
+    constants = {abs(Fraction(v)) for side in used for _, n in walk(side) if (v := value_of(n)) is not None}
+    return bool(constants & _CONVERTS)
 
 
 def odd(kinds: Kinds, said: Sequence[Said]) -> tuple[list[Odd], set[str]]:

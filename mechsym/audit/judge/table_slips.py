@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from mechsym.audit.judge.kinds import Kind, Kinds, Odd, id_of, letters_of, odd, text
+from mechsym.audit.judge.kinds import Kind, Kinds, Odd, converted, id_of, letters_of, odd, text
 from mechsym.audit.read.said import Said, Text
 from mechsym.quantities import dimension, record
 
@@ -21,7 +21,7 @@ class TableSlip:
 
 def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list[TableSlip], list[Odd]]:
     """Letters of the table to blame, whose other unit mends two equations or more; and the misfits that are left."""
-    slips: list[TableSlip] = []
+    slips = _angular(paper, kinds)
     left = list(misfits)
     while left:
         best: tuple[int, str, Kind] | None = None
@@ -44,6 +44,19 @@ def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list
         names = list(dict.fromkeys(o.said.name for o in mended if all(o.said.name != m.said.name for m in left)))
         slips.append(TableSlip(letter=letter, printed=about.unit, wanted=text(kind), line=about.line, equations=names))
     return slips, left
+
+
+def _angular(paper: Text, kinds: Kinds) -> list[TableSlip]:
+    """Angular speeds that the table counts in turns a minute, and no equation converts: they are in rad/s."""
+    slips = []
+    for letter in sorted(kinds.turns):
+        about = paper.named[letter]
+        uses = [said for said in paper.said if letter in letters_of(said)]
+        if "angular" in about.meaning.lower() and len(uses) > 1 and not any(converted(said, letter) for said in uses):
+            names = [said.name for said in uses if not said.inline]
+            slips.append(TableSlip(letter=letter, printed=about.unit, wanted="rad/s", line=about.line, equations=names))
+            kinds.turns.discard(letter)
+    return slips
 
 
 def _sure(letter: str, misfits: Sequence[Odd]) -> int:

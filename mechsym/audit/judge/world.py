@@ -280,11 +280,21 @@ class World:
         known = all(self.kinds.of(n) is not None for n in bare)
         rods = tuple(sorted(self._rods(tape) & bare))
         values = {n: self._letter(n, known, n in rods) for n in sorted(bare)}
-        ordered = dict(_in_order(tape))
+        ordered = {letter: self._rated(tree, tape) for letter, tree in _in_order(tape)}
         return Theory(
             name="paper", letters=values, tape=TheoryTape(ordered, values, self.angle, declared=True),
             results=tuple(ordered), angle=self.angle, rods=rods,
         )  # fmt: skip
+
+    def _rated(self, tree: Node, tape: Mapping[str, Node]) -> Node:
+        # rates of the text's own letters under the names of the tape
+        def changed(node: Node) -> Node | None:
+            if not isinstance(node, ast.Name) or node.id in tape:
+                return None
+            rate = re.fullmatch(r"(\w+?)(dd?)", node.id)
+            return name(f"{rate[1]}_{rate[2]}") if rate and rate[1] in tape and self.turns(rate[1]) else None
+
+        return substitute(tree, changed)
 
     def _derivative(self, letter: str, tape: Mapping[str, Node]) -> bool:
         if slope := re.fullmatch(r"d\d?(\w+?)_d(\w+?)\d?", letter):

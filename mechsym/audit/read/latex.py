@@ -99,7 +99,7 @@ def _signed(tree: Node) -> Node:
 
 def _product(cursor: Cursor) -> Node:
     tree = _power(cursor)
-    while cursor.peek() not in _STOP:
+    while cursor.peek() not in _STOP or _bar_opens(cursor):
         if cursor.peek() in _OVER:
             cursor.take()
             below, after = _power(cursor), cursor.peek()
@@ -121,6 +121,20 @@ def _product(cursor: Cursor) -> Node:
                 cursor.take()
             tree = binary(ast.Mult, tree, _power(cursor))
     return tree
+
+
+def _bar_opens(cursor: Cursor) -> bool:
+    # a bar behind a factor opens where no bar is open and another one closes it: not in f|_{x=0}, nor in P(a|b)
+    if cursor.peek() != "|" or cursor.bar or cursor.peek(1) in ("_", "^"):
+        return False
+    depth = 0
+    for token in cursor.tokens[cursor.position + 1 :]:
+        if token == "|" and not depth:
+            return True
+        depth += (token in _CLOSING) - (token in _CLOSING.values()) if token != "|" else 0
+        if depth < 0:
+            return False
+    return False
 
 
 def _power(cursor: Cursor) -> Node:
@@ -157,12 +171,14 @@ def _argument(cursor: Cursor) -> Node:
 
 
 def _group(cursor: Cursor) -> Node:
-    opening = cursor.take()
+    opening, outer = cursor.take(), cursor.bar
+    cursor.bar = opening == "|"
     with _deeper(cursor):
         tree = _sum(cursor)
         if cursor.peek() == "\\over":
             cursor.take()
             tree = binary(ast.Div, tree, _sum(cursor))
+    cursor.bar = outer
     cursor.take(_CLOSING[opening])
     return call("abs", tree) if opening == "|" else tree
 

@@ -42,6 +42,7 @@ class Cursor:
     #: Next token, and how deep the reader is in brackets
     position: int = 0
     depth: int = 0
+    bar: bool = False  #: Whether the innermost open bracket is a bar, which the next bar closes
     spelled: dict[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX
     whole: bool = False  #: Whether a whole text is read: dV is a letter, x' a derivative, an integral one symbol
     way: Way = ASKED

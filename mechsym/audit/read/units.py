@@ -21,8 +21,9 @@ _RUSSIAN = {
     "Н": "N", "м": "m", "кг": "kg", "с": "s", "Па": "Pa", "рад": "rad", "мм": "mm", "Дж": "J", "Вт": "W", "К": "K",
 }  # fmt: skip
 _SPELLED = {
-    "r/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "rev/min": "rpm", "1/min": "rpm", "Nm": "N*m", "kWh": "kW*h",
-    "°": "deg", "degrees": "deg", "rad.": "rad", "–": "-", "—": "-", "--": "-", "-": "-", "[-]": "-", "sec": "s",
+    "r/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "min⁻¹": "rpm", "rev/min": "rpm", "-/min": "rpm", "U/min": "rpm",
+    "Nm": "N*m", "kWh": "kW*h", "sec": "s", "°": "deg", "degrees": "deg", "rad.": "rad",
+    "–": "-", "—": "-", "--": "-", "-": "-", "[-]": "-",
 }  # fmt: skip
 PURE = (0, 0, 0, 0)
 #: What a quantity is measured in by what it is called, where its table says nothing

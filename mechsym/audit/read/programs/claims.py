@@ -39,6 +39,7 @@ class Claim:
     values: Mapping[str, Node] = field(default_factory=dict)
     abouts: Mapping[str, str] = field(default_factory=dict)
     parameters: Sequence[str] = ()
+    ruled_out: str = ""  #: What names of quantities have that its words speak against: `two_stroke`
     last: bool = False  #: Of a function that gives nothing back by `return`: what it ends with
 
 
