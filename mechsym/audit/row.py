@@ -14,7 +14,7 @@ from mechsym.audit.read.mathml import STYLE, corrected, formula
 from mechsym.audit.read.reader import joined, write
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.statement import Statement, statement
-from mechsym.audit.read.tree import at, without_double_signs
+from mechsym.audit.read.tree import at, with_one_number, without_double_signs
 from mechsym.audit.repair.edits import apply
 from mechsym.audit.repair.examination import Repair
 from mechsym.audit.theory.record import dependencies
@@ -201,7 +201,7 @@ def formula_row(question: Question, verdict: Decision, printed: str, note: str, 
             verdict=verdict.verdict,
             max_rel_error=verdict.max_rel_error,
             order=verdict.order,
-            correction=write(question.formula, without_double_signs(best.tree)) if best else None,
+            correction=write(question.formula, with_one_number(without_double_signs(best.tree))) if best else None,
             corrected_max_rel_error=best.max_rel_error if best else None,
             note=joined(verdict.note, _edits(question, best), _nearer(question, verdict.nearer), note, effect),
             printed=printed,

@@ -1,5 +1,6 @@
 """Made texts of mechanics with planted slips: each is found and rightly corrected, and nothing else is blamed."""
 
+import ast
 import tomllib
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from mechsym.audit.read.mathml import formula as formula_of_page
 from mechsym.audit.read.matrices import entrywise
 from mechsym.audit.read.nomenclature import called, subject
 from mechsym.audit.read.said import read_text_whole
-from mechsym.audit.read.tree import letters
+from mechsym.audit.read.tree import letters, with_one_number
 from mechsym.audit.verdict import FINDINGS
 from mechsym.errors import BadInput
 
@@ -326,3 +327,34 @@ $$ F = -m \ddot x $$ becomes $$ F = -m r \omega^2 \sin\alpha $$"""
     assert [row["verdict"] for row in judged(tmp_path, text, "text.md")][-1] == "carried"
     right = text.replace(r"\sin\alpha", r"\cos\alpha")
     assert [row["verdict"] for row in judged(tmp_path, right, "text.md")][-1] == "exact"
+
+
+TWINS = r"""Both pistons turn by $\theta$ and $\theta + \delta$ with $\lambda = R/L$. The torques are
+$$ M_1 = F R \frac{\sin(\theta + \beta_1)}{\cos\beta_1} K_1 $$
+$$ M_2 = F R \frac{\sin(\theta + \delta + \beta_2)}{\cos\beta_2} K_2 $$
+$$ y_1 = A (1 - \cos\theta) + C \sin^2\theta $$
+$$ y_2 = A (1 - \cos(\theta + \delta)) + C \sin^2(\theta + \delta) $$"""
+
+
+@pytest.mark.parametrize(
+    ("printed", "instead", "line"),
+    [
+        (r"{\cos\beta_2}", r"{\sin\beta_2}", 3),
+        (r"\sin^2(\theta + \delta)", r"\sin^2(\theta - \delta)", 5),
+        (r"+ C \sin^2(\theta + \delta)", r"- C \sin^2(\theta + \delta)", 5),
+        # another model, not one slip away
+        (r"A (1 - \cos(\theta + \delta)) + C", r"A (1 + \sin(\theta + \delta)) + C", None),
+        (r"\delta + \beta_2)}{\cos\beta_2}", r"\delta)}{\cos\beta_2}", None),
+    ],
+)
+def test_an_equation_is_held_against_its_twin(tmp_path, printed, instead, line):
+    assert blamed(judged(tmp_path, TWINS, "text.md")) == []
+    rows = blamed(judged(tmp_path, TWINS.replace(printed, instead), "text.md"))
+    assert [row["line"] for row in rows] == ([] if line is None else [line])
+    for row in rows:
+        assert same(row["correction"], TWINS.split("\n")[line - 1].strip("$ ").partition("=")[2])
+
+
+def test_numbers_of_a_correction_are_added_up():
+    tree = ast.parse("a*(b - 1 + 1) + c - 2 + 3", mode="eval").body
+    assert ast.unparse(with_one_number(tree)) == "a * b + c + 1"

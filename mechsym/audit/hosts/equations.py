@@ -13,6 +13,7 @@ from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.lagrangian import Energies
 from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.sampled import alike, free, states
+from mechsym.audit.judge.twins import twin_slip
 from mechsym.audit.judge.world import World, is_slope, stems_of
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
@@ -83,6 +84,8 @@ class Judge:
                 return slip
         if (by_words := self._by_words(order, said)) is not None:
             return by_words
+        if (as_twin := self._by_twin(order, said)) is not None:
+            return as_twin
         if of_units.id_of(said) in self.agreeing:
             return Judged(verdict=AGREES, matched="units", note=own.note)
         return (
@@ -148,6 +151,21 @@ class Judge:
                     correction=to_latex(right, self._spelled(said)),
                 )  # fmt: skip
         return None
+
+    def _by_twin(self, order: int, said: Said) -> Judged | None:
+        # x_2 by x_1: of two that no theory knows the later one is told of
+        slip = twin_slip(self.world, order)
+        if slip is None:
+            return None
+        right, place = slip
+        sure = any((place, 1) in fit.met for fit in self.fits)
+        if not sure and place > order:
+            return None
+        twin = self.world.paper.said[place].name
+        note = f"its twin ({twin}) has another {'form' if sure else 'form: one of both has a slip'}"
+        return Judged(
+            verdict="misprint", matched="the text", note=note, correction=to_latex(right, self._spelled(said))
+        )
 
     def _spelled(self, said: Said) -> dict[str, str]:
         everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}

@@ -53,6 +53,7 @@ _VERB = re.compile(
 )
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
+_PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
 # what is no word of a sentence; where its display begins; where it began itself
 _UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
 _OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
@@ -69,6 +70,10 @@ _MEASURED = re.compile(  # a spring of stiffness $k$
     r"(stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|volume)$"
 )
 _BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|and|with|by|has|is)\s+", re.IGNORECASE)
+# what goes on to a display, as `the volume of both is`
+_AHEAD_OF = re.compile(
+    r"(?:\s+(?:of|in|for|with|at|on|between)\b[^.;:$]{0,60}?)?(?:\s+(?:is|are|becomes))?\s*(?:\$\$|\\\[|\\begin)"
+)
 _FORMULA = re.compile(r"=|\\(?:approx|simeq|frac|sqrt|left|sin|cos|tan)\b")
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
 
@@ -112,10 +117,12 @@ def _is_moment(text: str, match: re.Match[str]) -> bool:
 def _is_called_before(text: str, match: re.Match[str]) -> bool:
     # the load $F$ the stress: what follows without a comma or a verb is said of something else
     comma = text[match.end(1) + 1 : match.end(1) + 2] == ","
-    if comma and not match[2] and re.match(r"\s*(?:\$\$|\\\[|\\begin)", text[match.end() :]):
-        return True  # it is said of the equation behind
-    apart = match[2] or comma
     before = re.search(r"([A-Za-z-]+)\s*$", text[max(0, match.start() - 40) : match.start()])
+    if comma and not match[2] and _AHEAD_OF.match(text, match.end()):
+        return True  # it is said of the equation behind
+    if comma and not match[2] and before is not None and before[1] in ("is", "are"):
+        return True  # the work is $W$, the volume
+    apart = match[2] or comma
     return not apart and before is not None and before[1].lower() not in ("where", "with", "and", "let", "here")
 
 
@@ -143,19 +150,32 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     words = _OPENED.sub("", before).rstrip(" \n:;.,")
     sentence = " ".join(_UNWORDED.sub(" ", _SENTENCE.split(words)[-1]).split())
     bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
+    bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
     tail = " ".join(bare.split()[-_LAST:])
     if not alone:
         return "", tail
     ends = bare != sentence  # with a verb: the torque of the gas is
     first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between)\b", bare)
     beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if ends else None
+    headed = re.search(
+        rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
+    )
     last = re.search(rf".*\b(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
     behind = re.search(rf"\b(?:has|gives?|yields?)\s+(?:the|an?)\s+({_SHORT})$", bare)
     verb = _VERB.search(bare)
-    chosen = behind or (first if not verb else None) or beside or (last if ends or not verb else None)
+    chosen = (
+        behind
+        or (first if not verb else None)
+        or beside
+        or (headed if ends else None)
+        or (last if ends or not verb else None)
+    )
     if chosen is None or _PER.search(bare) or chosen[1] == "ratio":
         return "", tail
     phrase = _ENDS.sub("", chosen[1])
+    if phrase.endswith(" one"):  # the tangential force, and the radial one
+        kinds = [word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in KINDS]
+        phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
     return phrase, phrase or tail
 
 

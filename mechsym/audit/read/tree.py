@@ -164,6 +164,24 @@ def without_double_signs(tree: Node) -> Node:
     return substitute(tree, turned)
 
 
+def with_one_number(tree: Node) -> Node:
+    """A tree with a in the place of a - 1 + 1, and a + 1 in that of a - 1 + 2."""
+
+    def added(node: Node) -> Node | None:
+        if not is_operation(node, ast.Add, ast.Sub) or not is_operation(node.left, ast.Add, ast.Sub):
+            return None
+        last, first = value_of(node.right), value_of(node.left.right)
+        if last is None or first is None:
+            return None
+        total = (last if isinstance(node.op, ast.Add) else -last) + (
+            first if isinstance(node.left.op, ast.Add) else -first
+        )
+        below = with_one_number(node.left.left)
+        return binary(ast.Add if total > 0 else ast.Sub, below, number(abs(total))) if total else below
+
+    return substitute(tree, added)
+
+
 def letters(tree: Node) -> tuple[str, ...]:
     """Letters of an expression in the order of their first use."""
     known: tuple[str, ...] | None = tree.__dict__.get(_LETTERS)
