@@ -358,3 +358,24 @@ def test_an_equation_is_held_against_its_twin(tmp_path, printed, instead, line):
 def test_numbers_of_a_correction_are_added_up():
     tree = ast.parse("a*(b - 1 + 1) + c - 2 + 3", mode="eval").body
     assert ast.unparse(with_one_number(tree)) == "a * b + c + 1"
+
+
+@pytest.mark.parametrize(
+    "right",
+    [
+        r"Q - \frac{\partial \Pi}{\partial q} - \frac{\partial \Phi}{\partial \dot q}",
+        r"-\frac{\partial \Pi}{\partial q} + Q",
+    ],
+)
+def test_a_lagrange_equation_has_terms_on_both_sides(right):
+    one = lagrange_equation(
+        rf"\frac{{d}}{{dt}}\frac{{\partial T}}{{\partial\dot q}} - \frac{{\partial T}}{{\partial q}} = {right}"
+    )
+    assert (
+        one.right == "Q"
+        and [(t.of, t.by, t.sign, t.timed) for t in one.terms]
+        == [("T", "qd", 1, True), ("T", "q", -1, False), ("Pi", "q", 1, False), ("Phi", "qd", 1, False)][
+            : len(one.terms)
+        ]
+    )
+    assert len(one.terms) == 2 + right.count("partial") // 2

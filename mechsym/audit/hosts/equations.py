@@ -27,6 +27,7 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 _PUT_BACK = re.compile("repaired by (?:put back|letter)")
+_PRIMED = re.compile(r"(\w+?)prime(prime)?")
 _BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
 _CASE = re.compile(
     r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
@@ -114,7 +115,7 @@ class Judge:
         if not self.energies.laws or len(said.sides) != 2:
             return None
         theory = self.world.theory(order)
-        sides = [self._known(side, theory) for side in said.sides]
+        sides = [_by_angle(self._known(side, theory), theory) for side in said.sides]
         if not self.energies.tells(order, theory, sides):
             return None
         matched = "the text's energies"
@@ -169,7 +170,9 @@ class Judge:
 
     def _spelled(self, said: Said) -> dict[str, str]:
         everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
-        return everywhere | dict(said.spelled)
+        slopes = {k: v for k, v in everywhere.items() if _PRIMED.fullmatch(k)}
+        by_angle = {_slope_of(k, self.world.angle): v for k, v in slopes.items()}
+        return everywhere | by_angle | dict(said.spelled)
 
     def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
         # one slip away from the quantity that the text's words name, in letters that are all known
@@ -375,3 +378,18 @@ def _primed(tree: Node, by: str, theory: Theory) -> Node:
         return None
 
     return substitute(tree, changed)
+
+
+def _by_angle(tree: Node, theory: Theory) -> Node:
+    # x' and x'' of what the text defines, by the angle
+    def changed(node: Node) -> Node | None:
+        primed = _PRIMED.fullmatch(node.id) if isinstance(node, ast.Name) and node.id not in theory.tape else None
+        known = primed is not None and primed[1] in theory.results and theory.angle
+        return name(_slope_of(node.id, theory.angle)) if known and isinstance(node, ast.Name) else None
+
+    return substitute(tree, changed)
+
+
+def _slope_of(primed: str, angle: str) -> str:
+    stem, twice = primed.partition("prime")[0], primed.count("prime") > 1
+    return f"d2{stem}_d{angle}2" if twice else f"d{stem}_d{angle}"

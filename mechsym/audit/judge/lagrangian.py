@@ -19,6 +19,7 @@ from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, ti
 from mechsym.quantities import record
 
 _INDEX = re.compile(r"(\w+?)_?([ijkrs])$")
+_SLOPE = re.compile(r"d(\w+?)_d(\w+)")
 _SAME = 1e-9
 _MOST = 12  # laws of one text
 _DEEPEST = 12  # definitions within definitions
@@ -122,8 +123,11 @@ class Energies:
 
 
 def _used(theory: Theory, sides: Sequence[Node]) -> set[str]:
+    # and what the text defines by nothing but these: Q where its own formula stands
     inside = [k for side in sides for k in letters(side)]
-    return {*inside, *dependencies(theory, [k for k in inside if k in theory.tape])}
+    used = {*inside, *dependencies(theory, [k for k in inside if k in theory.tape])}
+    defined = {k: {*letters(tree)} for k, tree in theory.tape.items() if isinstance(tree, ast.expr)}
+    return used | {k for k, needs in defined.items() if needs and needs <= used}
 
 
 def _slope(tree: Node, letter: str) -> Node:
@@ -156,7 +160,7 @@ def _of(world: World, order: int, printed: LagrangeEquation) -> Iterator[MotionL
             part = derivative(part, lambda k: _rate(theory, world.coordinates, k)) if term.timed else part
             residual = (minus if term.sign < 0 else plus)(residual, part)
         if not is_zero(residual) and f"{q}dd" in theory.letters:
-            index = q.removeprefix(generic[1]) if generic else ""
+            index = q[len(q.rstrip("0123456789")) :] if generic else ""
             acts = _acts(printed.right, index, theory, world)
             yield MotionLaw(coordinate=q, residual=residual, order=order, acts=acts)
 
@@ -188,6 +192,9 @@ def _whole(theory: Theory, coordinates: frozenset[str], letter: str, depth: int 
         stem = k.removesuffix("d")
         if k in theory.tape:
             inner[k] = _whole(theory, coordinates, k, depth + 1)
+        elif (slope := _SLOPE.fullmatch(k)) and slope[2] == theory.angle and slope[1] in theory.tape:
+            of = _whole(theory, coordinates, slope[1], depth + 1)
+            inner[k] = None if of is None else _slope(of, theory.angle)
         elif k.endswith("d") and k not in theory.letters and stem in theory.tape:
             of = _whole(theory, coordinates, stem, depth + 1)
             inner[k] = None if of is None else derivative(of, lambda one: _rate(theory, coordinates, one))

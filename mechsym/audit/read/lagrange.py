@@ -42,14 +42,17 @@ def lagrange_equation(text: str) -> LagrangeEquation | None:
     if r"\partial" not in text:
         return None
     left, equals, right = _SPARE.sub("", text).partition("=")
-    printed = list(_TERM.finditer(left))
-    if not equals or not any(match[2] for match in printed) or _TERM.sub("", left):
+    if not equals or _TERM.sub("", left):
         return None
+    # what stands on the right, as Q - dP/dq, counts the other way round on the left
+    printed = [(m, 1) for m in _TERM.finditer(left)] + [(m, -1) for m in _TERM.finditer(right)]
     terms = tuple(
-        Term(of=plain_letter(of), by=plain_letter(by), sign=-1 if sign == "-" else 1, timed=bool(timed))
-        for sign, timed, of, by in (match.groups() for match in printed)
+        Term(of=plain_letter(m[3]), by=plain_letter(m[4]), sign=-side if m[1] == "-" else side, timed=bool(m[2]))
+        for m, side in printed
     )
-    return LagrangeEquation(terms=terms, right=right.strip(".,;")) if all(t.of and t.by for t in terms) else None
+    if not any(t.timed for t in terms) or not all(t.of and t.by for t in terms):
+        return None
+    return LagrangeEquation(terms=terms, right=_TERM.sub("", right).strip("+.,;") or "0")
 
 
 def calligraphic(text: str) -> str:

@@ -10,7 +10,7 @@ from mechsym.errors import BadInput
 _GREEK = {
     "alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "vartheta", "kappa", "lambda",
     "mu", "nu", "xi", "pi", "rho", "varrho", "sigma", "tau", "phi", "varphi", "chi", "psi", "omega", "Delta", "Sigma",
-    "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda", "ell",
+    "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda", "Pi", "ell",
 }  # fmt: skip
 _DECORATED = {"\\vec": "", "\\boldsymbol": "", "\\bar": "bar", "\\overline": "bar", "\\hat": "hat", "\\tilde": "tilde"}
 _PAIRS = {")": "(r + l)", "}": "{r + l}", "]": "\\sqrt[3]{r}"}

@@ -23,7 +23,7 @@ _LATEX = {
         n: rf"\{n}" for n in (
             "alpha", "beta", "gamma", "delta", "zeta", "eta", "theta", "kappa", "mu", "nu", "xi", "pi", "rho", "sigma",
             "tau", "chi", "psi", "omega", "Delta", "Sigma", "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda",
-            "ell",
+            "Pi", "ell",
         )
     },
 }  # fmt: skip
