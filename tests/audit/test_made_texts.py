@@ -379,3 +379,38 @@ def test_a_lagrange_equation_has_terms_on_both_sides(right):
         ]
     )
     assert len(one.terms) == 2 + right.count("partial") // 2
+
+
+def test_both_forms_of_a_greek_letter_are_two_letters_where_a_text_has_both(tmp_path):
+    both = r"""$$ \tan\vartheta = \frac{a}{b} $$ $$ y = \theta b $$ $$ z = \vartheta c $$"""
+    paper = read_text_whole(both)
+    assert [said.spelled[said.sides[1].left.id] for said in paper.said[1:]] == [r"\theta", r"\vartheta"]
+    assert [said.sides[1].left.id for said in paper.said[1:]] == ["theta", "Vartheta"]
+    one = read_text_whole(both.replace(r"y = \theta b", "y = b"))
+    assert one.said[2].sides[1].left.id == "theta"
+
+
+def test_slopes_tell_the_angle_of_a_text_without_sines(tmp_path):
+    text = r"""The rise over the angle $\beta$ with $\theta = \varphi/\beta$ is $$ z = h (3\theta^2 - 2\theta^3) $$
+$$ \frac{dz}{d\varphi} = \frac{6 h}{\beta} (\theta - \theta^2) $$ $$ \frac{d^2z}{d\varphi^2} = \frac{6 h}{\beta^2} (1 - 3\theta) $$"""
+    rows = judged(tmp_path, text, "text.md")
+    assert [row["verdict"] for row in rows] == ["definition", "exact", "misprint"]
+    assert same(rows[2]["correction"], r"\frac{6 h}{\beta^2} (1 - 2\theta)")
+
+
+def test_a_reciprocal_on_the_left_is_judged_by_words(tmp_path):
+    text = r"""The reduced modulus of two bodies with the moduli $E_1$ and $E_2$ is
+$$ \frac{1}{E^*} = \frac{1 - \nu_1^2}{E_1} SIGN \frac{1 - \nu_2^2}{E_2} $$"""
+    (right,), (wrong,) = (judged(tmp_path, text.replace("SIGN", sign), "text.md") for sign in "+-")
+    assert (right["verdict"], right["matched"]) == ("exact", "strength.E_star")
+    assert wrong["verdict"] == "misprint" and same(
+        wrong["correction"], text.partition("=")[2].replace("SIGN", "+").strip("$ ")
+    )
+
+
+def test_two_numbers_turned_over_are_turned_back(tmp_path):
+    """In the place of the second of them made a fraction."""
+    text = r"""The radius of the path is $$ R = \frac{(\rho^2 + s^2)^{3/2}}{\rho^2 + 2 s^2} $$
+$$ R = \frac{(\rho^2 + s^2)^{2/3}}{\rho^2 + 2 s^2} $$"""
+    (row,) = blamed(judged(tmp_path, text, "text.md"))
+    assert row["note"] == "repaired by number: 2/3 becomes 3/2"

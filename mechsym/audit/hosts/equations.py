@@ -18,7 +18,7 @@ from mechsym.audit.judge.world import World, is_slope, stems_of
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.spelling import to_latex, to_python
-from mechsym.audit.read.tree import Node, letters, name, substitute, value_of
+from mechsym.audit.read.tree import Node, is_operation, letters, name, substitute, value_of
 from mechsym.audit.row import Row, answer
 from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import retaped
@@ -147,6 +147,12 @@ class Judge:
                 return Judged(verdict=passed, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
                 right = read_expression(row["correction"], (), AnyLetter())[0]
+                if (
+                    not isinstance(said.sides[0], ast.Name)
+                    and is_operation(right, ast.Div)
+                    and value_of(right.left) == 1
+                ):
+                    right = right.right  # what stands on the right of 1/E
                 return Judged(
                     verdict="misprint", matched=row["claim"], note=row["note"], error=row["max_rel_error"],
                     correction=to_latex(right, self._spelled(said)),
@@ -163,10 +169,9 @@ class Judge:
         if not sure and place > order:
             return None
         twin = self.world.paper.said[place].name
-        note = f"its twin ({twin}) has another {'form' if sure else 'form: one of both has a slip'}"
-        return Judged(
-            verdict="misprint", matched="the text", note=note, correction=to_latex(right, self._spelled(said))
-        )
+        note = f"its twin ({twin}) has another form" + ": one of both has a slip" * (not sure)
+        mended = to_latex(right, self._spelled(said))
+        return Judged(verdict="misprint", matched="the text", note=note, correction=mended)
 
     def _spelled(self, said: Said) -> dict[str, str]:
         everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}

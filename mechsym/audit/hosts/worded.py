@@ -9,7 +9,7 @@ from mechsym.audit.hosts.neighbours import Neighbours
 from mechsym.audit.judge.lexicon import Lexicon
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.programs.claims import Claim
-from mechsym.audit.read.tree import function_of, letters, walk
+from mechsym.audit.read.tree import binary, function_of, is_operation, letters, number, value_of, walk
 from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
 
@@ -33,16 +33,21 @@ class Worded:
         called = dict(paper.called) | dict.fromkeys(self.world.kinds.turns, "revolutions per minute")
         values = {d.letter: d.tree for d in self.world.defined}
         for order, said in enumerate(paper.said):
-            letter = said.sides[0] if said.sides else None
-            if not isinstance(letter, ast.Name) or said.claim or said.inline:
+            if not said.sides or said.claim or said.inline:
+                continue
+            letter, over = said.sides[0], False
+            if is_operation(letter, ast.Div) and value_of(letter.left) == 1:  # 1/E = 1/E_1 + ..
+                letter, over = letter.right, True
+            if not isinstance(letter, ast.Name):
                 continue
             left = letter.id
             about = called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
                 if len(letters(side)) > 1 and not any(function_of(n) == "sum" for _, n in walk(side)):
                     others = {name: tree for name, tree in values.items() if name not in (left, *called)}
+                    tree = binary(ast.Div, number(1), side) if over else side
                     self.claims[order, k] = Claim(
-                        scope="", name=left, tree=side, line=said.shown.line, about=about, case=0, values=others,
+                        scope="", name=left, tree=tree, line=said.shown.line, about=about, case=0, values=others,
                         abouts=called, ruled_out=_ruled_out(said.before),
                     )  # fmt: skip
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}

@@ -391,4 +391,7 @@ def _angle(said: Sequence[Said]) -> str:
                 for n in letters(argument) if argument is not None else ():
                     if n not in given and any(n.startswith(a) for a in _ANGLES):
                         counts[n] += 1
+    if not counts:  # or by what slopes are taken
+        slopes = (re.fullmatch(r"d\d?\w+?_d([a-z]+?\d*?)2?", n) for one in said for s in one.sides for n in letters(s))
+        counts.update(m[1] for m in slopes if m and m[1] not in given and any(m[1].startswith(a) for a in _ANGLES))
     return counts.most_common(1)[0][0] if counts else ""

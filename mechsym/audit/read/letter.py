@@ -11,6 +11,7 @@ _GREEK = {
     "alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "vartheta", "kappa", "lambda",
     "mu", "nu", "xi", "pi", "rho", "varrho", "sigma", "tau", "phi", "varphi", "chi", "psi", "omega", "Delta", "Sigma",
     "Phi", "Psi", "Omega", "Gamma", "Theta", "Lambda", "Pi", "ell",
+    "Vartheta", "Varphi", "Varrho", "Varepsilon",  # of a text that has both forms
 }  # fmt: skip
 _DECORATED = {"\\vec": "", "\\boldsymbol": "", "\\bar": "bar", "\\overline": "bar", "\\hat": "hat", "\\tilde": "tilde"}
 _PAIRS = {")": "(r + l)", "}": "{r + l}", "]": "\\sqrt[3]{r}"}

@@ -74,6 +74,7 @@ class _Spelling:
     applied: re.Pattern[str] | None = None  #: Letters with arguments of which some are defined
     matrices: frozenset[str] = frozenset()  #: Letters that are turned over or given row by row
     delta: bool = False  #: Whether a delta stands alone, so that one before a letter is a factor
+    twofold: Sequence[str] = ()  #: Greek letters that its formulas have in both forms, which are two letters then
 
 
 @record
@@ -110,6 +111,8 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     shown = displayed(text)
     written = nomenclature(text)
     words = _words(written, shown)
+    formulas = " ".join(one.text for one in shown)
+    twofold = tuple(v for v in _TWOFOLD if all(re.search(rf"\\{c}{v}(?![A-Za-z])", formulas) for c in ("", "var")))
     pairs: dict[str, set[tuple[str, str]]] = {}
     for match in _INDEXED.finditer(text):
         pairs.setdefault(match[1], set()).add((match[2].strip("{}"), match[3].strip("{}")))
@@ -118,11 +121,11 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     )
     named: dict[str, Named] = {}
     for symbol, about in written.items():
-        if plain := _plain(symbol, words):
+        if plain := _plain(symbol, words, twofold):
             named.setdefault(plain, about)
     ahead: dict[str, str] = {plain: about.meaning for plain, about in named.items()}
     for symbol, phrase in called(text).items():
-        if plain := _plain(symbol, words):
+        if plain := _plain(symbol, words, twofold):
             ahead[plain] = phrase
     starts = [m.start() for m in _SECTION.finditer(text)]
     lines = [0]
@@ -137,6 +140,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         applied=_applied(shown),
         matrices=_matrices(shown),
         delta=bool(_ALONE_DELTA.search(text)),
+        twofold=twofold,
     )
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
     together = Counter(equation.opens for equation in shown)
@@ -179,8 +183,8 @@ def _words(written: Mapping[str, Named], shown: Sequence[Displayed]) -> list[str
     return sorted(words - _NO_LETTERS, key=len, reverse=True)
 
 
-def _plain(symbol: str, words: Sequence[str]) -> str:
-    plain = _Spelling(words=words, indexed=frozenset())
+def _plain(symbol: str, words: Sequence[str], twofold: Sequence[str]) -> str:
+    plain = _Spelling(words=words, indexed=frozenset(), twofold=twofold)
     try:
         tree = read_latex(_prepared(symbol.partition("=")[0].strip(), plain), whole=True)[0]
     except BadInput:
@@ -195,6 +199,8 @@ def _prepared(text: str, spelling: _Spelling) -> str:
     text = "".join(rf"\{_COMMANDS[c]} " if c in _COMMANDS else c for c in text)
     for pattern, instead in _TIDY:
         text = pattern.sub(instead, text)
+    for letter in spelling.twofold:
+        text = re.sub(rf"\\var{letter}(?![A-Za-z])", rf"\\Var{letter} ", text)
     if spelling.delta:
         text = re.sub(r"\\delta(?=\s*(?:\\[a-z]|[A-Za-z]))", r"{\\delta}", text)
     text += "}" * (text.count("{") - text.count("}") == 1)  # one brace lost at the end
@@ -207,6 +213,8 @@ def _prepared(text: str, spelling: _Spelling) -> str:
     return unapplied(text, _APPLIED)
 
 
+_TWOFOLD = ("theta", "phi", "rho", "epsilon")
+_VARIANT = re.compile(r"\\V(ar[a-z]+)")
 _ALONE_DELTA = re.compile(r"\\delta\s*[=$,)}^]")
 _COMMANDS = {sign: "lambda" if name == "lam" else name for name, sign in SYMBOLS.items()} | {"ϕ": "varphi"}
 
@@ -264,7 +272,8 @@ def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inli
         if (law := lagrange_equation(shown.text)) is not None:
             sign = f"integral{crc32(shown.text.encode()):08x}"  # one symbol, of which the energies tell
             return replace(head, law=law, sides=(name_of(sign), number(0)), texts=(shown.text, "0"))
-        return _sides(head, _prepared(shown.text, spelling))
+        whole = _sides(head, _prepared(shown.text, spelling))
+        return replace(whole, spelled={k: _VARIANT.sub(r"\\v\1", v) for k, v in whole.spelled.items()})
     except BadInput as error:
         return replace(head, why=str(error))
     except RecursionError:

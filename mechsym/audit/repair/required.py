@@ -304,6 +304,8 @@ def _numbers_at(asked: Bench, place: Spot, wish: Values, memo: Mapping[Node, Val
         right = short(wanted)
         if right is not None and _misread(Fraction(str(node.value)), right):
             yield Edit(kind="number", path=place.path, new=number(right, decimal=True))
+    elif own is not None and is_operation(node, ast.Div) and (right := short(wanted)) is not None and right != own:
+        yield Edit(kind="number", path=place.path, new=number(right))  # 3/2 for 2/3
     if is_product(place):
         # 2 f for 2 pi f, B^2/4 for pi B^2/4
         factors = np.asarray(quotient(asked, wish, memo[node]), dtype=float)
