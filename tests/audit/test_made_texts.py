@@ -392,7 +392,8 @@ def test_both_forms_of_a_greek_letter_are_two_letters_where_a_text_has_both(tmp_
 
 def test_slopes_tell_the_angle_of_a_text_without_sines(tmp_path):
     text = r"""The rise over the angle $\beta$ with $\theta = \varphi/\beta$ is $$ z = h (3\theta^2 - 2\theta^3) $$
-$$ \frac{dz}{d\varphi} = \frac{6 h}{\beta} (\theta - \theta^2) $$ $$ \frac{d^2z}{d\varphi^2} = \frac{6 h}{\beta^2} (1 - 3\theta) $$"""
+$$ \frac{dz}{d\varphi} = \frac{6 h}{\beta} (\theta - \theta^2) $$
+$$ \frac{d^2z}{d\varphi^2} = \frac{6 h}{\beta^2} (1 - 3\theta) $$"""
     rows = judged(tmp_path, text, "text.md")
     assert [row["verdict"] for row in rows] == ["definition", "exact", "misprint"]
     assert same(rows[2]["correction"], r"\frac{6 h}{\beta^2} (1 - 2\theta)")
