@@ -119,3 +119,18 @@ def test_what_cannot_be_read_stands_as_text_and_nothing_of_it_acts():
     shown = formula("<script>alert(1)</script>")
     assert shown == "<code>&lt;script&gt;alert(1)&lt;/script&gt;</code>"
     assert "<b>" not in formula('a_"<b>"') and '"<' not in corrected("x", 'y"<b>')[1]
+
+
+@pytest.mark.parametrize(
+    ("plain", "shown"),
+    [
+        ("dx_dphi", "dx/dφ"),
+        ("d2x_dphi2", "d2x/dφ2"),
+        ("d2x_dphi12", "d2x/dφ12"),
+        ("Deltatheta", "Δθ"),
+        ("DeltaW", "ΔW"),
+    ],
+)
+def test_slopes_and_changes_are_set_as_people_write_them(plain, shown):
+    fraction = letter(plain).replace("</mrow><mrow>", "/")
+    assert re.sub("<[^<>]*>", "", fraction) == shown

@@ -180,7 +180,8 @@ def listed(rows: Sequence[Row]) -> list[str]:
     lines = []
     for row in rows:
         matched = f", {row['matched']}" if row["matched"] else ""
-        lines.append(f"{row['file']}:{row['line']}: ({row['equation']}) {row['verdict']}{matched}")
+        number = "" if row["equation"] == f"line {row['line']}" else f"({row['equation']}) "
+        lines.append(f"{row['file']}:{row['line']}: {number}{row['verdict']}{matched}")
         if row["verdict"] in FINDINGS or not row["read"]:
             lines.append(f"    printed:   {row['printed']}")
         if row["correction"]:

@@ -197,13 +197,23 @@ def _plain(node: Node, marked: Marks) -> tuple[str, int]:
     return "".join(_sign(sign, t, marked, i > 0) + _at_least(t, PRODUCT, marked) for i, (sign, t) in terms), SUM
 
 
+_SLOPE = re.compile(r"d(2)?(\w+?)_d([A-Za-z]+\d*?)(?(1)2)")  # dx_dphi and d2x_dphi2
+_CHANGE = re.compile(r"Delta(\w+)")
+
+
 def letter(name: str) -> str:
     """A plain name as MathML: Greek letters, an index, dots of a rate.
 
     >>> letter("phi0d")
     '<msub><mover><mi>φ</mi><mo>˙</mo></mover><mn>0</mn></msub>'
     """
+    if slope := _SLOPE.fullmatch(name):
+        square = f"<msup><mi>d</mi><mn>2</mn></msup>{letter(slope[2])}" if slope[1] else f"<mi>d</mi>{letter(slope[2])}"
+        by = f"<msup>{letter(slope[3])}<mn>2</mn></msup>" if slope[1] else letter(slope[3])
+        return f"<mfrac><mrow>{square}</mrow><mrow><mi>d</mi>{by}</mrow></mfrac>"
     match = NAME.fullmatch(name)
+    if match is None and (change := _CHANGE.fullmatch(name)):
+        return f"<mrow><mi>Δ</mi>{letter(change[1])}</mrow>"
     if match is None:
         base, _, index = name.partition("_")
         words = html.escape(index.replace("_", " "))
