@@ -324,9 +324,15 @@ def _numbers_at(asked: Bench, place: Spot, wish: Values, memo: Mapping[Node, Val
         exponents = np.log(np.abs(wanted)) / np.log(np.abs(old))
         exponent = simple(np.broadcast_to(exponents, np.shape(wanted)))
         if exponent is not None and exponent != 1 and 0 < exponent <= 4 and exponent.denominator <= 4:
-            root = exponent == Fraction(1, 2)
-            new = call("sqrt", node) if root else binary(ast.Pow, node, number(exponent))
-            yield Edit(kind="root" if root else "power", path=place.path, new=new)
+            yield _raised(place.path, node, exponent)
+            if is_operation(node, ast.Pow) and (own_power := value_of(node.right)) is not None:
+                yield _raised(place.path, node.left, exponent * own_power)  # of what is positive no power of a power
+
+
+def _raised(path: Path, base: Node, exponent: Fraction) -> Edit:
+    if exponent == Fraction(1, 2):
+        return Edit(kind="root", path=path, new=call("sqrt", base))
+    return Edit(kind="power", path=path, new=base if exponent == 1 else binary(ast.Pow, base, number(exponent)))
 
 
 def _misread(printed: Fraction, right: Fraction) -> bool:
