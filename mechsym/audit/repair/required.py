@@ -324,15 +324,18 @@ def _numbers_at(asked: Bench, place: Spot, wish: Values, memo: Mapping[Node, Val
         exponents = np.log(np.abs(wanted)) / np.log(np.abs(old))
         exponent = simple(np.broadcast_to(exponents, np.shape(wanted)))
         if exponent is not None and exponent != 1 and 0 < exponent <= 4 and exponent.denominator <= 4:
-            yield _raised(place.path, node, exponent)
+            yield Edit(
+                kind="root" if exponent == Fraction(1, 2) else "power", path=place.path, new=_raised(node, exponent)
+            )
             if is_operation(node, ast.Pow) and (own_power := value_of(node.right)) is not None:
-                yield _raised(place.path, node.left, exponent * own_power)  # of what is positive no power of a power
+                # of what is positive no power of a power
+                yield Edit(kind="power", path=place.path, new=_raised(node.left, exponent * own_power))
 
 
-def _raised(path: Path, base: Node, exponent: Fraction) -> Edit:
+def _raised(base: Node, exponent: Fraction) -> Node:
     if exponent == Fraction(1, 2):
-        return Edit(kind="root", path=path, new=call("sqrt", base))
-    return Edit(kind="power", path=path, new=base if exponent == 1 else binary(ast.Pow, base, number(exponent)))
+        return call("sqrt", base)
+    return base if exponent == 1 else binary(ast.Pow, base, number(exponent))
 
 
 def _misread(printed: Fraction, right: Fraction) -> bool:
