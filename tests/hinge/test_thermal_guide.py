@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from mechsym import cases
 from mechsym.errors import BadInput
-from mechsym.hinge.guide import crank_torque, cut, gas_turn, kept_torque, refit, spring_state, torque_function
+from mechsym.hinge.guide import affine, crank_torque, cut, gas_turn, kept_torque, refit, spring_state, torque_function
 from mechsym.hinge.springs.air import AirAbsolute
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.torque import torque
@@ -63,6 +63,16 @@ def test_the_gas_integrated_along_the_path_gives_the_torque(wanted, choices, tau
     assert np.abs(given - (wanted.torque(theta) - kept_torque(guide))).max() < 2e-5 * size
     assert -given.mean() == pytest.approx(kept_torque(guide), abs=1e-5 * size)
     assert np.abs(crank_torque(guide, theta) - given).max() < 1e-5 * size
+
+
+def test_the_work_of_a_gas_with_a_state_is_that_of_its_torque_less_its_mean(wanted, choices):
+    parts = affine(cut(wanted, spring(0.139), choices), wanted)
+    torque, work = parts.torque_0 + 5e6 * parts.torque_1, parts.work_0 + 5e6 * parts.work_1
+    step = wanted.period / torque.size
+    between = np.diff(np.append(work, work[0])) / step
+    swing = torque - torque.mean()
+    # of trapezia, whose ends are the angles of the work
+    assert between == pytest.approx((swing + np.roll(swing, -1)) / 2, abs=1e-9 * np.abs(torque).max())
 
 
 def test_on_a_half_speed_shaft_the_gas_has_twice_the_time(choices):

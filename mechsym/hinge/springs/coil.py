@@ -40,7 +40,7 @@ class Coil(Spring):
         # 2 U / (F0 + root) keeps its digits where (root - F0) / k would lose them; at F0 = U = 0 both are 0
         root = np.sqrt(F0**2 + 2 * k * np.asarray(U))
         if np.ndim(F0) == 0:
-            return (root - F0) / k if F0 == 0 else 2 * np.asarray(U) / (F0 + root)
+            return root / k if F0 == 0 else 2 * np.asarray(U) / (F0 + root)
         return np.where(F0 == 0, root / k, 2 * np.asarray(U) / np.where(F0 == 0, 1.0, F0 + root))
 
     @property
