@@ -144,6 +144,8 @@ class Judge:
             self.searches -= row is not None and row["verdict"] != "agrees"
             if row is not None and row["verdict"] == "agrees":
                 passed, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
+                if passed == "truncation" and not (said.claim or _CUT_SHORT.search(said.before)):
+                    continue  # that it is cut short says no word: it may be another thing of the same name
                 return Judged(verdict=passed, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
                 right = read_expression(row["correction"], (), AnyLetter())[0]
@@ -162,15 +164,12 @@ class Judge:
     def _by_twin(self, order: int, said: Said) -> Judged | None:
         # x_2 by x_1: of two that no theory knows the later one is told of
         slip = twin_slip(self.world, order)
-        if slip is None:
+        sure = slip is not None and any((slip[1], 1) in fit.met for fit in self.fits)
+        if slip is None or not sure and slip[1] > order:
             return None
-        right, place = slip
-        sure = any((place, 1) in fit.met for fit in self.fits)
-        if not sure and place > order:
-            return None
-        twin = self.world.paper.said[place].name
+        twin = self.world.paper.said[slip[1]].name
         note = f"its twin ({twin}) has another form" + ": one of both has a slip" * (not sure)
-        mended = to_latex(right, self._spelled(said))
+        mended = to_latex(slip[0], self._spelled(said))
         return Judged(verdict="misprint", matched="the text", note=note, correction=mended)
 
     def _spelled(self, said: Said) -> dict[str, str]:
