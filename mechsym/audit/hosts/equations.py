@@ -144,8 +144,8 @@ class Judge:
             self.searches -= row is not None and row["verdict"] != "agrees"
             if row is not None and row["verdict"] == "agrees":
                 passed, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
-                if passed == "truncation" and not (said.claim or _CUT_SHORT.search(said.before)):
-                    continue  # that it is cut short says no word: it may be another thing of the same name
+                if row.get("order") == 1 and not (said.claim or _CUT_SHORT.search(said.before)):
+                    continue  # so short it may be another thing of that name
                 return Judged(verdict=passed, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
                 right = read_expression(row["correction"], (), AnyLetter())[0]
