@@ -415,3 +415,26 @@ def test_two_numbers_turned_over_are_turned_back(tmp_path):
 $$ R = \frac{(\rho^2 + s^2)^{2/3}}{\rho^2 + 2 s^2} $$"""
     (row,) = blamed(judged(tmp_path, text, "text.md"))
     assert row["note"] == "repaired by number: 2/3 becomes 3/2"
+
+
+@pytest.mark.parametrize(
+    ("words", "printed", "verdict"),
+    [
+        ("which gives", r"\frac{2 m g}{\rho v^2 A}", "exact"),
+        ("Hence the coefficient is", r"\frac{2 m g}{\rho v^2 A}", "exact"),
+        ("from which", r"\frac{m g}{\rho v^2 A}", "misprint"),
+        ("so that", r"-\frac{2 m g}{\rho v^2 A}", "misprint"),
+        # without a word it is what it is defined as, and of another model it is another
+        ("In another flow", r"\frac{m g}{\rho v^2 A}", "units agree"),
+        ("For small speeds this gives", r"\frac{m g}{\rho v^2 A}", "units agree"),
+    ],
+)
+def test_what_an_equation_gives_is_what_the_one_before_it_is_solved_for(tmp_path, words, printed, verdict):
+    text = rf"""The mass $m$, the area $A$, the density $\rho$, the speed $v$ and gravity $g$ hold
+$$ m g = \frac{{1}}{{2}} C_d \rho v^2 A $$
+{words}
+$$ C_d = {printed} $$"""
+    row = judged(tmp_path, text, "text.md")[-1]
+    assert row["verdict"] in (verdict, {"units agree": "definition"}.get(verdict, verdict))
+    if verdict == "misprint":
+        assert same(row["correction"], r"\frac{2 m g}{\rho v^2 A}")

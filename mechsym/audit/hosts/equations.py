@@ -10,7 +10,9 @@ from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
+from mechsym.audit.judge.following import solved
 from mechsym.audit.judge.lagrangian import Energies
+from mechsym.audit.judge.primes import PRIMED, by_angle, primed, slope_of
 from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.sampled import alike, free, states
 from mechsym.audit.judge.twins import twin_slip
@@ -18,7 +20,7 @@ from mechsym.audit.judge.world import World, is_slope, stems_of
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.spelling import to_latex, to_python
-from mechsym.audit.read.tree import Node, is_operation, letters, name, substitute, value_of
+from mechsym.audit.read.tree import Node, is_operation, letters, name, negative, substitute, value_of
 from mechsym.audit.row import Row, answer
 from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import retaped
@@ -27,7 +29,6 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 _PUT_BACK = re.compile("repaired by (?:put back|letter)")
-_PRIMED = re.compile(r"(\w+?)prime(prime)?")
 _BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
 _CASE = re.compile(
     r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
@@ -83,6 +84,8 @@ class Judge:
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
                 return slip
+        if (follows := self._by_solving(order, said)) is not None:
+            return follows
         if (by_words := self._by_words(order, said)) is not None:
             return by_words
         if (as_twin := self._by_twin(order, said)) is not None:
@@ -115,7 +118,7 @@ class Judge:
         if not self.energies.laws or len(said.sides) != 2:
             return None
         theory = self.world.theory(order)
-        sides = [_by_angle(self._known(side, theory), theory) for side in said.sides]
+        sides = [by_angle(self._known(side, theory), theory) for side in said.sides]
         if not self.energies.tells(order, theory, sides):
             return None
         matched = "the text's energies"
@@ -161,6 +164,28 @@ class Judge:
                 )  # fmt: skip
         return None
 
+    def _by_solving(self, order: int, said: Said) -> Judged | None:
+        # what the equation before it gives, where a word says that this is it
+        tree_and_place = solved(self.world, order)
+        if tree_and_place is None or _CUT_SHORT.search(said.before):
+            return None
+        theory, (tree, place) = self.world.theory(order), tree_and_place
+        wanted, printed = self._known(tree, theory), self._known(said.sides[1], theory)
+        source = self.world.paper.said[place].name
+        try:
+            at = states(self._steady(theory))
+            if alike(at, wanted, printed):
+                return Judged(verdict="exact", matched="the text", note=f"follows from ({source})", error=0.0)
+            if alike(at, wanted, negative(printed)):
+                mended = to_latex(negative(said.sides[1]), self._spelled(said))
+                return Judged(
+                    verdict="misprint", matched="the text", note=f"({source}) gives the other sign", correction=mended
+                )
+        except (BadInput, KeyError, RecursionError):
+            return None
+        row = self._asked_of(theory, wanted, printed, said)
+        return None if row is None else self._finding(row, said, said.sides[1], "the text")
+
     def _by_twin(self, order: int, said: Said) -> Judged | None:
         # x_2 by x_1: of two that no theory knows the later one is told of
         slip = twin_slip(self.world, order)
@@ -174,9 +199,9 @@ class Judge:
 
     def _spelled(self, said: Said) -> dict[str, str]:
         everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
-        slopes = {k: v for k, v in everywhere.items() if _PRIMED.fullmatch(k)}
-        by_angle = {_slope_of(k, self.world.angle): v for k, v in slopes.items()}
-        return everywhere | by_angle | dict(said.spelled)
+        slopes = {k: v for k, v in everywhere.items() if PRIMED.fullmatch(k)}
+        named = {slope_of(k, self.world.angle): v for k, v in slopes.items()}
+        return everywhere | named | dict(said.spelled)
 
     def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
         # one slip away from the quantity that the text's words name, in letters that are all known
@@ -244,7 +269,7 @@ class Judge:
         # a prime is a derivative by the angle, or in time
         angle = self.world.angle
         for by in (f"d{{}}_d{angle}", "{}_d"):
-            yield _primed(left, by, theory), _primed(right, by, theory)
+            yield primed(left, by, theory), primed(right, by, theory)
 
     def _known(self, tree: Node, theory: Theory) -> Node:
         # dots and slopes of the text's own letters under the names of the tape
@@ -267,7 +292,7 @@ class Judge:
         nothing = Judged(verdict="")
         left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
         by = "{}_d" if f"{self.world.angle}d" in letters(right) else f"d{{}}_d{self.world.angle}"
-        left, right = _primed(left, by, theory), _primed(right, by, theory)
+        left, right = primed(left, by, theory), primed(right, by, theory)
         first, second = free(theory, left), free(theory, right)
         circular = isinstance(left, ast.Name) and left.id in second
         if not (first <= second or second <= first or circular) or not second or value_of(right) == 0:
@@ -372,28 +397,3 @@ class Judge:
 
 def _passed(row: Row, matched: str) -> Judged:
     return Judged(verdict=row["verdict"], matched=matched, note=row["note"], error=row["max_rel_error"])
-
-
-def _primed(tree: Node, by: str, theory: Theory) -> Node:
-    def changed(node: Node) -> Node | None:
-        if isinstance(node, ast.Name) and node.id.endswith("prime") and node.id not in theory.tape:
-            stem = node.id.removesuffix("prime")
-            return name(by.format(stem)) if stem in theory.results and by.format(stem) in theory.tape else None
-        return None
-
-    return substitute(tree, changed)
-
-
-def _by_angle(tree: Node, theory: Theory) -> Node:
-    # x' and x'' of what the text defines, by the angle
-    def changed(node: Node) -> Node | None:
-        primed = _PRIMED.fullmatch(node.id) if isinstance(node, ast.Name) and node.id not in theory.tape else None
-        known = primed is not None and primed[1] in theory.results and theory.angle
-        return name(_slope_of(node.id, theory.angle)) if known and isinstance(node, ast.Name) else None
-
-    return substitute(tree, changed)
-
-
-def _slope_of(primed: str, angle: str) -> str:
-    stem, twice = primed.partition("prime")[0], primed.count("prime") > 1
-    return f"d2{stem}_d{angle}2" if twice else f"d{stem}_d{angle}"

@@ -1,0 +1,39 @@
+"""Primes of letters that a text defines: derivatives by its angle, or in time."""
+
+import ast
+import re
+
+from mechsym.audit.read.tree import Node, name, substitute
+from mechsym.audit.theory.record import Theory
+
+PRIMED = re.compile(r"(\w+?)prime(prime)?")
+
+
+def primed(tree: Node, by: str, theory: Theory) -> Node:
+    """A prime under the name of a derivative; by: that name with a gap for the letter, as `d{}_dphi` or `{}_d`."""
+
+    def changed(node: Node) -> Node | None:
+        if isinstance(node, ast.Name) and node.id.endswith("prime") and node.id not in theory.tape:
+            stem = node.id.removesuffix("prime")
+            return name(by.format(stem)) if stem in theory.results and by.format(stem) in theory.tape else None
+        return None
+
+    return substitute(tree, changed)
+
+
+def by_angle(tree: Node, theory: Theory) -> Node:
+    """One prime and two as slopes by the angle of a theory."""
+
+    def changed(node: Node) -> Node | None:
+        known = PRIMED.fullmatch(node.id) if isinstance(node, ast.Name) and node.id not in theory.tape else None
+        if known is None or known[1] not in theory.results or not theory.angle:
+            return None
+        return name(slope_of(known[0], theory.angle))
+
+    return substitute(tree, changed)
+
+
+def slope_of(letter: str, angle: str) -> str:
+    """The name of the slope that a letter with one prime or two is."""
+    stem, twice = letter.partition("prime")[0], letter.count("prime") > 1
+    return f"d2{stem}_d{angle}2" if twice else f"d{stem}_d{angle}"
