@@ -1,4 +1,4 @@
-"""What an equation has to be that a text solves the one before it for: `which gives`, `hence`, `from which`."""
+"""What an equation has to be that a text solves the one before it for: which gives, hence, from which."""
 
 import ast
 import re
