@@ -67,7 +67,6 @@ def _codesign(*more):
 
 
 @pytest.mark.slow
-@pytest.mark.heavy
 def test_the_numbers_of_the_readme_are_those_of_its_commands():
     ideal, inside = _codesign(), _codesign("--losses", "inside")
     told = README[README.index("What a co-designed hinge is worth") : README.index("```sh")]

@@ -15,7 +15,7 @@ from mechsym.audit.judge.lagrangian import Energies
 from mechsym.audit.judge.primes import PRIMED, by_angle, primed, slope_of
 from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.sampled import alike, free, states
-from mechsym.audit.judge.twins import twin_slip
+from mechsym.audit.judge.twins import Twins
 from mechsym.audit.judge.world import World, is_slope, stems_of
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
@@ -60,6 +60,7 @@ class Judge:
     agreeing: set[str]
     worded: Worded
     energies: Energies
+    twins: Twins
     searches: int = _SEARCHES
     wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
 
@@ -188,7 +189,7 @@ class Judge:
 
     def _by_twin(self, order: int, said: Said) -> Judged | None:
         # x_2 by x_1: of two that no theory knows the later one is told of
-        slip = twin_slip(self.world, order)
+        slip = self.twins.slip(order)
         sure = slip is not None and any((slip[1], 1) in fit.met for fit in self.fits)
         if slip is None or not sure and slip[1] > order:
             return None

@@ -16,6 +16,7 @@ from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.lagrangian import Energies, laws
 from mechsym.audit.judge.table_slips import TableSlip, table_slips
+from mechsym.audit.judge.twins import Twins
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.displays import Displayed
 from mechsym.audit.read.notebook import LONGEST, words_of_notebook
@@ -124,7 +125,7 @@ def _rows_of(text: TextFile) -> Iterator[Row]:
     world = World(paper=paper, kinds=kinds)
     judge = Judge(
         world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted, worded=Worded(world),
-        energies=Energies(world=world, laws=laws(world)),
+        energies=Energies(world=world, laws=laws(world)), twins=Twins(world),
     )  # fmt: skip
     for order, said in enumerate(world.paper.said):
         if not said.inline:

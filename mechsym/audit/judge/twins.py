@@ -5,12 +5,12 @@ they differ in one thing more, a function, an operator or a letter that is elsew
 """
 
 import ast
+import itertools
 import re
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field
 
 from mechsym.audit.judge.world import World
-from mechsym.audit.read.said import Said
 from mechsym.audit.read.tree import Node, name, substitute, walk
 
 _INDEXED = re.compile(r"([A-Za-z]+?)(\d)")
@@ -44,58 +44,64 @@ class _Beside:
             self.other.append((one, two))
 
 
-def twin_slip(world: World, order: int) -> tuple[Node, int] | None:
-    """What an equation would be if it were as its twin, and the twin's place; None where it has none, or is as that."""
-    said = world.paper.said[order]
-    own = _left(said)
-    for place, other in enumerate(world.paper.said) if own is not None else ():
-        its = _left(other)
-        if own is None or its is None or its[0] != own[0] or its[1] == own[1] or other.inline:
-            continue
-        right = _between(world, world.plain(other.sides[1]), world.plain(said.sides[1]))
-        if right is not None:
-            return right, place
-    return None
+@dataclass
+class Twins:
+    """The equations of a text whose letters have an index."""
 
+    world: World
+    places: dict[str, dict[int, str]] = field(init=False)  #: Of each stem, place of the equation to its index
 
-def _left(said: Said) -> tuple[str, str] | None:
-    if len(said.sides) != 2 or not isinstance(said.sides[0], ast.Name):
+    def __post_init__(self) -> None:
+        """Find them."""
+        self.places = defaultdict(dict)
+        for place, said in enumerate(self.world.paper.said):
+            left = said.sides[0] if len(said.sides) == 2 else None
+            if isinstance(left, ast.Name) and (match := _INDEXED.fullmatch(left.id)):
+                self.places[match[1]][place] = match[2]
+
+    def slip(self, order: int) -> tuple[Node, int] | None:
+        """What an equation would be if it were as its twin, and the twin's place; None where it has none, or is so."""
+        for alike in self.places.values():
+            for place, index in alike.items() if order in alike else ():
+                if index != alike[order] and not self.world.paper.said[place].inline:
+                    right = self._as(place, order)
+                    if right is not None:
+                        return right, place
         return None
-    match = _INDEXED.fullmatch(said.sides[0].id)
-    return (match[1], match[2]) if match else None
 
-
-def _between(world: World, first: Node, second: Node) -> Node | None:
-    if sum(isinstance(n, ast.BinOp | ast.Call) for _, n in walk(first)) < _HEAVY:
-        return None
-    beside = _Beside()
-    beside.add(first, second)
-    meant = {letter: Counter(ast.dump(two) for _, two in pairs) for letter, pairs in beside.meant.items()}
-    torn = [letter for letter, seen in meant.items() if len(seen) > 1]
-    if len(torn) + len(beside.other) != 1 or all(next(iter(seen)) == ast.dump(name(k)) for k, seen in meant.items()):
-        return None
-    targets = {letter: pairs[0][1] for letter, pairs in beside.meant.items()}
-    if torn:
-        if len(meant[torn[0]]) > 2:
+    def _as(self, first: int, second: int) -> Node | None:
+        tree = self._side(first)
+        if sum(isinstance(n, ast.BinOp | ast.Call) for _, n in walk(tree)) < _HEAVY:
             return None
-        known = _elsewhere(world, torn[0])
-        usual = [two for _, two in beside.meant[torn[0]] if ast.dump(two) in known]
-        if not usual:
+        beside = self._beside(first, second)
+        meant = {letter: Counter(ast.dump(two) for _, two in pairs) for letter, pairs in beside.meant.items()}
+        torn = [letter for letter, seen in meant.items() if len(seen) > 1]
+        same = all(next(iter(seen)) == ast.dump(name(letter)) for letter, seen in meant.items())
+        if len(torn) + len(beside.other) != 1 or same or any(len(meant[letter]) > 2 for letter in torn):
             return None
-        targets[torn[0]] = usual[0]
-    return substitute(first, lambda node: targets.get(node.id) if isinstance(node, ast.Name) else None)
+        targets = {letter: pairs[0][1] for letter, pairs in beside.meant.items()}
+        for letter in torn:
+            known = self._elsewhere(letter)
+            usual = [two for _, two in beside.meant[letter] if ast.dump(two) in known]
+            if not usual:
+                return None
+            targets[letter] = usual[0]
+        return substitute(tree, lambda node: targets.get(node.id) if isinstance(node, ast.Name) else None)
 
+    def _elsewhere(self, letter: str) -> set[str]:
+        # what a letter is in the pairs of twins where it is one thing
+        known = set()
+        for alike in self.places.values():
+            for one, two in itertools.permutations(alike, 2):
+                if alike[one] < alike[two]:
+                    seen = {ast.dump(target) for _, target in self._beside(one, two).meant.get(letter, ())}
+                    known |= seen if len(seen) == 1 else set()
+        return known
 
-def _elsewhere(world: World, letter: str) -> set[str]:
-    # what a letter is in the other pairs of twins, where it is one thing
-    known: Counter[str] = Counter()
-    for one in world.paper.said:
-        for two in world.paper.said:
-            left, right = _left(one), _left(two)
-            if left and right and left[0] == right[0] and left[1] < right[1]:
-                beside = _Beside()
-                beside.add(world.plain(one.sides[1]), world.plain(two.sides[1]))
-                seen = {ast.dump(target) for _, target in beside.meant.get(letter, ())}
-                if len(seen) == 1:
-                    known.update(seen)
-    return set(known)
+    def _beside(self, first: int, second: int) -> _Beside:
+        beside = _Beside()
+        beside.add(self._side(first), self._side(second))
+        return beside
+
+    def _side(self, place: int) -> Node:
+        return self.world.plain(self.world.paper.said[place].sides[1])
