@@ -438,3 +438,19 @@ $$ C_d = {printed} $$"""
     assert row["verdict"] in (verdict, {"units agree": "definition"}.get(verdict, verdict))
     if verdict == "misprint":
         assert same(row["correction"], r"\frac{2 m g}{\rho v^2 A}")
+
+
+def test_a_theory_whose_stroke_is_another_says_nothing_of_a_volume(tmp_path):
+    """Of two throws, and of four as in a mechanism without rods; the table is one of Sphinx."""
+    text = """=========  ==============  ====
+$r$        crank radius    m
+$D$        cylinder bore   m
+=========  ==============  ====
+
+The stroke of the piston is $S = TIMES r$, the swept volume is
+
+$$ V_h = \\frac{\\pi D^2}{4} TIMES r $$"""
+    assert read_text_whole(text).named["D"].unit == "m"
+    two, four = (judged(tmp_path, text.replace("TIMES", times), "text.md")[0] for times in "24")
+    assert (two["verdict"], two["matched"]) == ("exact", "cylinder_volume.V_d")
+    assert four["verdict"] in ("units agree", "definition")

@@ -8,10 +8,13 @@ from functools import cache
 from mechsym.audit.hosts.neighbours import Neighbours
 from mechsym.audit.judge.lexicon import Lexicon
 from mechsym.audit.judge.world import World
+from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.programs.claims import Claim
+from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import binary, function_of, is_operation, letters, number, value_of, walk
 from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
+from mechsym.audit.theory.record import Theory
 
 
 @cache
@@ -52,8 +55,21 @@ class Worded:
                     )  # fmt: skip
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}
         names |= {word for name in names for word in called.get(name, "").split()}
-        touched = [v for v in _vocabularies() if v.touches(names)]
+        touched = [v for v in _vocabularies() if v.touches(names) and not self._contradicts(v.theory)]
         self.neighbours = Neighbours([*self.claims.values()], touched, si=True)
+
+    def _contradicts(self, theory: Theory) -> bool:
+        # of another mechanism: its stroke is four throws, that of the theory two
+        for meaning, said in theory.words.items():
+            for one in self.world.defined if not meaning.isidentifier() else ():
+                phrase = self.world.paper.called.get(one.letter, "").split()
+                if any(word in phrase for word in said if len(word) > 2):
+                    tree = ast.parse(meaning, mode="eval").body
+                    if {*letters(tree)} == {*letters(one.tree)} and to_python(tree) != to_python(one.tree):
+                        values = {name: 0.7 + 0.1 * k for k, name in enumerate(letters(tree))}
+                        first, second = (float(evaluate(t, values, FLOATS)) for t in (tree, one.tree))
+                        return abs(first - second) > 1e-9 * abs(first)
+        return False
 
     def outcome(self, order: int, side: int) -> Row | None:
         """What theories say of one side of an equation; None where they say nothing."""

@@ -75,6 +75,7 @@ _AHEAD_OF = re.compile(
     r"(?:\s+(?:of|in|for|with|at|on|between)\b[^.;:$]{0,60}?)?(?:\s+(?:is|are|becomes))?\s*(?:\$\$|\\\[|\\begin)"
 )
 _FORMULA = re.compile(r"=|\\(?:approx|simeq|frac|sqrt|left|sin|cos|tan)\b")
+_SPACED_ROW, _SPACED = re.compile(r"\s*\$[^$|&\t]+\$\s{2,}[A-Za-z][^|&\t$]*$"), re.compile(r"\s{2,}")  # of Sphinx
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
 
 
@@ -181,7 +182,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
 
 def _cells(row: str) -> Iterator[tuple[str, str, str]]:
     # symbol, meaning and unit of a row of a table; what has no unit in its last cell may still name a letter
-    cells = [c.strip() for c in _CELLS.split(row.replace(r"\\", "").replace(r"\hline", ""))]
+    columns = _SPACED if _SPACED_ROW.match(row) else _CELLS
+    cells = [c.strip() for c in columns.split(row.replace(r"\\", "").replace(r"\hline", "").strip())]
     cells = cells[1:-1] if row.strip().startswith("|") else cells
     for start in range(0, len(cells) - 1, 3):
         group = cells[start : start + 3]
