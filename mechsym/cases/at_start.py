@@ -103,7 +103,9 @@ def _stretched(
 def _swinging(
     case: Case, mechanism: Mechanism, at: Mapping[str, float], columns: Mapping[str, np.ndarray]
 ) -> Iterator[Doubt]:
-    """Accelerations along what slides, and by the time between two results what acts and the fastest vibration."""
+    """Accelerations along what slides, the strongest damper by what swings, and by the time between two results what
+    acts and the fastest vibration.
+    """
     dynamics, n = mechanism.functions["dynamics"], len(mechanism.coordinates)
     given = [ca.SX.sym(name) for name in dynamics.name_in()]
     mass, bias, force = dynamics(*given)

@@ -167,10 +167,10 @@ class Judge:
 
     def _by_solving(self, order: int, said: Said) -> Judged | None:
         # what the equation before it gives, where a word says that this is it
-        tree_and_place = solved(self.world, order)
-        if tree_and_place is None or _CUT_SHORT.search(said.before):
+        follows = solved(self.world, order)
+        if follows is None or _CUT_SHORT.search(said.before):
             return None
-        theory, (tree, place) = self.world.theory(order), tree_and_place
+        theory, (tree, place) = self.world.theory(order), follows
         wanted, printed = self._known(tree, theory), self._known(said.sides[1], theory)
         source = self.world.paper.said[place].name
         try:

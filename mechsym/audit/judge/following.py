@@ -5,13 +5,13 @@ import re
 
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.world import World
+from mechsym.audit.read.nomenclature import OPENED
 from mechsym.audit.read.tree import Node, letters
 
 _SOLVED = re.compile(
     r"\b(?:gives?|yields?|follows?|hence|thus|therefore|so that|from which|whence|obtains?|leads? to)\b", re.IGNORECASE
 )
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
-_OPENING = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
 
 
 def solved(world: World, order: int) -> tuple[Node, int] | None:
@@ -21,7 +21,7 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
     if place is None or len(said.sides) != 2 or not isinstance(said.sides[0], ast.Name) or said.claim:
         return None
     source, letter = world.paper.said[place], said.sides[0].id
-    between = _DISPLAY.split(_OPENING.sub("", said.before.rstrip()))
+    between = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))
     if len(between) < 2 or not _SOLVED.search(between[-1]) or source.section != said.section or source.claim:
         return None
     sides = [world.plain(side) for side in source.sides]

@@ -54,9 +54,10 @@ _VERB = re.compile(
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
-# what is no word of a sentence; where its display begins; where it began itself
+#: Where a display begins, at the end of what stands in front of it
+OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
+# what is no word of a sentence; where it began itself
 _UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
-_OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
 _SENTENCE = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)|\n\s*\n")
 _COUNTED = re.compile(
     r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
@@ -148,7 +149,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
 
     before: the text up to the equation. alone: whether it gives one thing.
     """
-    words = _OPENED.sub("", before).rstrip(" \n:;.,")
+    words = OPENED.sub("", before).rstrip(" \n:;.,")
     sentence = " ".join(_UNWORDED.sub(" ", _SENTENCE.split(words)[-1]).split())
     bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
