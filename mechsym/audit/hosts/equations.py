@@ -19,6 +19,7 @@ from mechsym.audit.judge.twins import Twins
 from mechsym.audit.judge.world import World, is_slope, stems_of
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
+from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.spelling import to_latex, to_python
 from mechsym.audit.read.tree import Node, is_operation, letters, name, negative, substitute, value_of
 from mechsym.audit.row import Row, answer
@@ -269,7 +270,7 @@ class Judge:
     def _readings(self, left: Node, right: Node, theory: Theory) -> Iterator[tuple[Node, Node]]:
         # a prime is a derivative by the angle, or in time
         angle = self.world.angle
-        for by in (f"d{{}}_d{angle}", "{}_d"):
+        for by in (Slope("{}", angle).name, "{}_d"):
             yield primed(left, by, theory), primed(right, by, theory)
 
     def _known(self, tree: Node, theory: Theory) -> Node:
@@ -281,18 +282,15 @@ class Judge:
                 stem = node.id.removesuffix(dots)
                 if node.id.endswith(dots) and stem in theory.results and f"{stem}_{dots}" in theory.tape:
                     return name(f"{stem}_{dots}")
-            if node.id.endswith("_dt") and node.id.startswith("d"):
-                return name(f"{node.id[1:].removesuffix('_dt')}_d")
-            if node.id.endswith("_dt2") and node.id.startswith("d2"):
-                return name(f"{node.id[2:].removesuffix('_dt2')}_dd")
-            return None
+            rate = slope_in(node.id, "t")
+            return name(f"{rate.of}_{'d' * rate.order}") if rate else None
 
         return substitute(self.world.plain(tree), changed)
 
     def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:
         nothing = Judged(verdict="")
         left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
-        by = "{}_d" if f"{self.world.angle}d" in letters(right) else f"d{{}}_d{self.world.angle}"
+        by = "{}_d" if f"{self.world.angle}d" in letters(right) else Slope("{}", self.world.angle).name
         left, right = primed(left, by, theory), primed(right, by, theory)
         first, second = free(theory, left), free(theory, right)
         circular = isinstance(left, ast.Name) and left.id in second

@@ -29,6 +29,7 @@ from mechsym.audit.read.reader import (
     read,
     read_expression,
 )
+from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.spelling import resolve
 from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import Node, letters, substitute
@@ -44,7 +45,6 @@ from mechsym.quantities import record
 from mechsym.quantities.results import part, quantity, result, tell
 
 _ARGUMENT = re.compile(r"^(.*[\w}])\s*(?:\\left)?\(\s*(?:\\[a-z]+|[a-z])\s*(?:\\right)?\)$")
-_SLOPE = re.compile(r"d(\d?)(\w+?)_d(\w+?)(\d?)$")
 _LETTER = re.compile(r"[A-Za-z_]\w*")
 DEFINED, CARRIED = "definition", "carried"
 
@@ -83,12 +83,10 @@ class Symbols:
 
     def derived(self, written: str, theory: Theory) -> str:
         r"""Name on the tape of a derivative: x_d for \dot{x} and dx/dt, dx_dphi for dx/dphi; empty where it is none."""
-        if slope := _SLOPE.match(written):
-            if slope[1] != slope[4]:
-                return ""
-            of, by = self.quantity(slope[2], theory), self.letter(slope[3], theory)
-            order = int(slope[1] or 1)
-            new = f"{of}_{'d' * order}" if slope[3] == "t" and not by else f"d{slope[1]}{of}_d{by}{slope[1]}"
+        if slope := slope_in(written):
+            of, by = self.quantity(slope.of, theory), self.letter(slope.by, theory)
+            in_time = slope.by == "t" and not by
+            new = f"{of}_{'d' * slope.order}" if in_time else Slope(of, by, slope.order).name
             return new if of and new in theory.tape else ""
         for dots in ("dd", "d"):
             if written.endswith(dots) and len(written) > len(dots):

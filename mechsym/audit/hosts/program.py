@@ -13,6 +13,7 @@ from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.dimensions import is_consistent, rescaled
 from mechsym.audit.judge.question import Question, turn, value
 from mechsym.audit.read.reader import joined, read
+from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.tree import letters, name
 from mechsym.audit.row import Row, answer_or_why, unread_row
 from mechsym.audit.theory.catalogue import named, shipped
@@ -181,7 +182,7 @@ def _quantities(theory: Theory) -> Iterator[str]:
     plain = [q for q in theory.results if not isinstance(theory.tape[q], tuple)]
     yield from plain
     for q in plain if theory.angle else ():
-        for derived in (f"d{q}_d{theory.angle}", f"d2{q}_d{theory.angle}2", f"{q}_d", f"{q}_dd"):
+        for derived in (Slope(q, theory.angle).name, Slope(q, theory.angle, 2).name, f"{q}_d", f"{q}_dd"):
             with suppress(BadInput):
                 if theory.tape.get(derived) is not None:
                     yield derived

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from mechsym.audit.read.said import Said, Text
+from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.tree import Node, argument_of, function_of, letters, value_of, walk
 from mechsym.audit.read.units import KINDS, OTHERS
@@ -37,7 +38,6 @@ _UNITS = ("kg", "m", "s", "K")
 
 _STEMS = "|".join([*sorted(SYMBOLS, key=len, reverse=True), "[A-Za-z]"])
 _RATE = re.compile(rf"((?:{_STEMS})\w*?)(dd?)")
-_SLOPE = re.compile(r"d(\d?)(\w+?)_d(\w+?)\1")
 _STEP = re.compile(rf"(?:Delta|delta|d)((?:{'|'.join(sorted(SYMBOLS, key=len, reverse=True))}|[A-Zxyzms])\w*)")
 _MARKED = re.compile(r"(\w+?)(?:bar|hat|tilde|star)")
 _INDEX = re.compile(rf"({_STEMS})(\w+)")
@@ -77,11 +77,11 @@ class Kinds:
                 return known[letter]
         if "prime" in letter or letter in SYMBOLS:
             return None
-        if slope := _SLOPE.fullmatch(letter):
-            above, below, times = self.of(slope[2]), self.of(slope[3]), int(slope[1] or 1)
+        if slope := slope_in(letter):
+            above, below = self.of(slope.of), self.of(slope.by)
             if above is None or below is None:
                 return None
-            return tuple(a - times * b for a, b in zip(above, below, strict=True))
+            return tuple(a - slope.order * b for a, b in zip(above, below, strict=True))
         if (rate := _RATE.fullmatch(letter)) and (still := self.of(rate[1])) is not None:
             # the dot on a mass or a heat may mean the angle
             return (*still[:2], still[2] - len(rate[2]), *still[3:]) if still in (PURE, _LENGTH) else None
@@ -106,7 +106,7 @@ class Kinds:
     def is_lent(self, letter: str) -> bool:
         """Whether a letter with a letter for an index has its kind from the one without it."""
         within = _MARKED.fullmatch(letter)
-        if letter in self.printed or letter in self.inferred or _RATE.fullmatch(letter) or _SLOPE.fullmatch(letter):
+        if letter in self.printed or letter in self.inferred or _RATE.fullmatch(letter) or slope_in(letter):
             return False
         base = _INDEX.fullmatch(within[1] if within else letter)
         return base is not None and not base[2][0].isdigit() and self.of(letter) is not None

@@ -13,13 +13,13 @@ import numpy as np
 from mechsym.audit.judge.sampled import alike, states
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.lagrange import LagrangeEquation, plain_letter
+from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.tree import Node, binary, letters, name, negative, number, substitute, value_of
 from mechsym.audit.theory.record import Theory, dependencies
 from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, times
 from mechsym.quantities import record
 
 _INDEX = re.compile(r"(\w+?)_?([ijkrs])$")
-_SLOPE = re.compile(r"d(\w+?)_d(\w+)")
 _SAME = 1e-9
 _MOST = 12  # laws of one text
 _DEEPEST = 12  # definitions within definitions
@@ -192,8 +192,8 @@ def _whole(theory: Theory, coordinates: frozenset[str], letter: str, depth: int 
         stem = k.removesuffix("d")
         if k in theory.tape:
             inner[k] = _whole(theory, coordinates, k, depth + 1)
-        elif (slope := _SLOPE.fullmatch(k)) and slope[2] == theory.angle and slope[1] in theory.tape:
-            of = _whole(theory, coordinates, slope[1], depth + 1)
+        elif theory.angle and (slope := slope_in(k, theory.angle)) and slope.integrated in theory.tape:
+            of = _whole(theory, coordinates, slope.integrated, depth + 1)
             inner[k] = None if of is None else _slope(of, theory.angle)
         elif k.endswith("d") and k not in theory.letters and stem in theory.tape:
             of = _whole(theory, coordinates, stem, depth + 1)

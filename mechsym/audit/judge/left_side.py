@@ -11,6 +11,7 @@ from mechsym.audit.judge.question import Question
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.printed import differential
 from mechsym.audit.read.reader import CONSTANTS, RESERVED, AnyLetter, Formula, read_expression
+from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import resolve, to_python
 from mechsym.audit.read.tree import Node, is_operation, letters, substitute
 from mechsym.audit.read.tree import name as name_of
@@ -37,7 +38,8 @@ def refuse_left(theory: Theory, quantity: str, left: str, formula: Formula) -> N
         return
     way_out = f"write '{quantity} = ..', or the right side alone"
     meant = formula.letters.get(written)
-    if re.fullmatch(rf"d2?{quantity}_d\w+|{quantity}(?:d|prime)+", written):
+    slope = slope_in(written)
+    if slope and slope.of == quantity or re.fullmatch(rf"{quantity}(?:d|prime)+", written):
         raise BadInput(
             f"'{left} = ..' is a derivative of {quantity}, and it is to be compared with {quantity}; {way_out}"
         )

@@ -11,6 +11,7 @@ from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import Claim, base, inlined
 from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import RESERVED, Formula, read_expression
+from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.theory.record import Theory, known
 from mechsym.quantities import record
@@ -117,7 +118,7 @@ class Lexicon:
         match, angle = _DERIVATIVE.fullmatch(name), self.theory.angle
         if not angle or not match or match["by"] not in (angle, *ANGLES):
             return ""
-        return next((f"d{m}_d{angle}" for _, m in self.meanings(match["of"], "") if m in self.theory.results), "")
+        return next((Slope(m, angle).name for _, m in self.meanings(match["of"], "") if m in self.theory.results), "")
 
     def meaning(self, name: str, about: str) -> tuple[int, str]:
         """The one thing that a name means; empty where it means none or several alike."""

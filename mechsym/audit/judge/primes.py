@@ -3,6 +3,7 @@
 import ast
 import re
 
+from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.tree import Node, name, substitute
 from mechsym.audit.theory.record import Theory
 
@@ -36,4 +37,4 @@ def by_angle(tree: Node, theory: Theory) -> Node:
 def slope_of(letter: str, angle: str) -> str:
     """The name of the slope that a letter with one prime or two is."""
     stem, twice = letter.partition("prime")[0], letter.count("prime") > 1
-    return f"d2{stem}_d{angle}2" if twice else f"d{stem}_d{angle}"
+    return Slope(stem, angle, 2 if twice else 1).name

@@ -16,6 +16,7 @@ from mechsym.audit.judge.kinds import PURE, Kinds, text
 from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
+from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.spelling import SPEEDS
 from mechsym.audit.read.tree import (
     Node,
@@ -159,7 +160,7 @@ class World:
     def _sloped(self, tree: Node) -> Node:
         # the prime of what is defined, within another definition: its slope by the angle
         known = {d.letter for d in self.defined} if self.angle else set()
-        slopes = {f"{k}prime": f"d{k}_d{self.angle}" for k in known}
+        slopes = {f"{k}prime": Slope(k, self.angle).name for k in known}
         return substitute(tree, lambda n: name(slopes[n.id]) if isinstance(n, ast.Name) and n.id in slopes else None)
 
     def _may_define(self, letter: str, said: Said, order: int) -> bool:
@@ -297,8 +298,8 @@ class World:
         return substitute(tree, changed)
 
     def _derivative(self, letter: str, tape: Mapping[str, Node]) -> bool:
-        if slope := re.fullmatch(r"d\d?(\w+?)_d(\w+?)\d?", letter):
-            return slope[1] in tape
+        if slope := slope_in(letter):
+            return slope.of in tape
         if prime := _PRIME.fullmatch(letter):
             return prime[1] in tape and bool(self.angle)
         stem = re.fullmatch(r"(\w+?)_?dd?", letter)
@@ -350,13 +351,13 @@ def _is_rate(tree: Node) -> bool:
 
 def is_slope(tree: Node) -> bool:
     """Whether a side is a derivative that is written as a fraction."""
-    return isinstance(tree, ast.Name) and bool(re.fullmatch(r"d\d?\w+_d\w+", tree.id))
+    return isinstance(tree, ast.Name) and slope_in(tree.id) is not None
 
 
 def stems_of(letter: str) -> list[str]:
     """What a letter may be a derivative of: x of dx_dphi, x_d, xd and xprime."""
-    slope = re.fullmatch(r"d\d?(\w+?)_d\w+", letter)
-    return [slope[1]] if slope else [s for s in (re.sub(r"(?:_?dd?|(?:prime)+)$", "", letter),) if s != letter]
+    slope = slope_in(letter)
+    return [slope.of] if slope else [s for s in (re.sub(r"(?:_?dd?|(?:prime)+)$", "", letter),) if s != letter]
 
 
 def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:
@@ -392,6 +393,6 @@ def _angle(said: Sequence[Said]) -> str:
                     if n not in given and any(n.startswith(a) for a in _ANGLES):
                         counts[n] += 1
     if not counts:  # or by what slopes are taken
-        slopes = (re.fullmatch(r"d\d?\w+?_d([a-z]+?\d*?)2?", n) for one in said for s in one.sides for n in letters(s))
-        counts.update(m[1] for m in slopes if m and m[1] not in given and any(m[1].startswith(a) for a in _ANGLES))
+        slopes = (slope_in(n) for one in said for s in one.sides for n in letters(s))
+        counts.update(s.by for s in slopes if s and s.by not in given and any(s.by.startswith(a) for a in _ANGLES))
     return counts.most_common(1)[0][0] if counts else ""

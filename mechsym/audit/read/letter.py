@@ -3,6 +3,7 @@ r"""Letters of LaTeX: dots, primes, indices, words in roman, differentials; and 
 import re
 from dataclasses import dataclass, field
 
+from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import plain
 from mechsym.audit.read.tree import Node, name
 from mechsym.errors import BadInput
@@ -188,6 +189,6 @@ def derivative(cursor: Cursor) -> str | None:
         plain(*re.sub(r"[\\{}]", "", part).partition("_")[::2], dots=dots)
         for part, dots in ((match[2], 0), (match[3] or match[4], int(bool(match[3]))))
     )
-    whole = f"d2{above}_d{below}2" if match[1] else f"d{above}_d{below}"
+    whole = Slope(above, below, 2 if match[1] else 1).name
     cursor.spelled[whole] = rf"\frac{match[0]}"
     return whole

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.reader import AnyLetter, read_expression
+from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import ATOM, NAME, POWER, PRODUCT, SIDES, SUM, SYMBOLS
 from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import Node, children, digest, function_of, name, substitute
@@ -197,7 +198,6 @@ def _plain(node: Node, marked: Marks) -> tuple[str, int]:
     return "".join(_sign(sign, t, marked, i > 0) + _at_least(t, PRODUCT, marked) for i, (sign, t) in terms), SUM
 
 
-_SLOPE = re.compile(r"d(2)?(\w+?)_d([A-Za-z]+\d*?)(?(1)2)")  # dx_dphi and d2x_dphi2
 _CHANGE = re.compile(r"Delta(\w+)")
 
 
@@ -207,10 +207,11 @@ def letter(name: str) -> str:
     >>> letter("phi0d")
     '<msub><mover><mi>φ</mi><mo>˙</mo></mover><mn>0</mn></msub>'
     """
-    if slope := _SLOPE.fullmatch(name):
-        square = f"<msup><mi>d</mi><mn>2</mn></msup>{letter(slope[2])}" if slope[1] else f"<mi>d</mi>{letter(slope[2])}"
-        by = f"<msup>{letter(slope[3])}<mn>2</mn></msup>" if slope[1] else letter(slope[3])
-        return f"<mfrac><mrow>{square}</mrow><mrow><mi>d</mi>{by}</mrow></mfrac>"
+    if slope := slope_in(name):
+        d, by = "<mi>d</mi>", letter(slope.by)
+        if slope.order > 1:
+            d, by = (f"<msup>{part}<mn>{slope.order}</mn></msup>" for part in (d, by))
+        return f"<mfrac><mrow>{d}{letter(slope.of)}</mrow><mrow><mi>d</mi>{by}</mrow></mfrac>"
     match = NAME.fullmatch(name)
     if match is None and (change := _CHANGE.fullmatch(name)):
         return f"<mrow><mi>Δ</mi>{letter(change[1])}</mrow>"

@@ -11,6 +11,7 @@ from functools import cache
 
 from mechsym.audit.read.latex import SINGLE, read_tokens
 from mechsym.audit.read.letter import ASKED, Way
+from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import LOWERED, RAISED, SYMBOLS, typeset, undotted
 from mechsym.audit.read.tree import Node
 from mechsym.errors import BadInput
@@ -93,7 +94,7 @@ def _signs(text: str) -> str:
 
 def _rate(match: re.Match[str]) -> str:
     above, below = ("".join(_GREEK.get(c, c) for c in match[i]) for i in (2, 3))
-    return f" d2{above}_d{below}2 " if match[1] else f" d{above}_d{below} "
+    return f" {Slope(above, below, 2 if match[1] else 1).name} "
 
 
 @cache

@@ -11,6 +11,7 @@ from mechsym.audit.read import tree as trees
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.letter import ASKED, Ambiguous, Way
 from mechsym.audit.read.printed import differential, is_printed, read_printed
+from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import bracketed, from_greek, resolve, to_latex, to_python, undotted, unprogrammed
 from mechsym.audit.read.statement import statement
 from mechsym.audit.read.tree import FUNCTIONS, MEANINGS, MODULES, Node, check, check_size, meaning
@@ -124,11 +125,10 @@ def _rates(tree: Node, own: Mapping[str, Node], known: Container[str]) -> dict[s
     r"""What \frac{d\theta}{dt} and \frac{d^2\theta}{dt^2} mean where theta is a coordinate, or a letter for one."""
     rates: dict[str, Node] = {}
     for written in trees.letters(tree):
-        match = re.fullmatch(r"d(\w+)_dt|d2(\w+)_dt2", written)
-        if match and written not in own and written not in known:
-            letter = match[1] or match[2]
-            meant = own.get(letter, trees.name(letter))
-            rate = f"{meant.id}{'d' if match[1] else 'dd'}" if isinstance(meant, ast.Name) else ""
+        slope = slope_in(written, "t")
+        if slope and slope.order < 3 and written not in own and written not in known:
+            meant = own.get(slope.of, trees.name(slope.of))
+            rate = f"{meant.id}{'d' * slope.order}" if isinstance(meant, ast.Name) else ""
             rates |= {written: trees.name(rate)} if rate in known else {}
     return rates
 

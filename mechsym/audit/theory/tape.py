@@ -7,9 +7,10 @@ Where a declaration calls something else so (a volume V beside a displacement V_
 
 import ast
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
+from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.tree import (
     Node,
     binary,
@@ -193,7 +194,7 @@ class TheoryTape(Mapping[str, Entry]):
         if key.endswith("_") and self._taken(key[:-1]):
             key = key[:-1]
         for by in self.free:
-            if (of := _integrated(key, by)) and of in self:
+            if (slope := slope_in(key, by)) and (of := slope.integrated) in self:
                 return self.slope(self._unlike(of) if key[1:2].isdigit() else of, by)
         if (match := _TIMED.match(key)) and match["of"] in self:
             less = match["dots"][:-1]
@@ -212,7 +213,7 @@ class TheoryTape(Mapping[str, Entry]):
     def _unlike(self, key: str) -> str:
         # the derivative itself, where something else is called so
         match = _TIMED.match(key)
-        of = match["of"] if match else _sloped(key, self.free)
+        of = match["of"] if match else next((s.of for by in self.free if (s := slope_in(key, by))), "")
         return f"{key}_" if of in self.base and self._taken(key) else key
 
     def slope(self, of: str, by: str) -> Entry | None:
@@ -225,7 +226,7 @@ class TheoryTape(Mapping[str, Entry]):
 
     def slope_of(self, of: str, by: str) -> Node:
         """Name of the derivative of a name by a letter, or 0."""
-        return self.rate_name(of, f"d{of}_d{by}" if self._is_authors(of) else slope_name(of, by))
+        return self.rate_name(of, f"d{of}_d{by}" if self._is_authors(of) else _next(of, by))
 
     def rate_of(self, of: str) -> Node:
         """Name of the derivative of a name in time, or 0."""
@@ -290,27 +291,6 @@ def needed(entry: Entry) -> list[str]:
     return [k for part in (entry if isinstance(entry, tuple) else (entry,)) for k in letters(part)]
 
 
-def slope_name(of: str, by: str) -> str:
-    """Name of the derivative of a name by a letter: dx_dphi, then d2x_dphi2."""
-    match = re.fullmatch(rf"d(\d?)(\w+?)_d{re.escape(by)}(\d?)", of)
-    if match is None or match[1] != match[3]:
-        return f"d{of}_d{by}"
-    order = int(match[1] or 1) + 1
-    return f"d{order}{match[2]}_d{by}{order}"
-
-
-def _sloped(key: str, free: Iterable[str]) -> str:
-    # the name that a slope by any letter belongs to
-    matches = (re.fullmatch(rf"d\d?(\w+?)_d{re.escape(by)}\d?", key) for by in free)
-    return next((match[1] for match in matches if match), "")
-
-
-def _integrated(key: str, by: str) -> str:
-    # the name whose slope a name is; empty where it is none
-    match = re.fullmatch(rf"d(\d?)(\w+?)_d{re.escape(by)}(\d?)", key)
-    if match is None or match[1] != match[3]:
-        return ""
-    order = int(match[1] or 1) - 1
-    if order <= 0:
-        return match[2]
-    return f"d{order}{match[2]}_d{by}{order}" if order > 1 else f"d{match[2]}_d{by}"
+def _next(of: str, by: str) -> str:
+    slope = slope_in(of, by)
+    return slope.once_more if slope else Slope(of, by).name
