@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from mechsym.audit.read.nomenclature import Named
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import SYMBOLS
@@ -68,6 +69,7 @@ class Kinds:
     inferred: dict[str, Kind] = field(default_factory=dict)
     bare: dict[str, Kind] = field(default_factory=dict)  #: Of letters that a relative with a unit for an index tells
     scaled: set[str] = field(default_factory=set)  #: Letters that the table measures in no unit of the SI
+    misnamed: dict[str, str] = field(default_factory=dict)  #: Letters that the table has in no unit of theirs, to it
     turns: set[str] = field(default_factory=set)  #: Letters in revolutions a minute that formulas take as a number
 
     def of(self, letter: str) -> Kind | None:
@@ -194,13 +196,15 @@ def kinds_of(paper: Text) -> Kinds:
     if "dt" in indexed:
         del kinds.printed["dt"]  # a diameter of something
     for letter, phrase in paper.called.items():
-        if letter not in paper.named and (usual := _usual(letter, phrase, letter in indexed)):
+        if usual := _usual(letter, phrase, letter in indexed):
             kinds.printed[letter] = of_unit(usual)
     for letter, about in paper.named.items():
-        usual = _usual(letter, about.meaning, letter in indexed)
-        unit = about.unit or usual
+        unit = about.unit or _usual(letter, about.meaning, letter in indexed)
         if unit:
             kinds.printed[letter] = of_unit(unit)
+        if wanted := _misnamed(letter, about):
+            kinds.misnamed[letter] = wanted
+            kinds.printed[letter] = of_unit(wanted)
         if about.unit == "rpm":
             kinds.turns.add(letter)
         elif about.unit and scale(about.unit) != 1:
@@ -232,9 +236,29 @@ def kinds_of(paper: Text) -> Kinds:
     return kinds
 
 
+# what a name leaves open: weight, a part of a kilogram, of length, width or area, an angle for a way, a power of time
+_OPEN = {of_unit(unit)[:4] for unit in ("m/s^2", "s^2/m", "-/kg", "-/m", "m", "-/m^2", "-/s", "s")}
+
+
+_PREPOSITION = re.compile(r"\b(?:of|at|in|by|for|on|from|due|to|with|under|over|between|and|or)\b|[,;($/]")
+
+
+def _misnamed(letter: str, about: Named) -> str:
+    """The unit of what is never measured in the one that the table has; empty where it is, or may be."""
+    inertia = re.search(r"\bmoments? of inertia\b", about.meaning.lower())
+    head = _PREPOSITION.split(about.meaning.lower())[0]
+    usual = "kg*m^2" if inertia else _usual(letter, head, indexed=False)
+    usual = "" if sum(word in KINDS for word in re.findall("[a-z]+", head)) > 1 else usual  # pressure force
+    printed, wanted = (of_unit(unit) if unit else PURE for unit in (about.unit, usual))
+    over = tuple(a - b for a, b in zip(printed[:4], wanted[:4], strict=True))
+    of_area = inertia and printed == of_unit("m^4")
+    open_ = PURE in (printed, wanted) or not any(over) or of_area or over in _OPEN and not inertia
+    return "" if open_ else usual
+
+
 def _usual(letter: str, meaning: str, indexed: bool) -> str:
     # what is measured in one unit by its name
-    words = re.findall(r"[a-z]+", meaning.lower())
+    words = re.findall(r"[a-z]+", re.split(r"\b(?:that|which)\b", meaning.lower().replace("'s", ""))[0])
     called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
     called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
     step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
@@ -341,8 +365,12 @@ def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list
     """Misfits that no letter of doubtful unit explains: a form of several, or a left side whose own unit is printed."""
     _, fitting = odd(kinds, said)
     sure = {n for one in said if id_of(one) in fitting for n in letters_of(one)}
+    lent = {getattr(one.said.sides[0], "id", "") for one in misfits}
+    doubtful = {n for n in lent if kinds.is_lent(n)}  # M_b beside a mass M is a moment
     kept = []
     for one in misfits:
+        if len(one.said.sides) > 2 and not doubtful.isdisjoint(letters_of(one.said)):
+            continue
         left = one.said.sides[0]
         two = len(one.said.sides) == 2
         if two and "factor" not in one.why and any(kinds.is_lent(n) and n not in sure for n in letters_of(one.said)):

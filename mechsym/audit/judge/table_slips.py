@@ -21,7 +21,7 @@ class TableSlip:
 
 def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list[TableSlip], list[Odd]]:
     """Letters of the table to blame, whose other unit mends two equations or more; and the misfits that are left."""
-    slips = _angular(paper, kinds)
+    slips = [*_angular(paper, kinds), *_misnamed(paper, kinds)]
     left = list(misfits)
     while left:
         best: tuple[int, str, Kind] | None = None
@@ -56,6 +56,15 @@ def _angular(paper: Text, kinds: Kinds) -> list[TableSlip]:
             names = [said.name for said in uses if not said.inline]
             slips.append(TableSlip(letter=letter, printed=about.unit, wanted="rad/s", line=about.line, equations=names))
             kinds.turns.discard(letter)
+    return slips
+
+
+def _misnamed(paper: Text, kinds: Kinds) -> list[TableSlip]:
+    slips = []
+    for letter, wanted in sorted(kinds.misnamed.items()):
+        about = paper.named[letter]
+        uses = [said.name for said in paper.said if letter in letters_of(said) and not said.inline]
+        slips.append(TableSlip(letter=letter, printed=about.unit, wanted=wanted.replace("*", " "), line=about.line, equations=uses))
     return slips
 
 

@@ -51,6 +51,8 @@ _LAST = 6  # words in front of an equation
 _VERB = re.compile(
     r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b"
 )
+# a shaft of the diameter $d$ has: the diameter is said of its own letter
+_LETTER_LAST = re.compile(r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$=]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I)
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
@@ -150,7 +152,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     before: the text up to the equation. alone: whether it gives one thing.
     """
     words = OPENED.sub("", before).rstrip(" \n:;.,")
-    sentence = " ".join(_UNWORDED.sub(" ", _SENTENCE.split(words)[-1]).split())
+    spoken = _SENTENCE.split(words)[-1]
+    sentence = " ".join(_UNWORDED.sub(" ", spoken).split())
     bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
     tail = " ".join(bare.split()[-_LAST:])
@@ -172,7 +175,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         or (headed if ends else None)
         or (last if ends or not verb else None)
     )
-    if chosen is None or _PER.search(bare) or chosen[1] == "ratio":
+    letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
+    if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio":
         return "", tail
     phrase = _ENDS.sub("", chosen[1])
     if phrase.endswith(" one"):  # the tangential force, and the radial one

@@ -39,6 +39,7 @@ _NO_PRODUCT = re.compile(
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{1,200}?)\$(?!\$)")
+_RATIO = re.compile(rf"\bratio,?\s+(?:=\s*)?\$\s*({_SIGN}\s*/\s*{_SIGN})\s*\$$")
 _ALONE = re.compile(r"^[ \t]*(\$[^$\n]+\$)[ \t]*[.,;]?[ \t]*$", re.MULTILINE)  # a display
 _INDEXED = re.compile(r"([A-Z])_(\d|\{\d\})\^(\d|\{\d\})")
 _NO_EQUATION = re.compile(r"\\(?:to|rightarrow|longrightarrow|le|leq|ge|geq|ll|gg|neq|in|propto|sim)(?![A-Za-z])|[<>]")
@@ -142,7 +143,8 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         delta=bool(_ALONE_DELTA.search(text)),
         twofold=twofold,
     )
-    everything = sorted([*((e, False) for e in shown), *((e, True) for e in _inline(text))], key=lambda p: p[0].begins)
+    aside = [*_inline(text), *_tabled(written, lines)]
+    everything = sorted([*((e, False) for e in shown), *((e, True) for e in aside)], key=lambda p: p[0].begins)
     together = Counter(equation.opens for equation in shown)
     said = []
     for equation, inline in everything:
@@ -170,6 +172,14 @@ def _inline(text: str) -> Iterator[Displayed]:
         if inside.count("=") == 1 and match.start() not in alone and not data:
             line = bisect_right(breaks, match.start()) + 1
             yield Displayed(number="", label="", text=inside.strip(), line=line, begins=match.start())
+
+
+def _tabled(written: Mapping[str, Named], lines: Sequence[int]) -> Iterator[Displayed]:
+    # a letter that the nomenclature defines: rod ratio $r/l$
+    for symbol, about in written.items():
+        if ratio := _RATIO.search(about.meaning):
+            whole = f"{symbol} = {ratio[1]}"
+            yield Displayed(number="", label="", text=whole, line=about.line, begins=lines[about.line - 1])
 
 
 def _words(written: Mapping[str, Named], shown: Sequence[Displayed]) -> list[str]:

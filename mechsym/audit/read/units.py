@@ -33,11 +33,13 @@ KINDS = {
     "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
     "width": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m", "stress": "Pa",
     "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
-    "angular acceleration": "rad/s^2", "piston speed": "m/s",
+    "angular acceleration": "rad/s^2", "piston speed": "m/s", "shear modulus": "Pa", "young modulus": "Pa",
+    "elasticity": "Pa", "density": "kg/m^3", "power density": "", "energy density": "", "frequency": "Hz",
 }  # fmt: skip
 #: Words that change what the next one is measured in
 OTHERS = re.compile(
     "per|unit|specific|by|relative|(?:non)?dimension(?:less|al)|normali[sz]ed|scaled|molar|section|internal|moment|polar"
+    "|linear|flux|current|charge|probability|spectral"
 )
 
 
