@@ -5,29 +5,29 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from mechsym.audit.hosts.judged import AGREES, OTHER_SENSE, Judged, passed
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.judge.following import solved
+from mechsym.audit.judge.following import differentiated, solved
 from mechsym.audit.judge.lagrangian import Energies
-from mechsym.audit.judge.primes import PRIMED, by_angle, primed, slope_of
+from mechsym.audit.judge.primes import PRIMED, by_angle, primed, rated, slope_of
 from mechsym.audit.judge.resultants import squares_of_sums
-from mechsym.audit.judge.sampled import alike, free, states
+from mechsym.audit.judge.sampled import alike, free, is_multiple, states, where_defined
 from mechsym.audit.judge.twins import Twins
 from mechsym.audit.judge.world import World, is_slope, stems_of
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
-from mechsym.audit.read.slopes import Slope, slope_in
+from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import to_latex, to_python
-from mechsym.audit.read.tree import Node, is_operation, letters, name, negative, substitute, value_of
+from mechsym.audit.read.tree import Node, is_operation, letters, negative, value_of
 from mechsym.audit.row import Row, answer
 from mechsym.audit.theory.record import Theory
-from mechsym.audit.theory.tape import retaped
+from mechsym.audit.theory.tape import minus, retaped
 from mechsym.audit.verdict import FINDINGS, PASSED
 from mechsym.errors import BadInput
-from mechsym.quantities import record
 
 _PUT_BACK = re.compile("repaired by (?:put back|letter)")
 _BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
@@ -35,20 +35,7 @@ _CASE = re.compile(
     r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
 _CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
-AGREES = "units agree"
 _SEARCHES = 48  # searches for a slip in one text
-
-
-@record
-class Judged:
-    """What is said of an equation."""
-
-    verdict: str
-    matched: str = ""  #: What it was compared with
-    note: str = ""
-    error: float | None = None  #: Largest relative difference over the states compared [-]
-    correction: str | None = None
-    follows: tuple[str, ...] = ()
 
 
 @dataclass
@@ -86,7 +73,7 @@ class Judge:
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
                 return slip
-        if (follows := self._by_solving(order, said)) is not None:
+        if (follows := self._by_solving(order, said) or self._by_differentiating(order, said)) is not None:
             return follows
         if (by_words := self._by_words(order, said)) is not None:
             return by_words
@@ -105,8 +92,15 @@ class Judge:
                 against = f"{fit.theory.name}.{met[0].quantity}"
                 if all(m.sign > 0 for m in met):
                     return self._carried(order, said, Judged(verdict="exact", matched=against, error=0.0))
+                if self._has_sense(said):
+                    continue
                 return Judged(verdict="convention", matched=against, note="exact with the opposite sense")
         return None
+
+    def _has_sense(self, said: Said) -> bool:
+        # the rate of what the text itself defines cannot be counted the other way
+        stems = stems_of(said.sides[0].id) if isinstance(said.sides[0], ast.Name) else ()
+        return any(d.letter in stems for d in self.world.defined)
 
     def _by_energies(self, order: int, said: Said) -> Judged | None:
         # an equation of motion, or what stands before an acceleration in one, by the energies of the text
@@ -188,6 +182,23 @@ class Judge:
         row = self._asked_of(theory, wanted, printed, said)
         return None if row is None else self._finding(row, said, said.sides[1], "the text")
 
+    def _by_differentiating(self, order: int, said: Said) -> Judged | None:
+        # a loop that closes, and its rates
+        theory, slips = self.world.bare, []
+        left, right = (self.world.plain(side) for side in said.sides[:2])
+        printed = minus(left, right)
+        for tree, place in differentiated(self.world, order):
+            source = self.world.paper.said[place].name
+            try:
+                if is_multiple(states(theory), printed, tree):
+                    note = f"the rate of ({source})"
+                    return Judged(verdict="exact", matched="the text", note=note, error=0.0)
+            except (BadInput, KeyError, RecursionError):
+                continue
+            slips.append(tree)
+        rows = (self._asked_of(theory, tree, printed, said) for tree in slips if not _CUT_SHORT.search(said.before))
+        return next((slip for r in rows if r and (slip := self._finding(r, said, said.sides[0], "the text"))), None)
+
     def _by_twin(self, order: int, said: Said) -> Judged | None:
         # x_2 by x_1: of two that no theory knows the later one is told of
         slip = self.twins.slip(order)
@@ -203,7 +214,8 @@ class Judge:
         everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
         slopes = {k: v for k, v in everywhere.items() if PRIMED.fullmatch(k)}
         named = {slope_of(k, self.world.angle): v for k, v in slopes.items()}
-        return everywhere | named | dict(said.spelled)
+        written = everywhere | named | dict(said.spelled)
+        return written | {rate: written[k] for k, rate in self.world.aliases.items() if k in said.spelled}
 
     def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
         # one slip away from the quantity that the text's words name, in letters that are all known
@@ -219,7 +231,7 @@ class Judge:
                     if row is not None and (slip := self._finding(row, said, side, f"{fit.theory.name}.{quantity}")):
                         return slip
                     if row is not None and row["verdict"] in PASSED:
-                        return _passed(row, f"{fit.theory.name}.{quantity}")
+                        return passed(row, f"{fit.theory.name}.{quantity}")
         return None
 
     def _by_text(self, order: int, said: Said) -> Judged:
@@ -274,18 +286,7 @@ class Judge:
             yield primed(left, by, theory), primed(right, by, theory)
 
     def _known(self, tree: Node, theory: Theory) -> Node:
-        # dots and slopes of the text's own letters under the names of the tape
-        def changed(node: Node) -> Node | None:
-            if not isinstance(node, ast.Name) or node.id in theory.tape or node.id in theory.letters:
-                return None
-            for dots in ("dd", "d"):
-                stem = node.id.removesuffix(dots)
-                if node.id.endswith(dots) and stem in theory.results and f"{stem}_{dots}" in theory.tape:
-                    return name(f"{stem}_{dots}")
-            rate = slope_in(node.id, "t")
-            return name(f"{rate.of}_{'d' * rate.order}") if rate else None
-
-        return substitute(self.world.plain(tree), changed)
+        return rated(self.world.plain(tree), theory)
 
     def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:
         nothing = Judged(verdict="")
@@ -305,7 +306,9 @@ class Judge:
         if row is None:
             return nothing
         if row["verdict"] in PASSED:
-            return _passed(row, "the text")
+            return passed(row, "the text")
+        if row["correction"] and OTHER_SENSE in row["note"] and self._has_sense(said):
+            row |= {"verdict": "misprint", "note": row["note"].removeprefix(f"{OTHER_SENSE}; ")}
         return self._finding(row, said, said.sides[k], "the text") or nothing
 
     def _believed(self, order: int, said: Said, i: int, k: int) -> Judged | None:
@@ -357,7 +360,7 @@ class Judge:
         claimed = "claimed"
         tape = retaped(theory.tape, {claimed: left}, theory.letters, theory.angle)
         grown = replace(theory, tape=tape, results=(*theory.results, claimed))
-        return self._asked(grown, claimed, right, {}, said)
+        return self._asked(where_defined(grown, left), claimed, right, {}, said)
 
     def _asked(self, theory: Theory, quantity: str, tree: Node, meant: Mapping[str, str], said: Said) -> Row | None:
         if self.searches <= 0:
@@ -383,16 +386,10 @@ class Judge:
         beside = _BESIDE.search(row["note"]) and set(letters(right)) <= set(letters(self.world.plain(side)))
         if _PUT_BACK.search(row["note"]) and of_units.id_of(said) not in self.odd and not beside:
             return None  # what is left out may be 1 there; with a unit, or beside itself, it cannot
-        spelled = self._spelled(said)
-        spelled |= {a: said.spelled[k] for k, a in self.world.aliases.items() if k in said.spelled}
         left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
         if left:
             self.wrong[left] = (said.name, self.world.plain(side), right)
         return Judged(
             verdict="misprint", matched=matched, note=row["note"], error=row["max_rel_error"],
-            correction=to_latex(right, spelled),
+            correction=to_latex(right, self._spelled(said)),
         )  # fmt: skip
-
-
-def _passed(row: Row, matched: str) -> Judged:
-    return Judged(verdict=row["verdict"], matched=matched, note=row["note"], error=row["max_rel_error"])

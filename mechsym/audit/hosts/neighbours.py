@@ -6,6 +6,7 @@ would have is none.
 """
 
 import ast
+import re
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 from functools import cache
@@ -63,7 +64,18 @@ class Neighbours:
         )
         for near in every:
             if near.away == 0.0 and (near.quantity in near.fitted.quantities or not other and not self._clashes(near)):
-                return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"} | self._sense(near)
+                sense, against = self._sense(near), f"{near.fitted.theory.name}.{near.quantity}"
+                if sense and _is_rate_of_its_own(near):
+                    right = to_python(trees.negative(claim.tree))
+                    note = "the angle whose rate it is stands in it, and has its sense"
+                    return {
+                        "verdict": "misprint",
+                        "claim": against,
+                        "correction": right,
+                        "note": note,
+                        "max_rel_error": 2.0,
+                    }
+                return {"verdict": "agrees", "claim": against} | sense
         beside = [(near, self._beside(near)) for near in every if near.quantity]
         beside.sort(key=lambda b: _unlikely(*b))
         worse, misprints = None, []
@@ -143,6 +155,12 @@ class Neighbours:
             and other.fitted.claim is not near.fitted.claim
             and all(meant.get(base(k), m) == m for k, m in other.fitted.meanings.items())
         ]
+
+
+def _is_rate_of_its_own(near: Near) -> bool:
+    entry = near.fitted.theory.tape.get(near.quantity)
+    of = re.sub("_d+$", "", entry.id) if isinstance(entry, ast.Name) else ""
+    return of in near.fitted.meanings.values()
 
 
 @cache

@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from mechsym import budget
-from mechsym.audit.hosts.equations import AGREES, Judge, Judged
+from mechsym.audit.hosts.equations import Judge
+from mechsym.audit.hosts.judged import AGREES, Judged
 from mechsym.audit.hosts.paper import CARRIED, EquationPlace, few
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting

@@ -10,17 +10,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mechsym.audit.judge.sampled import alike, states
+from mechsym.audit.judge.motion import energies_of
+from mechsym.audit.judge.sampled import alike, free, is_multiple, states
 from mechsym.audit.judge.world import World
-from mechsym.audit.read.lagrange import LagrangeEquation, plain_letter
+from mechsym.audit.read.lagrange import LagrangeEquation, Term, plain_letter
 from mechsym.audit.read.slopes import slope_in
-from mechsym.audit.read.tree import Node, binary, letters, name, negative, number, substitute, value_of
+from mechsym.audit.read.tree import Node, binary, is_operation, letters, name, negative, number, substitute, value_of
 from mechsym.audit.theory.record import Theory, dependencies
 from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, times
 from mechsym.quantities import record
 
 _INDEX = re.compile(r"(\w+?)_?([ijkrs])$")
-_SAME = 1e-9
 _MOST = 12  # laws of one text
 _DEEPEST = 12  # definitions within definitions
 
@@ -103,16 +103,26 @@ class Energies:
         left, right = sides
         if isinstance(left, ast.Name):
             return any(alike(states(theory), tree, right) for tree in self._of_letter(order, left.id, right, theory))
-        used, whole = _used(theory, sides), minus(left, right)
+        left, right = (self._acted(order, theory, side) for side in sides)
+        used, whole = _used(theory, (left, right)), minus(left, right)
         acts = right.id if isinstance(right, ast.Name) else ""
         wanted = [law.vanishing(used, acts) for law in self._at(order)]
         return any(same_motion(theory, self.world.coordinates, whole, tree) for tree in wanted)
+
+    def _acted(self, order: int, theory: Theory, tree: Node) -> Node:
+        # a side without terms of what acts from outside, whose letters no energy has
+        laws = self._at(order)
+        if isinstance(tree, ast.Name) or any(law.acts is not None for law in laws):
+            return tree
+        known = {k for law in laws for k in letters(law.residual)} | {f"{law.coordinate}d" for law in laws}
+        return _within(theory, tree, known)
 
     def wanted(self, order: int, theory: Theory, sides: Sequence[Node]) -> tuple[Node, list[Node]]:
         """The side that a slip is looked for in, and what it may have to be."""
         left, right = sides
         if isinstance(left, ast.Name):
             return right, self._of_letter(order, left.id, right, theory)
+        left, right = (self._acted(order, theory, side) for side in sides)
         acting = {right.id} if isinstance(right, ast.Name) else set()
         printed = left if acting or value_of(right) == 0 else minus(left, right)
         own = [law for law in self._at(order) if f"{law.coordinate}dd" in letters(printed)]
@@ -130,6 +140,13 @@ def _used(theory: Theory, sides: Sequence[Node]) -> set[str]:
     return used | {k for k, needs in defined.items() if needs and needs <= used}
 
 
+def _within(theory: Theory, tree: Node, known: set[str]) -> Node:
+    if is_operation(tree, ast.Add, ast.Sub):
+        left, right = _within(theory, tree.left, known), _within(theory, tree.right, known)
+        return (plus if isinstance(tree.op, ast.Add) else minus)(left, right)
+    return tree if free(theory, tree) <= known else number(0)
+
+
 def _slope(tree: Node, letter: str) -> Node:
     return derivative(tree, lambda k: number(int(k == letter)))
 
@@ -137,8 +154,22 @@ def _slope(tree: Node, letter: str) -> Node:
 def laws(world: World) -> list[MotionLaw]:
     """What the Lagrange equations of a text come to for its coordinates."""
     printed = [(order, said.law) for order, said in enumerate(world.paper.said) if said.law is not None]
-    every = [law for order, equation in printed for law in _of(world, order, equation)]
+    every = [law for order, equation in printed or _implied(world) for law in _of(world, order, equation)]
     return every if len(every) <= _MOST else []
+
+
+def _implied(world: World) -> Iterator[tuple[int, LagrangeEquation]]:
+    # of a text that prints its energies and only speaks of Lagrange
+    energies = energies_of(world.paper)
+    orders = [d.order for d in world.defined if d.letter in energies]
+    for q in sorted(world.coordinates) if len(orders) > 1 else ():
+        kinetic, potential = energies
+        terms = (
+            Term(of=kinetic, by=f"{q}d", sign=1, timed=True),
+            Term(of=kinetic, by=q, sign=-1, timed=False),
+            Term(of=potential, by=q, sign=1, timed=False),
+        )
+        yield max(orders), LagrangeEquation(terms=terms, right="")
 
 
 def _of(world: World, order: int, printed: LagrangeEquation) -> Iterator[MotionLaw]:
@@ -236,8 +267,4 @@ def same_motion(theory: Theory, coordinates: frozenset[str], left: Node, right: 
     moving = {f"{q}{dots}" for q in coordinates for dots in ("", "d", "dd")}
     for letter in theory.letters.keys() - moving:
         at.values[letter] = np.full_like(at.values[letter], at.values[letter][0])
-    first, second = at.value(left), at.value(right)
-    if not (np.isfinite(first).all() and np.isfinite(second).all() and np.any(second)):
-        return False
-    ratio = float(first @ second / (second @ second))
-    return bool(ratio and np.abs(first - ratio * second).max() <= _SAME * np.abs(first).max())
+    return is_multiple(at, left, right)

@@ -1,9 +1,9 @@
-"""Primes of letters that a text defines: derivatives by its angle, or in time."""
+"""Primes and dots of letters that a text defines: derivatives by its angle, or in time."""
 
 import ast
 import re
 
-from mechsym.audit.read.slopes import Slope
+from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.tree import Node, name, substitute
 from mechsym.audit.theory.record import Theory
 
@@ -30,6 +30,22 @@ def by_angle(tree: Node, theory: Theory) -> Node:
         if known is None or known[1] not in theory.results or not theory.angle:
             return None
         return name(slope_of(known[0], theory.angle))
+
+    return substitute(tree, changed)
+
+
+def rated(tree: Node, theory: Theory) -> Node:
+    """Dots and slopes by time of the text's own letters under the names of the tape."""
+
+    def changed(node: Node) -> Node | None:
+        if not isinstance(node, ast.Name) or node.id in theory.tape or node.id in theory.letters:
+            return None
+        for dots in ("dd", "d"):
+            stem = node.id.removesuffix(dots)
+            if node.id.endswith(dots) and stem in theory.results and f"{stem}_{dots}" in theory.tape:
+                return name(f"{stem}_{dots}")
+        rate = slope_in(node.id, "t")
+        return name(f"{rate.of}_{'d' * rate.order}") if rate else None
 
     return substitute(tree, changed)
 

@@ -1,5 +1,8 @@
 """Forms of a text compared at random states of its letters."""
 
+import re
+from dataclasses import replace
+
 import numpy as np
 
 from mechsym.audit.read.algebra import FLOATS, evaluate
@@ -46,6 +49,25 @@ def alike(at: States, left: Node, right: Node) -> bool | None:
     size = np.maximum(np.abs(first), np.abs(second))[good]
     gap = np.abs(first - second)[good]
     return bool(np.all(gap <= _CLOSE * np.maximum(size, 1e-12)) and np.any(size > 1e-12))
+
+
+def is_multiple(at: States, left: Node, right: Node) -> bool:
+    """Whether a form is another one times the same number at all states."""
+    first, second = at.value(left), at.value(right)
+    if not (np.isfinite(first).all() and np.isfinite(second).all() and np.any(second)):
+        return False
+    ratio = float(first @ second / (second @ second))
+    return bool(ratio and np.abs(first - ratio * second).max() <= _CLOSE * np.abs(first).max())
+
+
+def where_defined(theory: Theory, tree: Node) -> Theory:
+    """A theory whose angle is behind the angles with an index, where a form has no value in front of them: Wiebe's."""
+    starts = [k for k in theory.letters if theory.angle and re.fullmatch(rf"{theory.angle}_?(?:\d|[a-z]+[^d]|s)", k)]
+    if not starts or np.isfinite(states(theory).value(tree)).all():
+        return theory
+    letters_of = dict(theory.letters) | {k: replace(theory.letters[k], domain=(0.3, 0.9)) for k in starts}
+    letters_of[theory.angle] = replace(theory.letters[theory.angle], domain=(1.2, 1.6))
+    return replace(theory, letters=letters_of)
 
 
 def free(theory: Theory, tree: Node) -> set[str]:

@@ -62,9 +62,9 @@ def _angular(paper: Text, kinds: Kinds) -> list[TableSlip]:
 def _misnamed(paper: Text, kinds: Kinds) -> list[TableSlip]:
     slips = []
     for letter, wanted in sorted(kinds.misnamed.items()):
-        about = paper.named[letter]
+        about, unit = paper.named[letter], wanted.replace("*", " ")
         uses = [said.name for said in paper.said if letter in letters_of(said) and not said.inline]
-        slips.append(TableSlip(letter=letter, printed=about.unit, wanted=wanted.replace("*", " "), line=about.line, equations=uses))
+        slips.append(TableSlip(letter=letter, printed=about.unit, wanted=unit, line=about.line, equations=uses))
     return slips
 
 

@@ -8,12 +8,30 @@ import ast
 import itertools
 import re
 from collections import Counter, defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import partial
 
 from mechsym.audit.judge.world import World
-from mechsym.audit.read.tree import Node, name, substitute, walk
+from mechsym.audit.read.tree import (
+    Node,
+    argument_of,
+    call,
+    function_of,
+    is_operation,
+    letters,
+    name,
+    negative,
+    number,
+    substitute,
+    walk,
+    without_double_signs,
+)
 
 _INDEXED = re.compile(r"([A-Za-z]+?)(\d)")
+_AXES = re.compile(r"(.*?)([xX])(.*)")
+_KIN = (ast.Add, ast.Sub), (ast.Mult, ast.Div)
+_OTHER = {"sin": "cos", "cos": "sin"}
 _HEAVY = 5  # operations of formulas that are alike by more than chance
 
 
@@ -32,6 +50,8 @@ class _Beside:
         elif isinstance(one, ast.BinOp) and isinstance(two, ast.BinOp):
             if type(one.op) is not type(two.op):
                 self.other.append((one, two))
+                if not any(is_operation(one, *kin) and is_operation(two, *kin) for kin in _KIN):
+                    return
             self.add(one.left, two.left)
             self.add(one.right, two.right)
         elif isinstance(one, ast.Call) and isinstance(two, ast.Call) and len(one.args) == len(two.args) == 1:
@@ -51,13 +71,22 @@ class Twins:
     world: World
     places: dict[str, dict[int, str]] = field(init=False)  #: Of each stem, place of the equation to its index
 
+    axes: list[tuple[int, int]] = field(init=False)  #: Places of projections on two axes, both ways
+
     def __post_init__(self) -> None:
         """Find them."""
-        self.places = defaultdict(dict)
+        self.places, self.axes = defaultdict(dict), []
+        lefts: dict[str, int] = {}
         for place, said in enumerate(self.world.paper.said):
             left = said.sides[0] if len(said.sides) == 2 else None
             if isinstance(left, ast.Name) and (match := _INDEXED.fullmatch(left.id)):
                 self.places[match[1]][place] = match[2]
+            if isinstance(left, ast.Name) and not said.inline:
+                lefts.setdefault(left.id, place)
+        for letter, place in lefts.items():
+            if axis := _AXES.fullmatch(letter):
+                other = lefts.get(f"{axis[1]}{'y' if axis[2] == 'x' else 'Y'}{axis[3]}")
+                self.axes += [] if other is None else [(place, other), (other, place)]
 
     def slip(self, order: int) -> tuple[Node, int] | None:
         """What an equation would be if it were as its twin, and the twin's place; None where it has none, or is so."""
@@ -65,13 +94,17 @@ class Twins:
             for place, index in alike.items() if order in alike else ():
                 if index != alike[order] and not self.world.paper.said[place].inline:
                     right = self._as(place, order)
+                    right = self._turned(place, order) if right is None else right
                     if right is not None:
                         return right, place
+        for place, other in self.axes:
+            if other == order and (right := self._across(place, order)) is not None:
+                return right, place
         return None
 
     def _as(self, first: int, second: int) -> Node | None:
         tree = self._side(first)
-        if sum(isinstance(n, ast.BinOp | ast.Call) for _, n in walk(tree)) < _HEAVY:
+        if _weight(tree) < _HEAVY:
             return None
         beside = self._beside(first, second)
         meant = {letter: Counter(ast.dump(two) for _, two in pairs) for letter, pairs in beside.meant.items()}
@@ -81,12 +114,39 @@ class Twins:
             return None
         targets = {letter: pairs[0][1] for letter, pairs in beside.meant.items()}
         for letter in torn:
-            known = self._elsewhere(letter)
+            known = self._elsewhere(letter) or self._written(meant[letter], (first, second))
             usual = [two for _, two in beside.meant[letter] if ast.dump(two) in known]
             if not usual:
                 return None
             targets[letter] = usual[0]
         return substitute(tree, lambda node: targets.get(node.id) if isinstance(node, ast.Name) else None)
+
+    def _turned(self, first: int, second: int) -> Node | None:
+        # the twin has a letter with the other sign: theta + psi, and theta - psi
+        plain = self._side(first)
+        if len(self._beside(first, second).other) < 2 or _weight(plain) < _HEAVY:
+            return None
+        inside = {id(n) for _, f in walk(plain) for _, n in walk(argument_of(f, *_OTHER) or number(0))}
+        outside = {n.id for _, n in walk(plain) if isinstance(n, ast.Name) and id(n) not in inside}
+        for letter in {*letters(plain)} - outside:
+            tree = without_double_signs(substitute(plain, partial(_with_other_sign, letter)))
+            if (right := _but_one(tree, self._side(second))) is not None:
+                return right
+        return None
+
+    def _across(self, first: int, second: int) -> Node | None:
+        # the projection on the other axis has sines for cosines
+        tree = substitute(self._side(first), _exchanged)
+        printed = self._side(second)
+        right = _but_one(tree, printed)
+        if right is None:
+            return None
+        (wanted, there), *_ = _beside(tree, printed).other
+        swapped = [n for _, n in walk(tree) if function_of(n) in _OTHER]
+        if function_of(wanted) in _OTHER and isinstance(there, ast.Call):  # F cos(a) cos(b), F sin(a) cos(b) in space
+            return right if len(swapped) > 1 and all(_circular(term) == 1 for term in terms(tree)) else None
+        inside = any(wanted is n for f in swapped for _, n in walk(argument_of(f, *_OTHER) or f))
+        return right if inside and len(swapped) > 2 else None
 
     def _elsewhere(self, letter: str) -> set[str]:
         # what a letter is in the pairs of twins where it is one thing
@@ -98,10 +158,58 @@ class Twins:
                     known |= seen if len(seen) == 1 else set()
         return known
 
+    def _written(self, seen: Iterable[str], places: tuple[int, int]) -> set[str]:
+        # of two parts that stand for one letter the one that other equations have, too
+        others = [said for place, said in enumerate(self.world.paper.said) if place not in places]
+        parts = {ast.dump(n) for said in others for side in said.sides for _, n in walk(self.world.plain(side))}
+        used = parts & {*seen}
+        return used if len(used) == 1 else set()
+
     def _beside(self, first: int, second: int) -> _Beside:
-        beside = _Beside()
-        beside.add(self._side(first), self._side(second))
-        return beside
+        return _beside(self._side(first), self._side(second))
 
     def _side(self, place: int) -> Node:
         return self.world.plain(self.world.paper.said[place].sides[1])
+
+
+def _beside(one: Node, two: Node) -> _Beside:
+    beside = _Beside()
+    beside.add(one, two)
+    return beside
+
+
+def _but_one(wanted: Node, printed: Node) -> Node | None:
+    """What is wanted, where something else is printed in one place, and the letters are the same or of the twin."""
+    beside = _beside(wanted, printed)
+    meant = {letter: {ast.dump(two) for _, two in pairs} for letter, pairs in beside.meant.items()}
+    if len(beside.other) != 1 or any(len(seen) > 1 for seen in meant.values()):
+        return None
+    targets = {letter: pairs[0][1] for letter, pairs in beside.meant.items()}
+    if any(not isinstance(two, ast.Name) or two.id[:1] != letter[:1] for letter, two in targets.items()):
+        return None
+    return substitute(wanted, lambda node: targets.get(node.id) if isinstance(node, ast.Name) else None)
+
+
+def _with_other_sign(letter: str, node: Node) -> Node | None:
+    return negative(node) if isinstance(node, ast.Name) and node.id == letter else None
+
+
+def _weight(tree: Node) -> int:
+    return sum(isinstance(n, ast.BinOp | ast.Call) for _, n in walk(tree))
+
+
+def _exchanged(node: Node) -> Node | None:
+    # arguments stay as they are
+    argument = argument_of(node, *_OTHER)
+    return None if argument is None else call(_OTHER[str(function_of(node))], argument)
+
+
+def _circular(tree: Node) -> int:
+    return sum(function_of(n) in _OTHER for _, n in walk(tree))
+
+
+def terms(tree: Node) -> list[Node]:
+    """The terms of a sum, without their signs."""
+    if is_operation(tree, ast.Add, ast.Sub):
+        return [*terms(tree.left), *terms(tree.right)]
+    return [tree.operand] if isinstance(tree, ast.UnaryOp) else [tree]

@@ -7,12 +7,12 @@ slip. A letter that a later section defines anew means the new thing from there 
 import ast
 import re
 import zlib
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial, reduce
 
 from mechsym.audit.judge.kinds import PURE, Kinds, text
+from mechsym.audit.judge.motion import ANGLES, angle_of, energies_of
 from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
@@ -32,10 +32,9 @@ from mechsym.audit.read.tree import (
     walk,
 )
 from mechsym.audit.theory.record import Letter, Theory
-from mechsym.audit.theory.tape import TheoryTape
+from mechsym.audit.theory.tape import TheoryTape, times
 from mechsym.quantities import record
 
-_ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
 _OPAQUE = re.compile(r"integral\w{8}|constant|function")
 _PRIME = re.compile(r"(\w+?)((?:prime)+)")
 
@@ -62,16 +61,16 @@ class World:
     defined: list[Defined] = field(default_factory=list)
     theories: dict[tuple[int, ...], Theory] = field(default_factory=dict)
     dotted: frozenset[str] = frozenset()  #: Letters with a dot somewhere
-    energetic: bool = False  #: Whether a Lagrange equation stands in it
+    energetic: bool = False  #: Whether a Lagrange equation stands in it, or is spoken of
 
     def __post_init__(self) -> None:
         """Find the angle that runs, its rates, and all definitions."""
         spelled = {k: v for said in self.paper.said for k, v in said.spelled.items()}
         dots = {k: 1 + v.startswith("\\ddot") for k, v in spelled.items() if v.startswith(("\\dot", "\\ddot"))}
         self.dotted = frozenset(k[:-count] for k, count in dots.items())
-        self.energetic = any(said.law is not None for said in self.paper.said)
+        self.energetic = any(said.law is not None for said in self.paper.said) or bool(energies_of(self.paper))
         self._name_time()
-        self.angle = _angle(self.paper.said)
+        self.angle = angle_of(self.paper)
         self._name_alike()
         self._name_rates()
         for order, said in enumerate(self.paper.said):
@@ -85,7 +84,7 @@ class World:
         sines = [a for t in trees for _, n in walk(t) if (a := argument_of(n, "sin", "cos", "tan")) is not None]
         rates = {k for a in sines if "t" in letters(a) for k in letters(a) if k in SPEEDS}
         used = {n for tree in trees for n in letters(tree)}
-        angle = next((a for a in _ANGLES[1:] if a not in used), "")
+        angle = next((a for a in ANGLES[1:] if a not in used), "")
         if len(rates) != 1 or not angle:
             return
         rate = rates.pop()
@@ -155,7 +154,18 @@ class World:
                 turned = binary(ast.Div, number(1), sides[1])
                 self.defined.append(Defined(order=order, letter=below.id, tree=turned, against=1))
             return
+        if is_operation(left, ast.Div) and isinstance(left.left, ast.Name) and isinstance(left.right, ast.Name):
+            above = left.left.id  # Q_b/Q_0 = .. of what slopes are taken of elsewhere
+            if above in self._differentiated and above not in self._reach(sides[1]):
+                self.defined.append(Defined(order=order, letter=above, tree=times(sides[1], left.right), against=1))
+                return
         self._solve(order, left, sides[1:], any_letter=False)
+
+    @cached_property
+    def _differentiated(self) -> frozenset[str]:
+        # letters that only slopes have on the left
+        lefts = [said.sides[0].id for said in self.paper.said if said.sides and isinstance(said.sides[0], ast.Name)]
+        return frozenset(slope.of for left in lefts if (slope := slope_in(left)) and slope.of not in lefts)
 
     def _sloped(self, tree: Node) -> Node:
         # the prime of what is defined, within another definition: its slope by the angle
@@ -271,6 +281,11 @@ class World:
         """All letters of a text whose rates and angles have their names."""
         return frozenset(n for said in self.paper.said for side in said.sides for n in letters(self.plain(side)))
 
+    @cached_property
+    def bare(self) -> Theory:
+        """A theory of the letters alone: nothing is defined."""
+        return self._made({})
+
     def _made(self, tape: Mapping[str, Node]) -> Theory:
         used = (
             self.used
@@ -376,23 +391,3 @@ def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:
 
     for letter in tape:
         yield from put(letter, frozenset())
-
-
-def _angle(said: Sequence[Said]) -> str:
-    # what sines and cosines are taken of most often, and no equation gives
-    given = {s.sides[0].id for s in said if s.sides and isinstance(s.sides[0], ast.Name)}
-    given |= {
-        a.id for s in said if s.sides for a in [argument_of(s.sides[0], "sin", "cos", "tan")] if isinstance(a, ast.Name)
-    }
-    counts: Counter[str] = Counter()
-    for one in said:
-        for side in one.sides:
-            for _, node in walk(side):
-                argument = argument_of(node, "sin", "cos", "tan", "cot")
-                for n in letters(argument) if argument is not None else ():
-                    if n not in given and any(n.startswith(a) for a in _ANGLES):
-                        counts[n] += 1
-    if not counts:  # or by what slopes are taken
-        slopes = (slope_in(n) for one in said for s in one.sides for n in letters(s))
-        counts.update(s.by for s in slopes if s and s.by not in given and any(s.by.startswith(a) for a in _ANGLES))
-    return counts.most_common(1)[0][0] if counts else ""

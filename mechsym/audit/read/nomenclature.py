@@ -52,7 +52,9 @@ _VERB = re.compile(
     r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b"
 )
 # a shaft of the diameter $d$ has: the diameter is said of its own letter
-_LETTER_LAST = re.compile(r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$=]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I)
+_LETTER_LAST = re.compile(
+    r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$=]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I
+)
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"

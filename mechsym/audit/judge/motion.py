@@ -1,0 +1,45 @@
+"""What moves in a text: the angle that runs, and the energies that Lagrange's equations are taken of."""
+
+import ast
+import re
+from collections import Counter
+
+from mechsym.audit.read.said import Text
+from mechsym.audit.read.slopes import slope_in
+from mechsym.audit.read.tree import argument_of, letters, walk
+
+ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
+_KINETIC, _POTENTIAL = ("T", "K", "Ek", "Ekin", "EK", "calT"), ("V", "U", "Pi", "Ep", "Epot", "EP", "calV", "calU")
+_FIXED = re.compile(r"\b(?:bank|half|phase|pressure|helix|lead|contact|inclination|slope)\b")
+
+
+def angle_of(paper: Text) -> str:
+    """The angle that runs: what sines and cosines are taken of most often, and no equation gives."""
+    said = paper.said
+    given = {s.sides[0].id for s in said if s.sides and isinstance(s.sides[0], ast.Name)}
+    given |= {
+        a.id for s in said if s.sides for a in [argument_of(s.sides[0], "sin", "cos", "tan")] if isinstance(a, ast.Name)
+    }
+    given |= {letter for letter, phrase in paper.called.items() if _FIXED.search(phrase)}
+    counts: Counter[str] = Counter()
+    for one in said:
+        for side in one.sides:
+            for _, node in walk(side):
+                argument = argument_of(node, "sin", "cos", "tan", "cot")
+                for n in letters(argument) if argument is not None else ():
+                    if n not in given and any(n.startswith(a) for a in ANGLES):
+                        counts[n] += 1
+    if not counts:  # or by what slopes are taken
+        slopes = (slope_in(n) for one in said for s in one.sides for n in letters(s))
+        counts.update(s.by for s in slopes if s and s.by not in given and any(s.by.startswith(a) for a in ANGLES))
+    return counts.most_common(1)[0][0] if counts else ""
+
+
+def energies_of(paper: Text) -> tuple[str, ...]:
+    """The kinetic and the potential energy of a text that speaks of Lagrange; nothing where it does not."""
+    if not re.search(r"\bLagrang", paper.prose):
+        return ()
+    defined = {getattr(said.sides[0], "id", ""): said.sides[-1] for said in paper.said if len(said.sides) > 1}
+    kinetic = [k for k in defined if k in _KINETIC and any(n.endswith("d") for n in letters(defined[k]))]
+    potential = [k for k in defined if k in _POTENTIAL]
+    return (*kinetic, *potential) if len(kinetic) == len(potential) == 1 else ()
