@@ -11,7 +11,7 @@ from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.judge.following import differentiated, solved
+from mechsym.audit.judge.following import expected, solved
 from mechsym.audit.judge.lagrangian import Energies
 from mechsym.audit.judge.primes import PRIMED, by_angle, primed, rated, slope_of
 from mechsym.audit.judge.resultants import squares_of_sums
@@ -25,7 +25,7 @@ from mechsym.audit.read.spelling import to_latex, to_python
 from mechsym.audit.read.tree import Node, is_operation, letters, negative, value_of
 from mechsym.audit.row import Row, answer
 from mechsym.audit.theory.record import Theory
-from mechsym.audit.theory.tape import minus, retaped
+from mechsym.audit.theory.tape import retaped
 from mechsym.audit.verdict import FINDINGS, PASSED
 from mechsym.errors import BadInput
 
@@ -73,7 +73,7 @@ class Judge:
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
                 return slip
-        if (follows := self._by_solving(order, said) or self._by_differentiating(order, said)) is not None:
+        if (follows := self._by_solving(order, said) or self._by_what_is_before(order, said)) is not None:
             return follows
         if (by_words := self._by_words(order, said)) is not None:
             return by_words
@@ -154,6 +154,8 @@ class Judge:
                     and value_of(right.left) == 1
                 ):
                     right = right.right  # what stands on the right of 1/E
+                elif isinstance(said.sides[0], ast.Name):
+                    self.wrong[said.sides[0].id] = (said.name, self.world.plain(said.sides[k]), self.world.plain(right))
                 return Judged(
                     verdict="misprint", matched=row["claim"], note=row["note"], error=row["max_rel_error"],
                     correction=to_latex(right, self._spelled(said)),
@@ -182,22 +184,19 @@ class Judge:
         row = self._asked_of(theory, wanted, printed, said)
         return None if row is None else self._finding(row, said, said.sides[1], "the text")
 
-    def _by_differentiating(self, order: int, said: Said) -> Judged | None:
-        # a loop that closes, and its rates
+    def _by_what_is_before(self, order: int, said: Said) -> Judged | None:
+        # a loop that closes, and its rates; a reduced inertia
         theory, slips = self.world.bare, []
-        left, right = (self.world.plain(side) for side in said.sides[:2])
-        printed = minus(left, right)
-        for tree, place in differentiated(self.world, order):
-            source = self.world.paper.said[place].name
+        for one in expected(self.world, order):
             try:
-                if is_multiple(states(theory), printed, tree):
-                    note = f"the rate of ({source})"
-                    return Judged(verdict="exact", matched="the text", note=note, error=0.0)
+                if (is_multiple if one.scaled else alike)(states(theory), one.printed, one.tree):
+                    return Judged(verdict="exact", matched="the text", note=one.note, error=0.0)
             except (BadInput, KeyError, RecursionError):
                 continue
-            slips.append(tree)
-        rows = (self._asked_of(theory, tree, printed, said) for tree in slips if not _CUT_SHORT.search(said.before))
-        return next((slip for r in rows if r and (slip := self._finding(r, said, said.sides[0], "the text"))), None)
+            slips.append(one)
+        rows = ((one, self._asked_of(theory, one.tree, one.printed, said)) for one in slips)
+        told = (self._finding(row, said, said.sides[not one.scaled], "the text") for one, row in rows if row)
+        return next((slip for slip in told if slip is not None), None)
 
     def _by_twin(self, order: int, said: Said) -> Judged | None:
         # x_2 by x_1: of two that no theory knows the later one is told of

@@ -5,17 +5,21 @@ import re
 from collections.abc import Iterator, Mapping
 from functools import partial
 
-from mechsym.audit.judge.motion import ANGLES
+from mechsym.audit.judge.motion import ANGLES, KINETIC
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.nomenclature import OPENED
-from mechsym.audit.read.tree import Node, letters, name, number
-from mechsym.audit.theory.tape import derivative, minus
+from mechsym.audit.read.said import Said
+from mechsym.audit.read.tree import Node, letters, name, number, substitute
+from mechsym.audit.theory.tape import derivative, minus, over, times
+from mechsym.quantities import record
 
 _SOLVED = re.compile(
     r"\b(?:gives?|yields?|follows?|hence|thus|therefore|so that|from which|whence|obtains?|leads? to)\b", re.IGNORECASE
 )
 _DERIVED = re.compile(r"\b(?:differentiat\w+|(?:time )?derivatives?|derived by time)\b", re.IGNORECASE)
+_REDUCED = re.compile(r"\breduc(?:ed|tion|ing)\b|\b(?:equivalent|effective) (?:moment of )?inertia\b", re.IGNORECASE)
+_CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b", re.IGNORECASE)
 _BEFORE = 6  # equations in front of one that it may be the derivative of
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
 
@@ -38,13 +42,46 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
     return None if tree is None else (tree, place)
 
 
-def differentiated(world: World, order: int) -> Iterator[tuple[Node, int]]:
-    """What equations in front of one come to by time, where a word says that it is the derivative of one of them."""
+@record
+class Expected:
+    """What an equation may have to say by the words in front of it."""
+
+    tree: Node
+    printed: Node  #: The part of the equation that it is held against
+    note: str
+    scaled: bool = False  #: Whether a number before all of it is left open
+
+
+def expected(world: World, order: int) -> Iterator[Expected]:
+    """What words in front of an equation make of those before: their derivatives by time, the inertia of an energy."""
     said = world.paper.said[order]
-    between = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))
-    if len(said.sides) != 2 or said.claim or not _DERIVED.search(between[-1]):
-        return
-    used = {n for side in said.sides for n in letters(world.plain(side))}
+    words = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))[-1]
+    if len(said.sides) == 2 and not said.claim and not _CUT_SHORT.search(words):
+        if _DERIVED.search(words):
+            yield from _differentiated(world, order, said)
+        if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
+            yield from _reduced(world, order, said)
+
+
+def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:
+    # twice the kinetic energy over the square of a rate
+    printed = world.plain(said.sides[1])
+    used = {*letters(printed)}
+    for source in world.paper.said[:order]:
+        if len(source.sides) == 2 and getattr(source.sides[0], "id", "") in KINETIC:
+            energy = world.plain(source.sides[1])
+            rates = {k: _rate_in(k.removesuffix("d"), used) or k for k in letters(energy) if k.endswith("d")}
+            whole = substitute(
+                energy, lambda n, known=rates: name(known.get(n.id, n.id)) if isinstance(n, ast.Name) else None
+            )
+            for rate in dict.fromkeys(rates.values()):
+                tree = over(times(number(2), whole), times(name(rate), name(rate)))
+                yield Expected(tree=tree, printed=printed, note=f"by the energy of ({source.name})")
+
+
+def _differentiated(world: World, order: int, said: Said) -> Iterator[Expected]:
+    left, right = (world.plain(side) for side in said.sides)
+    used = {*letters(left), *letters(right)}
     for place in range(order - 1, max(order - _BEFORE, -1), -1):
         source = world.paper.said[place]
         if source.inline or source.claim or len(source.sides) != 2 or source.section != said.section:
@@ -52,7 +89,8 @@ def differentiated(world: World, order: int) -> Iterator[tuple[Node, int]]:
         whole = minus(*(world.plain(side) for side in source.sides))
         rates = {letter: _rate_in(letter, used) for letter in letters(whole)}
         if any(rates.values()):
-            yield derivative(whole, partial(_rate_of, rates)), place
+            tree = derivative(whole, partial(_rate_of, rates))
+            yield Expected(tree=tree, printed=minus(left, right), note=f"the rate of ({source.name})", scaled=True)
 
 
 def _rate_of(rates: Mapping[str, str], letter: str) -> Node:

@@ -107,7 +107,8 @@ class Lexicon:
             if rank > counts.get(meaning, 0):
                 counts[meaning] = rank
         for phrase, meaning in standing:  # the damped natural frequency is no natural frequency
-            if any(len(other) > len(phrase) and _inside(phrase, other) and m != meaning for other, m in standing):
+            longer = [(other, m) for other, m in standing if len(other) > len(phrase) and _inside(phrase, other)]
+            if longer and all(m != meaning for _, m in longer):
                 counts.pop(meaning, None)
         if slope := self._slope(name.rpartition(OF)[2]):
             counts[slope] = 3

@@ -9,7 +9,7 @@ from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.tree import argument_of, letters, walk
 
 ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
-_KINETIC, _POTENTIAL = ("T", "K", "Ek", "Ekin", "EK", "calT"), ("V", "U", "Pi", "Ep", "Epot", "EP", "calV", "calU")
+KINETIC, _POTENTIAL = ("T", "K", "Ek", "Ekin", "EK", "calT"), ("V", "U", "Pi", "Ep", "Epot", "EP", "calV", "calU")
 _FIXED = re.compile(r"\b(?:bank|half|phase|pressure|helix|lead|contact|inclination|slope)\b")
 
 
@@ -40,6 +40,6 @@ def energies_of(paper: Text) -> tuple[str, ...]:
     if not re.search(r"\bLagrang", paper.prose):
         return ()
     defined = {getattr(said.sides[0], "id", ""): said.sides[-1] for said in paper.said if len(said.sides) > 1}
-    kinetic = [k for k in defined if k in _KINETIC and any(n.endswith("d") for n in letters(defined[k]))]
+    kinetic = [k for k in defined if k in KINETIC and any(n.endswith("d") for n in letters(defined[k]))]
     potential = [k for k in defined if k in _POTENTIAL]
     return (*kinetic, *potential) if len(kinetic) == len(potential) == 1 else ()

@@ -48,6 +48,8 @@ _CALLED = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _LAST = 6  # words in front of an equation
+# names with an `of` of their own
+_FUSED = re.compile(r"\b(moments?|modulus|coefficient|radius) of (inertia|elasticity|friction|gyration)\b")
 _VERB = re.compile(
     r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b"
 )
@@ -158,7 +160,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     sentence = " ".join(_UNWORDED.sub(" ", spoken).split())
     bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
-    tail = " ".join(bare.split()[-_LAST:])
+    bare = _FUSED.sub(r"\1-of-\2", bare)
+    tail = " ".join(bare.split()[-_LAST:]).replace("-of-", " of ")
     if not alone:
         return "", tail
     ends = bare != sentence  # with a verb: the torque of the gas is
@@ -180,7 +183,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
     if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio":
         return "", tail
-    phrase = _ENDS.sub("", chosen[1])
+    phrase = _ENDS.sub("", chosen[1]).replace("-of-", " of ")
     if phrase.endswith(" one"):  # the tangential force, and the radial one
         kinds = [word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in KINDS]
         phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
