@@ -11,7 +11,7 @@ from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.judge.following import expected, solved
+from mechsym.audit.judge.following import CUT_SHORT, expected, solved
 from mechsym.audit.judge.lagrangian import Energies
 from mechsym.audit.judge.primes import PRIMED, by_angle, primed, rated, slope_of
 from mechsym.audit.judge.resultants import squares_of_sums
@@ -34,7 +34,6 @@ _BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
 _CASE = re.compile(
     r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
-_CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
 _SEARCHES = 48  # searches for a slip in one text
 
 
@@ -128,7 +127,7 @@ class Judge:
 
     def _motion_slip(self, theory: Theory, wanted: Sequence[Node], printed: Node, said: Said) -> Judged | None:
         # one slip away from what the energies give; what is cut short is none
-        if _CUT_SHORT.search(said.before):
+        if CUT_SHORT.search(said.before):
             return None
         for tree in wanted:
             row = self._asked_of(theory, tree, printed, said)
@@ -143,7 +142,7 @@ class Judge:
             self.searches -= row is not None and row["verdict"] != "agrees"
             if row is not None and row["verdict"] == "agrees":
                 passed, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
-                if row.get("order") == 1 and not (said.claim or _CUT_SHORT.search(said.before)):
+                if row.get("order") == 1 and not (said.claim or CUT_SHORT.search(said.before)):
                     continue  # so short it may be another thing of that name
                 return Judged(verdict=passed, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
@@ -165,7 +164,7 @@ class Judge:
     def _by_solving(self, order: int, said: Said) -> Judged | None:
         # what the equation before it gives, where a word says that this is it
         follows = solved(self.world, order)
-        if follows is None or _CUT_SHORT.search(said.before):
+        if follows is None or CUT_SHORT.search(said.before):
             return None
         theory, (tree, place) = self.world.theory(order), follows
         wanted, printed = self._known(tree, theory), self._known(said.sides[1], theory)

@@ -164,8 +164,8 @@ def _meet(fit: Match, world: World, order: int, side: int, tree: Node) -> None:
     turning = any(isinstance(n, ast.Call) for _, n in walk(tree))
     strong = len(used) > 1 and heavy > 2 and (turning or len(used) > 3)
     choices = [_choices(fit, world, letter, strong) for letter in used]
-    if not all(choices):
-        return
+    if not all(choices) or not any(letter in fit.meant or _by_name(fit, world, letter) for letter in used):
+        return  # letters of which none is the theory's may be anything of their units
     for reading in islice(product(*choices), _READINGS):
         if len(set(reading)) < len(reading):
             continue

@@ -7,10 +7,10 @@ from functools import partial
 
 from mechsym.audit.judge.motion import ANGLES, KINETIC
 from mechsym.audit.judge.solving import isolate
-from mechsym.audit.judge.world import World
+from mechsym.audit.judge.world import World, renamed
 from mechsym.audit.read.nomenclature import OPENED
 from mechsym.audit.read.said import Said
-from mechsym.audit.read.tree import Node, letters, name, number, substitute
+from mechsym.audit.read.tree import Node, letters, name, number
 from mechsym.audit.theory.tape import derivative, minus, over, times
 from mechsym.quantities import record
 
@@ -19,7 +19,7 @@ _SOLVED = re.compile(
 )
 _DERIVED = re.compile(r"\b(?:differentiat\w+|(?:time )?derivatives?|derived by time)\b", re.IGNORECASE)
 _REDUCED = re.compile(r"\breduc(?:ed|tion|ing)\b|\b(?:equivalent|effective) (?:moment of )?inertia\b", re.IGNORECASE)
-_CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b", re.IGNORECASE)
+CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
 _BEFORE = 6  # equations in front of one that it may be the derivative of
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
 
@@ -56,7 +56,7 @@ def expected(world: World, order: int) -> Iterator[Expected]:
     """What words in front of an equation make of those before: their derivatives by time, the inertia of an energy."""
     said = world.paper.said[order]
     words = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))[-1]
-    if len(said.sides) == 2 and not said.claim and not _CUT_SHORT.search(words):
+    if len(said.sides) == 2 and not said.claim and not CUT_SHORT.search(words):
         if _DERIVED.search(words):
             yield from _differentiated(world, order, said)
         if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
@@ -71,9 +71,7 @@ def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:
         if len(source.sides) == 2 and getattr(source.sides[0], "id", "") in KINETIC:
             energy = world.plain(source.sides[1])
             rates = {k: _rate_in(k.removesuffix("d"), used) or k for k in letters(energy) if k.endswith("d")}
-            whole = substitute(
-                energy, lambda n, known=rates: name(known.get(n.id, n.id)) if isinstance(n, ast.Name) else None
-            )
+            whole = renamed(energy, rates)
             for rate in dict.fromkeys(rates.values()):
                 tree = over(times(number(2), whole), times(name(rate), name(rate)))
                 yield Expected(tree=tree, printed=printed, note=f"by the energy of ({source.name})")

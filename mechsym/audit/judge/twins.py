@@ -8,7 +8,7 @@ import ast
 import itertools
 import re
 from collections import Counter, defaultdict
-from collections.abc import Iterable
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -158,12 +158,14 @@ class Twins:
                     known |= seen if len(seen) == 1 else set()
         return known
 
-    def _written(self, seen: Iterable[str], places: tuple[int, int]) -> set[str]:
+    def _written(self, seen: Collection[str], places: tuple[int, int]) -> set[str]:
         # of two parts that stand for one letter the one that other equations have, too
         others = [said for place, said in enumerate(self.world.paper.said) if place not in places]
-        parts = {ast.dump(n) for said in others for side in said.sides for _, n in walk(self.world.plain(side))}
+        sides = [self.world.plain(side) for said in others for side in said.sides]
+        parts = {ast.dump(n) for side in sides for _, n in walk(side) if isinstance(n, ast.BinOp)}
         used = parts & {*seen}
-        return used if len(used) == 1 else set()
+        sums = all(part.startswith("BinOp") for part in seen)
+        return used if sums and len(used) == 1 else set()
 
     def _beside(self, first: int, second: int) -> _Beside:
         return _beside(self._side(first), self._side(second))

@@ -113,7 +113,7 @@ class World:
                 turning = {d.letter for d in self.defined if d.letter.startswith(letter) and self.turns(d.letter)}
                 if len(turning) == 1 and all(d.letter != letter for d in self.defined):
                     meant[letter] = turning.pop()
-            said.append(replace(one, sides=tuple(_renamed(s, meant) for s in one.sides)) if meant else one)
+            said.append(replace(one, sides=tuple(renamed(s, meant) for s in one.sides)) if meant else one)
         self.paper = replace(self.paper, said=said)
 
     def _name_rates(self) -> None:
@@ -338,7 +338,8 @@ class World:
         return Letter(unit=unit, value=4.0 if rod else 0.8 + share, sign="positive")
 
 
-def _renamed(tree: Node, meant: Mapping[str, str]) -> Node:
+def renamed(tree: Node, meant: Mapping[str, str]) -> Node:
+    """A tree with other names for some of its letters."""
     return substitute(tree, lambda n: name(meant[n.id]) if isinstance(n, ast.Name) and n.id in meant else None)
 
 

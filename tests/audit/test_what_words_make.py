@@ -1,0 +1,161 @@
+"""Equations of a text that are told by the words in front of them, by their twins, and by names of a table."""
+
+import pytest
+from audited import blamed, judged, same
+
+
+def _last(tmp_path, text):
+    return judged(tmp_path, text, "text.md")[-1]
+
+
+@pytest.mark.parametrize(
+    ("called", "unit", "wanted"),
+    [
+        ("Young's modulus", "N/m", "Pa"),
+        ("moment of inertia of the flywheel", "kg m", "kg m^2"),
+        ("gas force on the piston", "Pa", "N"),
+        ("torque", "N/m", "N m"),
+        ("moment of inertia of the section", "m^4", None),
+        ("gas pressure", "kg/m^2", None),  # of a weight
+        ("pressure force", "N", None),
+        ("angular velocity", "rpm", None),
+        ("heat", "J/kg", None),
+        ("force per length", "N/m", None),
+        ("relative pressure", "-", None),
+    ],
+)
+def test_a_table_is_told_of_by_what_it_calls_a_letter(tmp_path, called, unit, wanted):
+    text = f"| $X$ | {called} | {unit} |\n|---|---|---|\n| $k$ | number | - |\n\n$$ y = k X $$"
+    note = _last(tmp_path, text)["note"]
+    assert (f"the table has X in {unit}, and this wants {wanted}" in note) == (wanted is not None), note
+
+
+def test_a_ratio_that_the_table_writes_out_is_a_definition(tmp_path):
+    text = (
+        "| $r$ | crank radius | m |\n|---|---|---|\n| $l$ | rod length | m |\n| $n$ | rod ratio $l/r$ | - |\n\n"
+        "$$ x = r\\cos\\varphi + \\sqrt{l^2 - r^2\\sin^2\\varphi} $$\n\nor\n\n"
+        "$$ x = r\\left(\\cos\\varphi + \\sqrt{n^2 - \\sin^2\\varphi}\\right) $$"
+    )
+    assert _last(tmp_path, text)["verdict"] == "exact"
+    assert _last(tmp_path, text.replace("n^2 -", "n -"))["verdict"] == "misprint"
+
+
+SHAFT = r"""The energies of two discs on a shaft are
+$$ T = \frac12 J_1\dot\varphi_1^2 + \frac12 J_2\dot\varphi_2^2 $$
+$$ V = \frac12 k(\varphi_1 - \varphi_2)^2 $$
+Lagrange's equations give
+$$ J_1\ddot\varphi_1 + k(\varphi_1 - \varphi_2) = M\cos\Omega t $$"""
+
+
+def test_energies_tell_of_motion_where_a_text_only_speaks_of_lagrange(tmp_path):
+    row = _last(tmp_path, SHAFT)
+    assert (row["verdict"], row["matched"]) == ("exact", "the text's energies")
+    row = _last(tmp_path, SHAFT.replace(r"+ k(\varphi_1", r"- k(\varphi_1"))
+    assert row["verdict"] == "misprint" and same(row["correction"], r"J_1\ddot\varphi_1 + k(\varphi_1 - \varphi_2)")
+    # a term of what acts from outside is none of theirs
+    assert _last(tmp_path, SHAFT.replace("= M", r"+ c\dot\varphi_1 = M"))["verdict"] == "exact"
+    # of Newton no energies are asked
+    assert _last(tmp_path, SHAFT.replace("Lagrange's equations give", "By Newton"))["verdict"] == "untestable"
+
+
+LOOP = r"""The loop closes with
+$$ a\cos\theta_2 + b\cos\theta_3 - c\cos\theta_4 - d = 0 $$
+$$ a\sin\theta_2 + b\sin\theta_3 - c\sin\theta_4 = 0 $$
+Differentiation in time gives
+$$ a\omega_2\cos\theta_2 + b\omega_3\cos\theta_3 - c\omega_4\cos\theta_4 = 0 $$"""
+
+
+def test_the_rates_of_a_loop_follow_from_it(tmp_path):
+    row = _last(tmp_path, LOOP)
+    assert row["verdict"] == "exact" and row["note"].startswith("the rate of")
+    row = _last(tmp_path, LOOP.replace(r"- c\omega_4", r"+ c\omega_4"))
+    right = r"a\omega_2\cos\theta_2 + b\omega_3\cos\theta_3 - c\omega_4\cos\theta_4"
+    assert row["verdict"] == "misprint" and same(row["correction"], right)
+    assert (
+        _last(tmp_path, LOOP.replace("Differentiation in time gives", "In another linkage"))["verdict"] == "untestable"
+    )
+
+
+@pytest.mark.parametrize(
+    ("printed", "verdict"),
+    [
+        (r"J_2 + m c^2\frac{\omega_4^2}{\omega_2^2}", "exact"),
+        (r"J_2 + m c^2\frac{\omega_4}{\omega_2}", "misprint"),
+        (r"\frac12 J_2 + m c^2\frac{\omega_4^2}{\omega_2^2}", "misprint"),
+    ],
+)
+def test_a_reduced_inertia_follows_from_the_kinetic_energy(tmp_path, printed, verdict):
+    energy = r"$$ T = \frac12 m c^2\dot\theta_4^2 + \frac12 J_2\dot\theta_2^2 $$"
+    row = _last(
+        tmp_path, f"The kinetic energy is\n{energy}\nReduced to the crank the inertia is\n$$ J_r = {printed} $$"
+    )
+    assert row["verdict"] == verdict
+    assert verdict == "exact" or same(row["correction"], r"J_2 + m c^2\frac{\omega_4^2}{\omega_2^2}")
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "right"),
+    [
+        # the letter of half a bank angle has the other sign
+        (
+            r"F_1 = A(\cos(\theta+\psi) + B\cos 2(\theta+\psi))",
+            r"F_2 = A(\cos(\theta-\psi) + B\cos(\theta-\psi))",
+            r"A(\cos(\theta-\psi) + B\cos 2(\theta-\psi))",
+        ),
+        (
+            r"F_1 = A(\cos(\theta+\psi) + B\cos 2(\theta+\psi))",
+            r"F_2 = A(\cos(\theta-\psi) + B\cos 2(\theta-\psi))",
+            None,
+        ),
+        # two axes
+        (
+            r"x_P = a\cos\alpha + p\cos(\beta+\gamma)",
+            r"y_P = a\sin\alpha + p\cos(\beta+\gamma)",
+            r"a\sin\alpha + p\sin(\beta+\gamma)",
+        ),
+        (r"x_P = a\cos\alpha + p\cos(\beta+\gamma)", r"y_P = a\sin\alpha + p\sin(\beta+\gamma)", None),
+        (
+            r"F_x = A\cos\psi\cos 2\psi\cos 2\theta",
+            r"F_y = A\sin\psi\sin 2\psi\sin\theta",
+            r"A\sin\psi\sin 2\psi\sin 2\theta",
+        ),
+        # in space, of a share that is balanced, and where no angle is: no twins
+        (r"x_Q = R\cos\alpha\cos\beta + a\cos\beta", r"y_Q = R\sin\alpha\cos\beta + a\cos\beta", None),
+        (r"F_x = (1-\xi) m r\omega^2\cos\theta", r"F_y = \xi m r\omega^2\sin\theta", None),
+        (r"N_1 = \frac14(1-u)(1-v) + c u v", r"N_2 = \frac14(1+u)(1+v) + c u v", None),
+    ],
+)
+def test_twins_across_a_sign_and_two_axes(tmp_path, one, two, right):
+    rows = blamed(judged(tmp_path, f"The parts are\n$$ {one} $$\n$$ {two} $$", "text.md"))
+    assert len(rows) == (right is not None)
+    assert all(same(row["correction"], right) for row in rows)
+
+
+WIEBE = r"""The fuel burns by
+$$ \frac{Q_b}{Q_0} = 1 - \exp\left[-a\left(\frac{\varphi-\varphi_0}{\Delta\varphi}\right)^{m+1}\right] $$
+$$ \frac{dQ_b}{d\varphi} = a(m+1)\frac{Q_0}{\Delta\varphi}\left(\frac{\varphi-\varphi_0}{\Delta\varphi}\right)^{m}
+   \exp\left[-a\left(\frac{\varphi-\varphi_0}{\Delta\varphi}\right)^{m+1}\right] $$"""
+
+
+def test_a_share_defines_what_slopes_are_taken_of(tmp_path):
+    assert _last(tmp_path, WIEBE)["verdict"] == "exact"
+    row = _last(tmp_path, WIEBE.replace("^{m}", "^{m+1}"))
+    assert row["verdict"] == "misprint" and row["note"].startswith("repaired by")
+
+
+def test_the_rate_of_a_letter_of_the_text_has_its_sense(tmp_path):
+    text = "The piston is at\n$$ x = 2 r\\cos\\varphi $$\nand at constant speed\n"
+    text += "$$ \\ddot x = {} 2 r\\omega^2\\cos\\varphi $$"
+    assert _last(tmp_path, text.replace("{}", "-"))["verdict"] == "exact"
+    row = _last(tmp_path, text.replace("{}", ""))
+    assert row["verdict"] == "misprint" and same(row["correction"], r"-2 r\omega^2\cos\varphi")
+
+
+def test_a_phrase_that_ends_with_its_own_letter_names_no_other(tmp_path):
+    text = "| $M$ | torque | N m |\n|---|---|---|\n| $d$ | diameter | m |\n\n"
+    text += (
+        r"The stress of a shaft with the inner diameter $d_i$ is"
+        + "\n"
+        + r"$$ \tau = \frac{16 M d}{\pi(d^4 - d_i^4)} $$"
+    )
+    assert blamed(judged(tmp_path, text, "text.md")) == []
