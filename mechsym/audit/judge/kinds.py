@@ -236,10 +236,10 @@ def kinds_of(paper: Text) -> Kinds:
     return kinds
 
 
-# what a name leaves open: by weight, of a kilogram, a power of time; and of single kinds by width or area, or of an angle
+# what a name leaves open: weight, of a kilogram, a power of time; for some by width or area, or of an angle
 _OPEN = {of_unit(unit)[:4] for unit in ("m/s^2", "s^2/m", "-/kg", "-/s", "s")}
 _OPEN_OF = {
-    of_unit(unit): {of_unit(by)[:4] for by in wide.split()}
+    unit: {of_unit(by)[:4] for by in wide.split()}
     for unit, wide in {
         "N": "m -/m", "m/s": "-/m", "m/s^2": "-/m", "J": "-/m -/m^2", "W": "-/m -/m^2", "kg": "-/m -/m^2",
         "m^3": "-/m",
@@ -260,7 +260,7 @@ def _misnamed(letter: str, about: Named) -> str:
     over = tuple(a - b for a, b in zip(printed[:4], wanted[:4], strict=True))
     of_area = inertia and printed == of_unit("m^4")
     open_ = PURE in (printed, wanted) or not any(over) or of_area or over in _OPEN and not inertia
-    return "" if open_ or over in _OPEN_OF.get(wanted, ()) else usual
+    return "" if open_ or over in _OPEN_OF.get(usual, ()) else usual
 
 
 def _usual(letter: str, meaning: str, indexed: bool) -> str:
