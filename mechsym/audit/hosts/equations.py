@@ -170,7 +170,7 @@ class Judge:
         wanted, printed = self._known(tree, theory), self._known(said.sides[1], theory)
         source = self.world.paper.said[place].name
         try:
-            at = states(self._steady(theory))
+            at = states(self._steady(theory, said))
             if alike(at, wanted, printed):
                 return Judged(verdict="exact", matched="the text", note=f"follows from ({source})", error=0.0)
             if alike(at, wanted, negative(printed)):
@@ -185,15 +185,16 @@ class Judge:
 
     def _by_what_is_before(self, order: int, said: Said) -> Judged | None:
         # a loop that closes, and its rates; a reduced inertia
-        theory, slips = self.world.bare, []
+        slips = []
         for one in expected(self.world, order):
+            theory = self.world.theory(order) if one.whole else self.world.bare
             try:
                 if (is_multiple if one.scaled else alike)(states(theory), one.printed, one.tree):
                     return Judged(verdict="exact", matched="the text", note=one.note, error=0.0)
             except (BadInput, KeyError, RecursionError):
                 continue
-            slips.append(one)
-        rows = ((one, self._asked_of(theory, one.tree, one.printed, said)) for one in slips)
+            slips.append((theory, one))
+        rows = ((one, self._asked_of(theory, one.tree, one.printed, said)) for theory, one in slips)
         told = (self._finding(row, said, said.sides[not one.scaled], "the text") for one, row in rows if row)
         return next((slip for slip in told if slip is not None), None)
 
@@ -262,7 +263,7 @@ class Judge:
             return nothing
         for first, second in self._readings(left, right, theory):
             try:
-                same = alike(states(self._steady(theory)), first, second)
+                same = alike(states(self._steady(theory, said)), first, second)
             except (BadInput, KeyError, RecursionError):
                 return nothing
             if same:
@@ -318,16 +319,18 @@ class Judge:
             left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
             for first, second in self._readings(left, right, theory):
                 try:
-                    if alike(states(self._steady(theory)), first, second):
+                    if alike(states(self._steady(theory, said)), first, second):
                         return self._follows(names)
                 except (BadInput, KeyError, RecursionError):
                     continue
         return None
 
-    def _steady(self, theory: Theory) -> Theory:
-        # at constant speed, which a text takes for granted where no acceleration of the angle stands in it
+    def _steady(self, theory: Theory, said: Said) -> Theory:
+        # at constant speed: with an omega, and in a text without an acceleration of the angle
         rate = f"{self.world.angle}dd"
-        if rate in self.world.used or rate not in theory.letters:
+        used = {n for side in said.sides for n in letters(side)}
+        constant = rate not in used and any(self.world.aliases.get(n) == f"{self.world.angle}d" for n in used)
+        if rate in self.world.used and not constant or rate not in theory.letters:
             return theory
         still = replace(theory.letters[rate], value=1e-300)
         return replace(theory, letters={**theory.letters, rate: still})

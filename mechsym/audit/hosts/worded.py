@@ -59,7 +59,10 @@ class Worded:
         self.neighbours = Neighbours([*self.claims.values()], touched, si=True)
 
     def _contradicts(self, theory: Theory) -> bool:
-        # of another mechanism: its stroke is four throws, that of the theory two
+        # of another mechanism: by a word, or by its stroke of four throws, where that of the theory is two
+        prose = self.world.paper.prose.lower()
+        if any(word in prose for word in theory.not_of):
+            return True
         for meaning, said in theory.words.items():
             for one in self.world.defined if not meaning.isidentifier() else ():
                 phrase = self.world.paper.called.get(one.letter, "").split()

@@ -151,6 +151,8 @@ def _by_name(fit: Match, world: World, letter: str) -> str:
 
 def _one_kind(fit: Match, kinds: Kinds, letter: str, known: str) -> bool:
     mine, its = kinds.of(letter), fit.kinds.get(known)
+    if letter in kinds.turns and known in fit.theory.letters:
+        return False  # theories count turns in a second
     return mine is None or its is None or tuple(mine[:4]) == its
 
 

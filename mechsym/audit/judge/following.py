@@ -5,13 +5,17 @@ import re
 from collections.abc import Iterator, Mapping
 from functools import partial
 
+from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.motion import ANGLES, KINETIC
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.world import World, renamed
 from mechsym.audit.read.nomenclature import OPENED
 from mechsym.audit.read.said import Said
-from mechsym.audit.read.tree import Node, letters, name, number
-from mechsym.audit.theory.tape import derivative, minus, over, times
+from mechsym.audit.read.slopes import Slope
+from mechsym.audit.read.spelling import SPEEDS
+from mechsym.audit.read.tree import Node, call, function_of, is_operation, letters, name, negative, number
+from mechsym.audit.theory.record import dependencies
+from mechsym.audit.theory.tape import derivative, is_zero, minus, over, times
 from mechsym.quantities import record
 
 _SOLVED = re.compile(
@@ -19,6 +23,8 @@ _SOLVED = re.compile(
 )
 _DERIVED = re.compile(r"\b(?:differentiat\w+|(?:time )?derivatives?|derived by time)\b", re.IGNORECASE)
 _REDUCED = re.compile(r"\breduc(?:ed|tion|ing)\b|\b(?:equivalent|effective) (?:moment of )?inertia\b", re.IGNORECASE)
+_PUSHES = re.compile(r"\b(?:piston|gas|plunger|yoke|slider|crosshead)\b")
+_TORQUE = re.compile(r"\btorque\b|\bmoment\b(?! of)", re.IGNORECASE)
 CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
 _BEFORE = 6  # equations in front of one that it may be the derivative of
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
@@ -50,6 +56,7 @@ class Expected:
     printed: Node  #: The part of the equation that it is held against
     note: str
     scaled: bool = False  #: Whether a number before all of it is left open
+    whole: bool = False  #: Whether what the text defines is meant by its letters
 
 
 def expected(world: World, order: int) -> Iterator[Expected]:
@@ -59,8 +66,53 @@ def expected(world: World, order: int) -> Iterator[Expected]:
     if len(said.sides) == 2 and not said.claim and not CUT_SHORT.search(words):
         if _DERIVED.search(words):
             yield from _differentiated(world, order, said)
+        if _TORQUE.search(words) or _TORQUE.search(world.paper.called.get(getattr(said.sides[0], "id", ""), "")):
+            yield from _by_virtual_work(world, order, said)
+        if function_of(said.sides[1]) == "sqrt" and getattr(said.sides[0], "id", "").startswith(SPEEDS):
+            yield from _natural(world, order, said)
         if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
             yield from _reduced(world, order, said)
+
+
+def _by_virtual_work(world: World, order: int, said: Said) -> Iterator[Expected]:
+    # the torque of a force on what moves with the angle: that force times the slope of its way
+    printed, theory = world.plain(said.sides[1]), world.theory(order)
+    forces = [k for k in _above(printed) if world.kinds.of(k) == of_unit("N")]
+    forces = [k for k in forces if _PUSHES.search(world.paper.called.get(k, ""))]
+    ways = [d.letter for d in world.defined if world.kinds.of(d.letter) == of_unit("m") and world.turns(d.letter)]
+    if len(forces) != 1 or not world.angle or world.angle not in dependencies(theory, letters(printed)):
+        return
+    for way in dict.fromkeys(ways):
+        work = times(name(forces[0]), name(Slope(way, world.angle).name))
+        for tree in (work, negative(work)):
+            yield Expected(tree=tree, printed=printed, note=f"the work of {forces[0]} on {way}", whole=True)
+
+
+def _above(tree: Node) -> list[str]:
+    # letters that multiply a whole expression
+    if isinstance(tree, ast.UnaryOp):
+        return _above(tree.operand)
+    if is_operation(tree, ast.Mult):
+        return [*_above(tree.left), *_above(tree.right)]
+    return _above(tree.left) if is_operation(tree, ast.Div) else [tree.id] if isinstance(tree, ast.Name) else []
+
+
+def _natural(world: World, order: int, said: Said) -> Iterator[Expected]:
+    # of a linear equation of motion: the root of what stands before the way by what stands before its acceleration
+    printed = world.plain(said.sides[1])
+    for source in world.paper.said[max(order - _BEFORE, 0) : order]:
+        if source.inline or len(source.sides) != 2:
+            continue
+        whole = minus(*source.sides)
+        for rate in (k for k in letters(whole) if k.endswith("dd")):
+            mass, stiffness = (_slope(whole, k) for k in (rate, rate[:-2]))
+            if {*letters(mass), *letters(stiffness)} == {*letters(printed)} and not is_zero(mass):
+                tree = call("sqrt", over(stiffness, mass))
+                yield Expected(tree=tree, printed=printed, note=f"by the coefficients of ({source.name})")
+
+
+def _slope(tree: Node, letter: str) -> Node:
+    return derivative(tree, lambda k: number(int(k == letter)))
 
 
 def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:

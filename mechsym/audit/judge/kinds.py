@@ -198,6 +198,9 @@ def kinds_of(paper: Text) -> Kinds:
     for letter, phrase in paper.called.items():
         if usual := _usual(letter, phrase, letter in indexed):
             kinds.printed[letter] = of_unit(usual)
+        if letter not in paper.named and re.search(r"\b(?:revolutions|turns) (?:per|a) minute\b", phrase):
+            kinds.printed[letter] = of_unit("rpm")
+            kinds.turns.add(letter)
     for letter, about in paper.named.items():
         unit = about.unit or _usual(letter, about.meaning, letter in indexed)
         if unit:
@@ -237,12 +240,12 @@ def kinds_of(paper: Text) -> Kinds:
 
 
 # what a name leaves open: weight, of a kilogram, a power of time; for some by width or area, or of an angle
-_OPEN = {of_unit(unit)[:4] for unit in ("m/s^2", "s^2/m", "-/kg", "-/s", "s")}
+_OPEN = {of_unit(unit)[:4] for unit in ("m/s^2", "s^2/m", "-/kg")}
 _OPEN_OF = {
     unit: {of_unit(by)[:4] for by in wide.split()}
     for unit, wide in {
-        "N": "m -/m", "m/s": "-/m", "m/s^2": "-/m", "J": "-/m -/m^2", "W": "-/m -/m^2", "kg": "-/m -/m^2",
-        "m^3": "-/m",
+        "N": "m -/m", "m/s": "-/m", "m/s^2": "-/m", "J": "-/m -/m^2 -/s", "W": "-/m -/m^2", "kg": "-/m -/m^2 -/s",
+        "m^3": "-/m -/s",
     }.items()
 }  # fmt: skip
 
@@ -259,6 +262,8 @@ def _misnamed(letter: str, about: Named) -> str:
     printed, wanted = (of_unit(unit) if unit else PURE for unit in (about.unit, usual))
     over = tuple(a - b for a, b in zip(printed[:4], wanted[:4], strict=True))
     of_area = inertia and printed == of_unit("m^4")
+    if re.search(r"(?:efficiency|exponent)\s*$", head):
+        return "-" if any(printed) else ""
     open_ = PURE in (printed, wanted) or not any(over) or of_area or over in _OPEN and not inertia
     return "" if open_ or over in _OPEN_OF.get(usual, ()) else usual
 

@@ -162,14 +162,10 @@ def _implied(world: World) -> Iterator[tuple[int, LagrangeEquation]]:
     # of a text that prints its energies and only speaks of Lagrange
     energies = energies_of(world.paper)
     orders = [d.order for d in world.defined if d.letter in energies]
-    for q in sorted(world.coordinates) if len(orders) > 1 else ():
-        kinetic, potential = energies
-        terms = (
-            Term(of=kinetic, by=f"{q}d", sign=1, timed=True),
-            Term(of=kinetic, by=q, sign=-1, timed=False),
-            Term(of=potential, by=q, sign=1, timed=False),
-        )
-        yield max(orders), LagrangeEquation(terms=terms, right="")
+    for q in sorted(world.coordinates) if len(orders) >= len(energies) > 0 else ():
+        timed = Term(of=energies[0], by=f"{q}d", sign=1, timed=True)
+        slopes = (Term(of=of, by=q, sign=sign, timed=False) for of, sign in zip(energies, (-1, 1), strict=False))
+        yield max(orders), LagrangeEquation(terms=(timed, *slopes), right="")
 
 
 def _of(world: World, order: int, printed: LagrangeEquation) -> Iterator[MotionLaw]:

@@ -36,10 +36,16 @@ def angle_of(paper: Text) -> str:
 
 
 def energies_of(paper: Text) -> tuple[str, ...]:
-    """The kinetic and the potential energy of a text that speaks of Lagrange; nothing where it does not."""
+    """The kinetic energy of a text that speaks of Lagrange, and the potential one; nothing where it does not."""
     if not re.search(r"\bLagrang", paper.prose):
         return ()
-    defined = {getattr(said.sides[0], "id", ""): said.sides[-1] for said in paper.said if len(said.sides) > 1}
-    kinetic = [k for k in defined if k in KINETIC and any(n.endswith("d") for n in letters(defined[k]))]
-    potential = [k for k in defined if k in _POTENTIAL]
-    return (*kinetic, *potential) if len(kinetic) == len(potential) == 1 else ()
+    defined = {getattr(one.sides[0], "id", ""): k for k, one in enumerate(paper.said) if len(one.sides) > 1}
+    rates = {k: [n for side in paper.said[at].sides[1:] for n in letters(side)] for k, at in defined.items()}
+    kinetic = [k for k in defined if k in KINETIC and any(n.endswith("d") for n in rates[k])]
+    if len(kinetic) != 1:
+        return ()
+    # a V that stands elsewhere is a volume
+    near = [k for k in defined if k in _POTENTIAL and 0 < abs(defined[k] - defined[kinetic[0]]) < 3]
+    called = [k for k in defined if k in _POTENTIAL and "energy" in paper.called.get(k, "")]
+    potential = called or near
+    return (*kinetic, *potential) if len(potential) < 2 else ()

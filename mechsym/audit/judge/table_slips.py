@@ -49,7 +49,7 @@ def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list
 def _angular(paper: Text, kinds: Kinds) -> list[TableSlip]:
     """Angular speeds that the table counts in turns a minute, and no equation converts: they are in rad/s."""
     slips = []
-    for letter in sorted(kinds.turns):
+    for letter in sorted(kinds.turns & paper.named.keys()):
         about = paper.named[letter]
         uses = [said for said in paper.said if letter in letters_of(said)]
         if "angular" in about.meaning.lower() and len(uses) > 1 and not any(converted(said, letter) for said in uses):

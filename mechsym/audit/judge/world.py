@@ -129,9 +129,20 @@ class World:
         for usual in SPEEDS:
             about = self.paper.named.get(usual)
             fits = usual != "w" or about and about.unit == "rad/s"
-            taken = {*self.aliases.values(), *written}
-            if self.angle and f"{self.angle}d" not in taken and usual in written and fits:
+            # beside the dotted angle it is the constant speed, where it is called a speed of what turns
+            beside = f"{self.angle}d" in written and not re.match("angular (?:velocity|speed)", self._phrase(usual))
+            if (
+                self.angle
+                and f"{self.angle}d" not in self.aliases.values()
+                and usual in written
+                and fits
+                and not beside
+            ):
                 self.aliases[usual] = f"{self.angle}d"
+
+    def _phrase(self, letter: str) -> str:
+        about = self.paper.named.get(letter)
+        return (about.meaning if about else self.paper.called.get(letter, "")).lower()
 
     def _define(self, order: int, said: Said) -> None:
         if not said.sides or said.claim:

@@ -32,7 +32,7 @@ _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
     r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|be|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
     # the force $F$, the mass $m$: what stands before a letter is not said of the one before it
-    r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b|\bin\b|(?(2)\$|(?!))|\Z))"
+    r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b(?!\s+(?:inertia|elasticity))|\bin\b|(?(2)\$|(?!))|\Z))"
 )
 _AHEAD = re.compile(
     rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+"
@@ -51,7 +51,7 @@ _LAST = 6  # words in front of an equation
 # names with an `of` of their own
 _FUSED = re.compile(r"\b(moments?|modulus|coefficient|radius) of (inertia|elasticity|friction|gyration)\b")
 _VERB = re.compile(
-    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns?|becomes?|means|reads?)\b"
+    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns|becomes?|means|reads?|acts?|lowers?|raises?|that|which)\b"
 )
 # a shaft of the diameter $d$ has: the diameter is said of its own letter
 _LETTER_LAST = re.compile(
@@ -158,6 +158,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     words = OPENED.sub("", before).rstrip(" \n:;.,")
     spoken = _SENTENCE.split(words)[-1]
     sentence = " ".join(_UNWORDED.sub(" ", spoken).split())
+    sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
     bare = _FUSED.sub(r"\1-of-\2", bare)
@@ -170,7 +171,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     headed = re.search(
         rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
     )
-    last = re.search(rf".*\b(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
+    last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
     behind = re.search(rf"\b(?:has|gives?|yields?)\s+(?:the|an?)\s+({_SHORT})$", bare)
     verb = _VERB.search(bare)
     chosen = (

@@ -1,6 +1,7 @@
 """Theories that anyone declares: a TOML file of letters and definitions, or a mechanism in a Python file.
 
 angle = "phi"                       # runs over a turn; phid and phidd are its rates
+not_of = ["opposed piston"]         # words of texts that are about something else
 small = ["lam"]                     # numbers that go to zero; rods = ["l"]: lengths that grow without limit
 [letters]
 r = "30 mm"                         # a value with its unit; "rad" alone: the value is 1
@@ -255,7 +256,7 @@ def _square_sum(a: Node, b: Node) -> Node:
     return plus(*(binary(ast.Pow, e, number(2)) for e in (a, b)))
 
 
-_KEYS = tuple("name about source angle small rods letters define units conditions symbols words".split())
+_KEYS = tuple("name about source angle not_of small rods letters define units conditions symbols words".split())
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)?\s*(.*?)\s*$")
 
@@ -317,6 +318,7 @@ def _theory(content: Json, name: str, where: str) -> Theory:
         conditions={k: _among(v, f"conditions.{k}", letters) for k, v in _table(content, "conditions").items()},
         data=where,
         words={k: tuple(map(str, v)) for k, v in _table(content, "words").items() if isinstance(v, list)},
+        not_of=tuple(map(str, content.get("not_of", []))),
     )
 
 
