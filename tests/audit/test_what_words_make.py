@@ -159,3 +159,49 @@ def test_a_phrase_that_ends_with_its_own_letter_names_no_other(tmp_path):
         + r"$$ \tau = \frac{16 M d}{\pi(d^4 - d_i^4)} $$"
     )
     assert blamed(judged(tmp_path, text, "text.md")) == []
+
+
+@pytest.mark.parametrize(
+    ("force", "printed", "verdict"),
+    [
+        ("piston force", r"F r\sin\theta", "exact"),
+        ("piston force", r"-F r\sin\theta", "exact"),
+        ("piston force", r"F r\cos\theta", "misprint"),
+        ("friction force", r"F r\cos\theta", "units agree"),  # of another way
+    ],
+)
+def test_a_torque_does_the_work_of_the_force_on_the_piston(tmp_path, force, printed, verdict):
+    text = f"| $F$ | {force} | N |\n|---|---|---|\n| $r$ | crank radius | m |\n\nThe yoke is at\n"
+    text += f"$$ x = r(1 - \\cos\\theta) $$\n\nand the torque on the crank is\n$$ M = {printed} $$"
+    row = _last(tmp_path, text)
+    assert row["verdict"] == verdict
+    assert verdict != "misprint" or same(row["correction"], r"F r\sin\theta")
+
+
+def test_a_frequency_has_the_coefficients_of_its_equation_of_motion(tmp_path):
+    text = "The valve moves by\n$$ m_v\\ddot y + k_v y = F $$\nwith the frequency\n$$ \\omega_v = \\sqrt{{{}}} $$"
+    assert _last(tmp_path, text.format(r"\frac{k_v}{m_v}"))["verdict"] == "exact"
+    row = _last(tmp_path, text.format(r"\frac{m_v}{k_v}"))
+    assert row["verdict"] == "misprint" and same(row["correction"], r"\sqrt{\frac{k_v}{m_v}}")
+    # with other letters it may be another thing
+    assert _last(tmp_path, text.format(r"\frac{m_v}{k_s}"))["verdict"] == "definition"
+
+
+def test_omega_beside_a_dotted_angle_is_the_constant_speed(tmp_path):
+    text = (
+        "| $\\omega$ | angular velocity of the crank | rad/s |\n|---|---|---|\n| $m$ | mass | kg |\n\n"
+        "$$ x = 2 e\\cos\\varphi $$\n\n$$ \\ddot x = -2 e\\omega^2\\{} $$\n\n"
+        "$$ J\\ddot\\varphi = M - k\\dot\\varphi $$\n"
+    )
+    assert judged(tmp_path, text.replace("\\{}", "\\cos\\varphi"), "text.md")[1]["verdict"] == "exact"
+    row = judged(tmp_path, text.replace("\\{}", "\\sin\\varphi"), "text.md")[1]
+    assert row["verdict"] == "misprint" and same(row["correction"], r"-2 e\omega^2\cos\varphi")
+
+
+def test_a_theory_says_what_it_is_not_of(tmp_path):
+    text = (
+        "{}The volume is\n$$ V = V_c + 2\\frac{{\\pi D^2}}{{4}} s $$\nwith the bore $D$, the clearance volume $V_c$\n"
+    )
+    text += "and the piston displacement $s$."
+    assert len(blamed(judged(tmp_path, text.format(""), "text.md"))) == 1
+    assert blamed(judged(tmp_path, text.format("Both pistons are opposed. "), "text.md")) == []

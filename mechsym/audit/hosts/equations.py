@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from mechsym.audit.hosts.judged import AGREES, OTHER_SENSE, Judged, passed
+from mechsym.audit.hosts.judged import AGREES, Judged, passed, settled
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
@@ -181,7 +181,7 @@ class Judge:
         except (BadInput, KeyError, RecursionError):
             return None
         row = self._asked_of(theory, wanted, printed, said)
-        return None if row is None else self._finding(row, said, said.sides[1], "the text")
+        return None if row is None else self._finding(settled(row), said, said.sides[1], "the text")
 
     def _by_what_is_before(self, order: int, said: Said) -> Judged | None:
         # a loop that closes, and its rates; a reduced inertia
@@ -195,7 +195,7 @@ class Judge:
                 continue
             slips.append((theory, one))
         rows = ((one, self._asked_of(theory, one.tree, one.printed, said)) for theory, one in slips)
-        told = (self._finding(row, said, said.sides[not one.scaled], "the text") for one, row in rows if row)
+        told = (self._finding(settled(row), said, said.sides[not one.scaled], "the text") for one, row in rows if row)
         return next((slip for slip in told if slip is not None), None)
 
     def _by_twin(self, order: int, said: Said) -> Judged | None:
@@ -306,8 +306,7 @@ class Judge:
             return nothing
         if row["verdict"] in PASSED:
             return passed(row, "the text")
-        if row["correction"] and OTHER_SENSE in row["note"] and self._has_sense(said):
-            row |= {"verdict": "misprint", "note": row["note"].removeprefix(f"{OTHER_SENSE}; ")}
+        row = settled(row) if self._has_sense(said) else row
         return self._finding(row, said, said.sides[k], "the text") or nothing
 
     def _believed(self, order: int, said: Said, i: int, k: int) -> Judged | None:

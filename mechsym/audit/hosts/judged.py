@@ -1,12 +1,10 @@
 """What is said of an equation of a text."""
 
-from mechsym.audit.judge.conventions import told
 from mechsym.audit.row import Row
 from mechsym.audit.verdict import RIGHT_WITH
 from mechsym.quantities import record
 
 AGREES = "units agree"
-OTHER_SENSE = f"{RIGHT_WITH} {told(('sign',))}"  # what nothing tells of a quantity that may be counted the other way
 
 
 @record
@@ -24,3 +22,11 @@ class Judged:
 def passed(row: Row, matched: str) -> Judged:
     """The verdict of a formula that is right."""
     return Judged(verdict=row["verdict"], matched=matched, note=row["note"], error=row["max_rel_error"])
+
+
+def settled(row: Row) -> Row:
+    """The row of a formula whose text leaves no other way of counting open: a misprint then."""
+    head, _, rest = row["note"].partition("; ")
+    if not row["correction"] or not head.startswith(RIGHT_WITH):
+        return row
+    return row | {"verdict": "misprint", "note": rest}

@@ -240,14 +240,16 @@ def kinds_of(paper: Text) -> Kinds:
 
 
 # what a name leaves open: weight, of a kilogram, a power of time; for some by width or area, or of an angle
-_OPEN = {of_unit(unit)[:4] for unit in ("m/s^2", "s^2/m", "-/kg")}
+_OPEN = ("m/s^2", "s^2/m", "-/kg")
 _OPEN_OF = {
-    unit: {of_unit(by)[:4] for by in wide.split()}
-    for unit, wide in {
-        "N": "m -/m", "m/s": "-/m", "m/s^2": "-/m", "J": "-/m -/m^2 -/s", "W": "-/m -/m^2", "kg": "-/m -/m^2 -/s",
-        "m^3": "-/m -/s",
-    }.items()
-}  # fmt: skip
+    "N": ("m", "-/m"),
+    "m/s": ("-/m",),
+    "m/s^2": ("-/m",),
+    "J": ("-/m", "-/m^2", "-/s"),
+    "W": ("-/m", "-/m^2"),
+    "kg": ("-/m", "-/m^2", "-/s"),
+    "m^3": ("-/m", "-/s"),
+}
 
 
 _PREPOSITION = re.compile(r"\b(?:of|at|in|by|for|on|from|due|to|with|under|over|between|and|or)\b|[,;($/]")
@@ -264,8 +266,12 @@ def _misnamed(letter: str, about: Named) -> str:
     of_area = inertia and printed == of_unit("m^4")
     if re.search(r"(?:efficiency|exponent)\s*$", head):
         return "-" if any(printed) else ""
-    open_ = PURE in (printed, wanted) or not any(over) or of_area or over in _OPEN and not inertia
-    return "" if open_ or over in _OPEN_OF.get(usual, ()) else usual
+    open_ = PURE in (printed, wanted) or not any(over) or of_area or over in map(_dimension, _OPEN) and not inertia
+    return "" if open_ or over in map(_dimension, _OPEN_OF.get(usual, ())) else usual
+
+
+def _dimension(unit: str) -> Kind:
+    return of_unit(unit)[:4]
 
 
 def _usual(letter: str, meaning: str, indexed: bool) -> str:

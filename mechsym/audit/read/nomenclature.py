@@ -51,12 +51,13 @@ _LAST = 6  # words in front of an equation
 # names with an `of` of their own
 _FUSED = re.compile(r"\b(moments?|modulus|coefficient|radius) of (inertia|elasticity|friction|gyration)\b")
 _VERB = re.compile(
-    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns|becomes?|means|reads?|acts?|lowers?|raises?|that|which)\b"
+    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns|becomes?|means|reads?|that|which)\b"
 )
 # a shaft of the diameter $d$ has: the diameter is said of its own letter
 _LETTER_LAST = re.compile(
     r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$=]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I
 )
+_OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?([a-z]+(?:\s+of\s+[a-z]+)?)")
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
@@ -142,6 +143,8 @@ def called(text: str) -> dict[str, str]:
     for match in _CALLED.finditer(text):
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
         phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
+        if of := _OF_WHAT.match(text, match.end()):  # the coefficient $k$ of fluctuation
+            phrase += f" of {of[1]}" if phrase.endswith(("coefficient", "moment", "modulus")) else ""
         pairs += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
     names: dict[str, str] = {}
     for symbol, phrase in pairs:
