@@ -13,11 +13,11 @@ from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved
 from mechsym.audit.judge.lagrangian import Energies
-from mechsym.audit.judge.primes import PRIMED, by_angle, primed, rated, slope_of
+from mechsym.audit.judge.primes import PRIMED, by_angle, is_slope, primed, rated, slope_of, stems_of
 from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.sampled import alike, free, is_multiple, states, where_defined
 from mechsym.audit.judge.twins import Twins
-from mechsym.audit.judge.world import World, is_slope, stems_of
+from mechsym.audit.judge.world import World
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope

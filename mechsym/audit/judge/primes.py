@@ -7,6 +7,7 @@ from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.tree import Node, name, substitute
 from mechsym.audit.theory.record import Theory
 
+PRIMES = re.compile(r"(\w+?)((?:prime)+)")
 PRIMED = re.compile(r"(\w+?)prime(prime)?")
 
 
@@ -54,3 +55,19 @@ def slope_of(letter: str, angle: str) -> str:
     """The name of the slope that a letter with one prime or two is."""
     stem, twice = letter.partition("prime")[0], letter.count("prime") > 1
     return Slope(stem, angle, 2 if twice else 1).name
+
+
+def is_rate(tree: Node) -> bool:
+    """Whether a side is a derivative: a fraction, or a letter with primes."""
+    return is_slope(tree) or isinstance(tree, ast.Name) and bool(PRIMES.fullmatch(tree.id))
+
+
+def is_slope(tree: Node) -> bool:
+    """Whether a side is a derivative that is written as a fraction."""
+    return isinstance(tree, ast.Name) and slope_in(tree.id) is not None
+
+
+def stems_of(letter: str) -> list[str]:
+    """What a letter may be a derivative of: x of dx_dphi, x_d, xd and xprime."""
+    slope = slope_in(letter)
+    return [slope.of] if slope else [s for s in (re.sub(r"(?:_?dd?|(?:prime)+)$", "", letter),) if s != letter]

@@ -13,6 +13,7 @@ from functools import cached_property, partial, reduce
 
 from mechsym.audit.judge.kinds import PURE, Kinds, text
 from mechsym.audit.judge.motion import ANGLES, angle_of, energies_of
+from mechsym.audit.judge.primes import PRIMES, is_rate, stems_of
 from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
@@ -36,7 +37,6 @@ from mechsym.audit.theory.tape import TheoryTape, times
 from mechsym.quantities import record
 
 _OPAQUE = re.compile(r"integral\w{8}|constant|function")
-_PRIME = re.compile(r"(\w+?)((?:prime)+)")
 
 
 @record
@@ -155,7 +155,7 @@ class World:
             elif self._may_define(left.id, said, order):
                 for k, side in enumerate(sides[1:], 1):
                     opaque = any(_OPAQUE.fullmatch(n) for n in letters(side))
-                    if not opaque and left.id not in self._reach(side) and not _is_rate(side):
+                    if not opaque and left.id not in self._reach(side) and not is_rate(side):
                         self.defined.append(Defined(order=order, letter=left.id, tree=side, side=k))
                         return
             return
@@ -191,7 +191,7 @@ class World:
             return False
         if self.energetic and said.spelled.get(letter, "").startswith("\\ddot"):
             return False
-        if _PRIME.fullmatch(letter) or re.fullmatch(r"d\d?\w+_d\w+", letter) or self._rate_of(letter):
+        if PRIMES.fullmatch(letter) or re.fullmatch(r"d\d?\w+_d\w+", letter) or self._rate_of(letter):
             return False
         before = [d for d in self.defined if d.letter == letter]
         return not before or self.paper.said[before[-1].order].section != said.section and not said.inline
@@ -326,7 +326,7 @@ class World:
     def _derivative(self, letter: str, tape: Mapping[str, Node]) -> bool:
         if slope := slope_in(letter):
             return slope.of in tape
-        if prime := _PRIME.fullmatch(letter):
+        if prime := PRIMES.fullmatch(letter):
             return prime[1] in tape and bool(self.angle)
         stem = re.fullmatch(r"(\w+?)_?dd?", letter)
         return bool(stem and stem[1] in tape and self.turns(stem[1]))
@@ -370,21 +370,6 @@ def _with_angle(tree: Node, rate: str, angle: str) -> Node:
 
 def _factors(node: Node) -> list[Node]:
     return [*_factors(node.left), *_factors(node.right)] if is_operation(node, ast.Mult) else [node]
-
-
-def _is_rate(tree: Node) -> bool:
-    return is_slope(tree) or isinstance(tree, ast.Name) and bool(_PRIME.fullmatch(tree.id))
-
-
-def is_slope(tree: Node) -> bool:
-    """Whether a side is a derivative that is written as a fraction."""
-    return isinstance(tree, ast.Name) and slope_in(tree.id) is not None
-
-
-def stems_of(letter: str) -> list[str]:
-    """What a letter may be a derivative of: x of dx_dphi, x_d, xd and xprime."""
-    slope = slope_in(letter)
-    return [slope.of] if slope else [s for s in (re.sub(r"(?:_?dd?|(?:prime)+)$", "", letter),) if s != letter]
 
 
 def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:
