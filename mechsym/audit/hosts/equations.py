@@ -301,13 +301,15 @@ class Judge:
         believed = self._believed(order, said, i, k)
         if believed:
             return believed
-        row = self._asked_of(theory, left, right, said)
-        if row is None:
-            return nothing
-        if row["verdict"] in PASSED:
-            return passed(row, "the text")
-        row = settled(row) if self._has_sense(said) else row
-        return self._finding(row, said, said.sides[k], "the text") or nothing
+        # of a chain the slip may stand in the earlier form
+        for wanted, printed, side in ((left, right, k), (right, left, i))[: 1 + (i > 0)]:
+            row = self._asked_of(theory, wanted, printed, said)
+            if row is not None and row["verdict"] in PASSED:
+                return passed(row, "the text")
+            row = settled(row) if row is not None and self._has_sense(said) else row
+            if row is not None and (slip := self._finding(row, said, said.sides[side], "the text")):
+                return slip
+        return nothing
 
     def _believed(self, order: int, said: Said, i: int, k: int) -> Judged | None:
         # right where earlier slips are believed

@@ -7,6 +7,7 @@ from functools import partial
 
 from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.motion import ANGLES, KINETIC
+from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.world import World, renamed
 from mechsym.audit.read.nomenclature import OPENED
@@ -64,6 +65,9 @@ def expected(world: World, order: int) -> Iterator[Expected]:
     said = world.paper.said[order]
     words = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))[-1]
     if len(said.sides) == 2 and not said.claim and not CUT_SHORT.search(words):
+        if (tree := mended(world, order)) is not None:
+            note = "what acts on a neighbour comes back with the same coefficient"
+            yield Expected(tree=tree, printed=said.sides[0], note=note, scaled=True)
         if _DERIVED.search(words):
             yield from _differentiated(world, order, said)
         if _TORQUE.search(words) or _TORQUE.search(world.paper.called.get(getattr(said.sides[0], "id", ""), "")):

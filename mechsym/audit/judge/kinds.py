@@ -11,12 +11,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from mechsym.audit.read.nomenclature import Named
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.tree import Node, argument_of, function_of, letters, value_of, walk
-from mechsym.audit.read.units import KINDS, OTHERS
+from mechsym.audit.read.units import misnamed, usual_unit
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
 from mechsym.quantities.units import scale
@@ -69,6 +68,7 @@ class Kinds:
     inferred: dict[str, Kind] = field(default_factory=dict)
     bare: dict[str, Kind] = field(default_factory=dict)  #: Of letters that a relative with a unit for an index tells
     scaled: set[str] = field(default_factory=set)  #: Letters that the table measures in no unit of the SI
+    dotted: frozenset[str] = frozenset()  #: Letters with a dot: Ed is no E with an index
     misnamed: dict[str, str] = field(default_factory=dict)  #: Letters that the table has in no unit of theirs, to it
     turns: set[str] = field(default_factory=set)  #: Letters in revolutions a minute that formulas take as a number
 
@@ -90,7 +90,7 @@ class Kinds:
         if within := _MARKED.fullmatch(letter) or _STEP.fullmatch(letter):
             return self.of(within[1])
         base = _INDEX.fullmatch(letter)
-        if base is None:
+        if base is None or letter in self.dotted:
             return self.bare.get(letter)
         if base[2][0].isdigit():
             return self.printed.get(base[1])
@@ -191,21 +191,22 @@ def of_unit(unit: str) -> Kind:
 
 def kinds_of(paper: Text) -> Kinds:
     """What the nomenclature, units behind equations, and definitions tell."""
-    kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")})
+    dotted = frozenset(k for said in paper.said for k, v in said.spelled.items() if v.startswith(("\\dot", "\\ddot")))
+    kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")}, dotted=dotted)
     indexed = {k for said in paper.said for k, v in said.spelled.items() if v.startswith("d_")}
     if "dt" in indexed:
         del kinds.printed["dt"]  # a diameter of something
     for letter, phrase in paper.called.items():
-        if usual := _usual(letter, phrase, letter in indexed):
+        if usual := usual_unit(letter, phrase, letter in indexed):
             kinds.printed[letter] = of_unit(usual)
         if letter not in paper.named and re.search(r"\b(?:revolutions|turns) (?:per|a) minute\b", phrase):
             kinds.printed[letter] = of_unit("rpm")
             kinds.turns.add(letter)
     for letter, about in paper.named.items():
-        unit = about.unit or _usual(letter, about.meaning, letter in indexed)
+        unit = about.unit or usual_unit(letter, about.meaning, letter in indexed)
         if unit:
             kinds.printed[letter] = of_unit(unit)
-        if wanted := _misnamed(letter, about):
+        if wanted := misnamed(letter, about.meaning, about.unit):
             kinds.misnamed[letter] = wanted
             kinds.printed[letter] = of_unit(wanted)
         if about.unit == "rpm":
@@ -237,53 +238,6 @@ def kinds_of(paper: Text) -> Kinds:
                 _infer(kinds, said)
     _numbers_of_turns(kinds, paper.said)
     return kinds
-
-
-# what a name leaves open: weight, of a kilogram, a power of time; for some by width or area, or of an angle
-_OPEN = ("m/s^2", "s^2/m", "-/kg")
-_OPEN_OF = {
-    "N": ("m", "-/m"),
-    "m/s": ("-/m",),
-    "m/s^2": ("-/m",),
-    "J": ("-/m", "-/m^2", "-/s"),
-    "W": ("-/m", "-/m^2"),
-    "kg": ("-/m", "-/m^2", "-/s"),
-    "m^3": ("-/m", "-/s"),
-}
-
-
-_PREPOSITION = re.compile(r"\b(?:of|at|in|by|for|on|from|due|to|with|under|over|between|and|or)\b|[,;($/]")
-
-
-def _misnamed(letter: str, about: Named) -> str:
-    """The unit of what is never measured in the one that the table has; empty where it is, or may be."""
-    inertia = re.search(r"\bmoments? of inertia\b", about.meaning.lower())
-    head = _PREPOSITION.split(about.meaning.lower())[0]
-    usual = "kg*m^2" if inertia else _usual(letter, head, indexed=False)
-    usual = "" if sum(word in KINDS for word in re.findall("[a-z]+", head)) > 1 else usual  # pressure force
-    printed, wanted = (of_unit(unit) if unit else PURE for unit in (about.unit, usual))
-    over = tuple(a - b for a, b in zip(printed[:4], wanted[:4], strict=True))
-    of_area = inertia and printed == of_unit("m^4")
-    if re.search(r"(?:efficiency|exponent)\s*$", head):
-        return "-" if any(printed) else ""
-    open_ = PURE in (printed, wanted) or not any(over) or of_area or over in map(_dimension, _OPEN) and not inertia
-    return "" if open_ or over in map(_dimension, _OPEN_OF.get(usual, ())) else usual
-
-
-def _dimension(unit: str) -> Kind:
-    return of_unit(unit)[:4]
-
-
-def _usual(letter: str, meaning: str, indexed: bool) -> str:
-    # what is measured in one unit by its name
-    words = re.findall(r"[a-z]+", re.split(r"\b(?:that|which)\b", meaning.lower().replace("'s", ""))[0])
-    called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
-    called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
-    step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
-    changed = step or any(OTHERS.fullmatch(word) for word in words)
-    unit = "" if changed else KINDS.get(called, "")
-    # small letters of work and heat are often those of a kilogram
-    return "" if unit == "J" and letter[0].islower() else unit
 
 
 def _infer(kinds: Kinds, said: Said) -> None:

@@ -49,6 +49,14 @@ def _word_list(text: str) -> tuple[str, ...]:
     return own[:-1] if len(own) > 2 and own[-1] == "v" and own[-2].isdigit() else own
 
 
+def _turned(said: tuple[str, ...]) -> tuple[str, ...]:
+    # the speed of the engine is the engine speed
+    if "of" not in said:
+        return said
+    cut = said.index("of")
+    return (*(word for word in said[cut + 1 :] if word not in ("the", "a", "an")), *said[:cut])
+
+
 def _joined(said: Sequence[str]) -> str:
     # V_d and Vd alike, and a single letter as it is
     whole = "".join(said)
@@ -91,6 +99,7 @@ class Lexicon:
     def _meanings(self, name: str, about: str) -> list[tuple[int, str]]:
         own, said = _word_list(name), _word_list(_UNIT.sub(" ", about))
         tail = _word_list(name.rpartition(OF)[2])
+        turned = _turned(said)
         counts: dict[str, int] = {}
         standing: list[tuple[tuple[str, ...], str]] = []
         for phrase, meaning in self.phrases:
@@ -100,8 +109,9 @@ class Lexicon:
             elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):
                 rest = own[: -len(phrase)] if own[-len(phrase) :] == phrase else own[len(phrase) :]
                 rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
-            alone = phrase == said and len(whole) > 2 and not _UNIT.search(about)
-            if alone or len(phrase) > 1 and len(whole) > 4 and _stands_in(phrase, said):
+            alone = phrase in (said, turned) and len(whole) > 2 and not _UNIT.search(about)
+            several = len(phrase) > 1 and len(whole) > 4
+            if alone or several and (_stands_in(phrase, said) or _stands_in(phrase, turned)):
                 rank = max(rank, 4)
                 standing.append((phrase, meaning))
             if rank > counts.get(meaning, 0):

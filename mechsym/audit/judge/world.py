@@ -167,16 +167,17 @@ class World:
             return
         if is_operation(left, ast.Div) and isinstance(left.left, ast.Name) and isinstance(left.right, ast.Name):
             above = left.left.id  # Q_b/Q_0 = .. of what slopes are taken of elsewhere
-            if above in self._differentiated and above not in self._reach(sides[1]):
+            if above in self._shares and above not in self._reach(sides[1]):
                 self.defined.append(Defined(order=order, letter=above, tree=times(sides[1], left.right), against=1))
                 return
         self._solve(order, left, sides[1:], any_letter=False)
 
     @cached_property
-    def _differentiated(self) -> frozenset[str]:
-        # letters that only slopes have on the left
+    def _shares(self) -> frozenset[str]:
+        # letters that no equation gives, with a slope that one does, or in a form of several
         lefts = [said.sides[0].id for said in self.paper.said if said.sides and isinstance(said.sides[0], ast.Name)]
-        return frozenset(slope.of for left in lefts if (slope := slope_in(left)) and slope.of not in lefts)
+        chained = {n for said in self.paper.said if len(said.sides) > 2 for side in said.sides for n in letters(side)}
+        return frozenset({slope.of for left in lefts if (slope := slope_in(left))} | chained) - {*lefts}
 
     def _sloped(self, tree: Node) -> Node:
         # the prime of what is defined, within another definition: its slope by the angle

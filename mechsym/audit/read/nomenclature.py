@@ -54,9 +54,7 @@ _VERB = re.compile(
     r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns|becomes?|means|reads?|that|which)\b"
 )
 # a shaft of the diameter $d$ has: the diameter is said of its own letter
-_LETTER_LAST = re.compile(
-    r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$=]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I
-)
+_LETTER_LAST = re.compile(r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I)
 _OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?([a-z]+(?:\s+of\s+[a-z]+)?)")
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
@@ -176,15 +174,17 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     )
     last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
     behind = re.search(rf"\b(?:has|gives?|yields?)\s+(?:the|an?)\s+({_SHORT})$", bare)
+    onto = None if ends else re.search(rf"\b(?:with|by|to|at) the ({_SHORT})$", bare)  # fires with the frequency
     verb = _VERB.search(bare)
     chosen = (
         behind
+        or onto
         or (first if not verb else None)
         or beside
         or (headed if ends else None)
         or (last if ends or not verb else None)
     )
-    letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
+    letters_own = chosen is not None and chosen in (last, behind, onto) and _LETTER_LAST.search(spoken)
     if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio":
         return "", tail
     phrase = _ENDS.sub("", chosen[1]).replace("-of-", " of ")

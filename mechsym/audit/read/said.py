@@ -146,6 +146,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     aside = [*_inline(text), *_tabled(written, lines)]
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in aside)], key=lambda p: p[0].begins)
     together = Counter(equation.opens for equation in shown)
+    named_first: set[int] = set()  # of a row of many the first is what the words in front of it say
     said = []
     for equation, inline in everything:
         section = sum(start <= lines[equation.line - 1] for start in starts)
@@ -154,8 +155,10 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         one = _read(equation, spelling, section, before, inline)
         left = one.sides[0] if one.sides and not inline else None
         if isinstance(left, ast.Name):
-            phrase, words_ahead = subject(before, together[equation.opens] == 1)
-            one = replace(one, about=words_ahead)
+            alone = together[equation.opens] == 1
+            phrase, words_ahead = subject(before, alone)
+            one = replace(one, about=words_ahead if alone or equation.opens not in named_first else "")
+            named_first.add(equation.opens)
             if phrase:
                 ahead.setdefault(left.id, phrase)
         if one.sides or not inline:

@@ -62,3 +62,51 @@ def unit_of(text: str) -> str | None:
     except BadInput:
         return None
     return text if text.strip() else None
+
+
+def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
+    """What a letter is measured in by its name; indexed: whether some letter of the text is a diameter d_i."""
+    words = re.findall(r"[a-z]+", re.split(r"\b(?:that|which)\b", meaning.lower().replace("'s", ""))[0])
+    called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
+    called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
+    step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
+    changed = step or any(OTHERS.fullmatch(word) for word in words)
+    unit = "" if changed else KINDS.get(called, "")
+    # small letters of work and heat are often those of a kilogram
+    return "" if unit == "J" and letter[0].islower() else unit
+
+
+_OPEN = ("m/s^2", "s^2/m", "-/kg")  # what a name leaves open: a weight, of a kilogram
+#: By width or area, in a time, of an angle
+_OPEN_OF = {
+    "N": ("m", "-/m"),
+    "m/s": ("-/m",),
+    "m/s^2": ("-/m",),
+    "J": ("-/m", "-/m^2", "-/s"),
+    "W": ("-/m", "-/m^2"),
+    "kg": ("-/m", "-/m^2", "-/s"),
+    "m^3": ("-/m", "-/s"),
+}
+_PREPOSITION = re.compile(r"\b(?:of|at|in|by|for|on|from|due|to|with|under|over|between|and|or)\b|[,;($/]")
+#: Names with an `of`, and of pure numbers: what they are measured in, the first where the table says anything else
+_FIXED = (
+    (re.compile(r"\bmoments? of inertia\b"), ("kg*m^2", "m^4")),
+    (re.compile(r"\bsecond moment of area\b"), ("m^4",)),
+    (re.compile(r"^[^,;(]*\b(?:efficiency|exponent)\s*$"), ("-",)),
+)
+
+
+def misnamed(letter: str, meaning: str, unit: str) -> str:
+    """The unit of what is never measured in the one that the table has; empty where it is, or may be."""
+    meaning, printed = meaning.lower(), tuple(dimension(unit or "-"))
+    for pattern, units in _FIXED:
+        if pattern.search(meaning):
+            right = not unit or any(printed == tuple(dimension(u)) for u in units)
+            return "" if right or printed == PURE else units[0]
+    head = _PREPOSITION.split(meaning)[0]
+    usual = usual_unit(letter, head)
+    if not usual or printed == PURE or sum(word in KINDS for word in re.findall("[a-z]+", head)) > 1:  # pressure force
+        return ""
+    over = tuple(a - b for a, b in zip(printed, dimension(usual), strict=True))
+    left_open = any(over == tuple(dimension(by)) for by in ("-", *_OPEN, *_OPEN_OF.get(usual, ())))
+    return "" if left_open or usual == "-" else usual
