@@ -205,3 +205,44 @@ def test_a_theory_says_what_it_is_not_of(tmp_path):
     text += "and the piston displacement $s$."
     assert len(blamed(judged(tmp_path, text.format(""), "text.md"))) == 1
     assert blamed(judged(tmp_path, text.format("Both pistons are opposed. "), "text.md")) == []
+
+
+CHAIN = r"""The shaft vibrates freely,
+$$ J_1\ddot\vartheta_1 + c_1(\vartheta_1 - \vartheta_2) = 0 $$
+$$ J_2\ddot\vartheta_2 + c_1(\vartheta_2 - \vartheta_1) + c_2(\vartheta_2 - \vartheta_3) = 0 $$
+$$ J_3\ddot\vartheta_3 + c_2(\vartheta_3 - \vartheta_2) = 0 $$"""
+
+
+@pytest.mark.parametrize(
+    ("printed", "instead", "line"),
+    [
+        (r"c_2(\vartheta_3 - \vartheta_2)", r"c_2(\vartheta_2 - \vartheta_3)", 4),
+        (r"+ c_1(\vartheta_1 -", r"- c_1(\vartheta_1 -", 2),
+        (r"+ c_2(\vartheta_2 - \vartheta_3)", r"- c_2(\vartheta_2 - \vartheta_3)", 3),
+        # divided by its inertia, and of two springs: nothing can be told
+        (r"J_1\ddot\vartheta_1 + c_1(", r"\ddot\vartheta_1 + \frac{c_1}{J_1}(", None),
+        (r"c_2(\vartheta_3 - \vartheta_2)", r"c_3(\vartheta_3 - \vartheta_2)", None),
+    ],
+)
+def test_what_a_spring_does_to_one_disc_it_does_to_the_other(tmp_path, printed, instead, line):
+    assert blamed(judged(tmp_path, CHAIN, "text.md")) == []
+    rows = blamed(judged(tmp_path, CHAIN.replace(printed, instead), "text.md"))
+    assert [row["line"] for row in rows] == ([] if line is None else [line])
+    for row in rows:
+        assert same(row["correction"], CHAIN.split("\n")[line - 1].strip("$ ").partition("=")[0])
+
+
+def test_of_a_chain_the_earlier_form_may_be_the_wrong_one(tmp_path):
+    text = "With\n$$ t = \\frac{J\\Omega}{M} $$\nthe heat is\n"
+    text += "$$ W = \\frac{1}{2} J\\Omega{} = \\frac{1}{2} M\\Omega t $$"
+    assert _last(tmp_path, text.replace("{}", "^2"))["verdict"] == "exact"
+    row = _last(tmp_path, text.replace("{}", ""))
+    assert row["verdict"] == "misprint" and same(row["correction"], r"\frac{1}{2} J\Omega^2")
+
+
+def test_a_dotted_letter_is_none_with_an_index(tmp_path):
+    text = (
+        "With the kinetic energy $E = \\frac12 J\\Omega^2$\n\n$$ \\dot E = P $$\n\n| $P$ | power | W |\n|---|---|---|\n"
+    )
+    text += "| $E$ | energy | J |\n"
+    assert blamed(judged(tmp_path, text, "text.md")) == []

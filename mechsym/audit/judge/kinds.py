@@ -93,7 +93,9 @@ class Kinds:
         if base is None or letter in self.dotted:
             return self.bare.get(letter)
         if base[2][0].isdigit():
-            return self.printed.get(base[1])
+            kind = self.printed.get(base[1])
+            siblings = {k for n, k in self.printed.items() if re.fullmatch(rf"{base[1]}\d\w*", n)}
+            return kind if siblings <= {kind} else None  # T is an energy, T_2 a temperature
         kind = self.printed.get(base[1], self.bare.get(base[1]))
         if kind is None or kind == PURE and base[1] not in SYMBOLS:
             return None  # a number lends its kind to no other letter

@@ -166,7 +166,7 @@ class World:
                 self.defined.append(Defined(order=order, letter=below.id, tree=turned, against=1))
             return
         if is_operation(left, ast.Div) and isinstance(left.left, ast.Name) and isinstance(left.right, ast.Name):
-            above = left.left.id  # Q_b/Q_0 = .. of what slopes are taken of elsewhere
+            above = left.left.id if len(sides) == 2 else ""  # Q_b/Q_0 = .. of what slopes are taken of elsewhere
             if above in self._shares and above not in self._reach(sides[1]):
                 self.defined.append(Defined(order=order, letter=above, tree=times(sides[1], left.right), against=1))
                 return
@@ -177,7 +177,7 @@ class World:
         # letters that no equation gives, with a slope that one does, or in a form of several
         lefts = [said.sides[0].id for said in self.paper.said if said.sides and isinstance(said.sides[0], ast.Name)]
         chained = {n for said in self.paper.said if len(said.sides) > 2 for side in said.sides for n in letters(side)}
-        return frozenset({slope.of for left in lefts if (slope := slope_in(left))} | chained) - {*lefts}
+        return frozenset({slope.of for left in lefts if (slope := slope_in(left))} | chained) - {*lefts, "d"}
 
     def _sloped(self, tree: Node) -> Node:
         # the prime of what is defined, within another definition: its slope by the angle

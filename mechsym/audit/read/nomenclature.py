@@ -174,7 +174,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     )
     last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
     behind = re.search(rf"\b(?:has|gives?|yields?)\s+(?:the|an?)\s+({_SHORT})$", bare)
-    onto = None if ends else re.search(rf"\b(?:with|by|to|at) the ({_SHORT})$", bare)  # fires with the frequency
+    onto = None if ends or _LETTER_LAST.search(spoken) else re.search(rf"\b(?:with|by|to|at) the ({_SHORT})$", bare)  # fires with the frequency
     verb = _VERB.search(bare)
     chosen = (
         behind
@@ -184,7 +184,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         or (headed if ends else None)
         or (last if ends or not verb else None)
     )
-    letters_own = chosen is not None and chosen in (last, behind, onto) and _LETTER_LAST.search(spoken)
+    letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
     if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio":
         return "", tail
     phrase = _ENDS.sub("", chosen[1]).replace("-of-", " of ")

@@ -157,7 +157,8 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         if isinstance(left, ast.Name):
             alone = together[equation.opens] == 1
             phrase, words_ahead = subject(before, alone)
-            one = replace(one, about=words_ahead if alone or equation.opens not in named_first else "")
+            shared = alone or equation.opens not in named_first or re.search(r"\b(?:and|are|both)\b", before[-120:])
+            one = replace(one, about=words_ahead if shared else "")
             named_first.add(equation.opens)
             if phrase:
                 ahead.setdefault(left.id, phrase)
