@@ -386,7 +386,8 @@ class Judge:
             if not set(letters(self.world.plain(side))) <= set(letters(right)):
                 return None  # with a letter more it may be of another model
         beside = _BESIDE.search(row["note"]) and set(letters(right)) <= set(letters(self.world.plain(side)))
-        if _PUT_BACK.search(row["note"]) and of_units.id_of(said) not in self.odd and not beside:
+        lost = _PUT_BACK.search(row["note"]) and not self._has_sense(said)
+        if lost and of_units.id_of(said) not in self.odd and not beside:
             return None  # what is left out may be 1 there; with a unit, or beside itself, it cannot
         left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
         if left:

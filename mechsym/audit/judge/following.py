@@ -9,18 +9,20 @@ from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.motion import ANGLES, KINETIC
 from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
-from mechsym.audit.judge.world import World, renamed
+from mechsym.audit.judge.world import World
 from mechsym.audit.read.nomenclature import OPENED
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import SPEEDS
-from mechsym.audit.read.tree import Node, call, function_of, is_operation, letters, name, negative, number
+from mechsym.audit.read.tree import Node, call, function_of, is_operation, letters, name, negative, number, renamed
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.theory.tape import derivative, is_zero, minus, over, times
 from mechsym.quantities import record
 
 _SOLVED = re.compile(
-    r"\b(?:gives?|yields?|follows?|hence|thus|therefore|so that|from which|whence|obtains?|leads? to)\b", re.IGNORECASE
+    r"\b(?:solved for|solving|gives?|yields?|follows?|hence|thus|therefore|so that|from which|whence|obtains?"
+    r"|leads? to)\b",
+    re.IGNORECASE,
 )
 _DERIVED = re.compile(r"\b(?:differentiat\w+|(?:time )?derivatives?|derived by time)\b", re.IGNORECASE)
 _REDUCED = re.compile(r"\breduc(?:ed|tion|ing)\b|\b(?:equivalent|effective) (?:moment of )?inertia\b", re.IGNORECASE)

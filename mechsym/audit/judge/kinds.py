@@ -243,12 +243,16 @@ def kinds_of(paper: Text) -> Kinds:
 
 
 def _infer(kinds: Kinds, said: Said) -> None:
-    # the letter that an equation defines, where its other side is known
-    if not said.sides or not isinstance(said.sides[0], ast.Name) or kinds.of(said.sides[0].id) is not None:
+    # the letter that an equation defines, or one over it, where its other side is known
+    left = said.sides[0] if said.sides else None
+    over = isinstance(left, ast.BinOp) and isinstance(left.op, ast.Div) and value_of(left.left) == 1
+    letter = left.right if over and isinstance(left, ast.BinOp) else left
+    if not isinstance(letter, ast.Name) or kinds.of(letter.id) is not None:
         return
     known = [k for side in said.sides[1:] if (k := _kind(kinds, side)) is not None]
     if known and all(k == known[0] for k in known):
-        kinds.inferred[said.sides[0].id] = (*known[0][:4], Fraction(0), Fraction(0))
+        sign = -1 if over else 1
+        kinds.inferred[letter.id] = (*(sign * e for e in known[0][:4]), Fraction(0), Fraction(0))
 
 
 def _kind(kinds: Kinds, tree: Node) -> Kind | None:
@@ -338,7 +342,8 @@ def letters_of(said: Said) -> Iterable[str]:
 def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list[Odd]:
     """Misfits that no letter of doubtful unit explains: a form of several, or a left side whose own unit is printed."""
     _, fitting = odd(kinds, said)
-    sure = {n for one in said if id_of(one) in fitting for n in letters_of(one)}
+    told = [one for one in said if id_of(one) in fitting and getattr(one.sides[0], "id", "") not in kinds.inferred]
+    sure = {n for one in told for n in letters_of(one)}
     lent = {getattr(one.said.sides[0], "id", "") for one in misfits}
     doubtful = {n for n in lent if kinds.is_lent(n)}  # M_b beside a mass M is a moment
     kept = []

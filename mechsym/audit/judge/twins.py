@@ -146,7 +146,8 @@ class Twins:
         if function_of(wanted) in _OTHER and isinstance(there, ast.Call):  # F cos(a) cos(b), F sin(a) cos(b) in space
             return right if len(swapped) > 1 and all(_circular(term) == 1 for term in terms(tree)) else None
         inside = any(wanted is n for f in swapped for _, n in walk(argument_of(f, *_OTHER) or f))
-        return right if inside and len(swapped) > 2 else None
+        sign = is_operation(wanted, *_KIN[0]) and is_operation(there, *_KIN[0])
+        return right if inside and len(swapped) > (1 if sign else 2) else None
 
     def _elsewhere(self, letter: str) -> set[str]:
         # what a letter is in the pairs of twins where it is one thing

@@ -9,6 +9,7 @@ import re
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property, partial, reduce
 
 from mechsym.audit.judge.kinds import PURE, Kinds, text
@@ -28,6 +29,7 @@ from mechsym.audit.read.tree import (
     letters,
     name,
     number,
+    renamed,
     substitute,
     value_of,
     walk,
@@ -76,6 +78,7 @@ class World:
         for order, said in enumerate(self.paper.said):
             self._define(order, said)
         self._name_motion()
+        self._name_turns()
         self._name_applied()
 
     def _name_time(self) -> None:
@@ -238,6 +241,16 @@ class World:
                 if base and letter not in known:
                     self.defined.append(Defined(order=-1, letter=letter, tree=name(f"{base}_d")))
 
+    def _name_turns(self) -> None:
+        # an angular speed that nothing gives, beside the one letter that counts turns
+        counted = [k for k, about in self.paper.named.items() if about.unit in ("1/s", "-/s", "rpm")]
+        counted = [k for k in counted if re.search(r"\b(?:rotational |engine )?speed$", self._phrase(k))]
+        known = {*self.aliases, *(d.letter for d in self.defined)}
+        if len(counted) == 1 and "omega" in self.used and "omega" not in known:
+            each = number(Fraction(1, 30) if counted[0] in self.kinds.turns else 2)
+            tree = times(times(each, name("pi")), name(counted[0]))
+            self.defined.append(Defined(order=-1, letter="omega", tree=tree))
+
     def _called(self, word: str) -> list[str]:
         alike = {"travel": ("travel", "displacement", "position")}.get(word, (word,))
         fitting = [k for k, about in self.paper.named.items() if any(w in about.meaning.lower() for w in alike)]
@@ -348,11 +361,6 @@ class World:
             return Letter(unit=unit, value=value, sign="any")  # at 1 a rate that is left out would not be missed
         share = zlib.crc32(letter.encode()) % 100 / 250
         return Letter(unit=unit, value=4.0 if rod else 0.8 + share, sign="positive")
-
-
-def renamed(tree: Node, meant: Mapping[str, str]) -> Node:
-    """A tree with other names for some of its letters."""
-    return substitute(tree, lambda n: name(meant[n.id]) if isinstance(n, ast.Name) and n.id in meant else None)
 
 
 def _with_angle(tree: Node, rate: str, angle: str) -> Node:

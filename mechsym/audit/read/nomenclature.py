@@ -68,6 +68,7 @@ _COUNTED = re.compile(
     r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
     r"(?:in\s+)?((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
 )
+_PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
 _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
 _ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
@@ -138,6 +139,7 @@ def called(text: str) -> dict[str, str]:
     pairs = []
     for match in _COUNTED.finditer(text):
         pairs.append((match[2], " ".join([match[1] or "", *match[3].split()]).strip()))
+    pairs += [(match[1], "revolutions per minute") for match in _PER_MINUTE.finditer(text)]
     for match in _CALLED.finditer(text):
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
         phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
@@ -174,7 +176,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     )
     last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
     behind = re.search(rf"\b(?:has|gives?|yields?)\s+(?:the|an?)\s+({_SHORT})$", bare)
-    onto = None if ends or _LETTER_LAST.search(spoken) else re.search(rf"\b(?:with|by|to|at) the ({_SHORT})$", bare)  # fires with the frequency
+    # fires with the frequency
+    onto = None if ends or _LETTER_LAST.search(spoken) else re.search(rf"\b(?:with|by|to|at) the ({_SHORT})$", bare)
     verb = _VERB.search(bare)
     chosen = (
         behind
@@ -192,6 +195,20 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         kinds = [word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in KINDS]
         phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
     return phrase, phrase or tail
+
+
+def listed(before: str, count: int) -> list[str]:
+    """What a sentence says that several equations give, one name for each: `The side force and the torque are`."""
+    spoken = OPENED.sub("", before).rstrip(" \n:;.,")
+    sentence = " ".join(_UNWORDED.sub(" ", _SENTENCE.split(spoken)[-1]).split())
+    bare = re.sub(r"\s+are$", "", sentence)
+    parts = re.split(r"\s*,\s*(?:and\s+)?|\s+and\s+", bare)
+    if bare == sentence or len(parts) != count:
+        return []
+    heads = [
+        re.split(r"\s+(?:of|on|in|for|at)\s+", re.sub(r"^(?:the|its|an?)\s+", "", p, flags=re.I))[0] for p in parts
+    ]
+    return heads if all(re.fullmatch(_SHORT, head) for head in heads) else []
 
 
 def _cells(row: str) -> Iterator[tuple[str, str, str]]:

@@ -16,7 +16,7 @@ from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.lagrange import LagrangeEquation, calligraphic, lagrange_equation
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.macros import expanded
-from mechsym.audit.read.nomenclature import Named, called, nomenclature, subject
+from mechsym.audit.read.nomenclature import Named, called, listed, nomenclature, subject
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
 from mechsym.audit.read.tree import Node, check, number
@@ -147,6 +147,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in aside)], key=lambda p: p[0].begins)
     together = Counter(equation.opens for equation in shown)
     named_first: set[int] = set()  # of a row of many the first is what the words in front of it say
+    places: Counter[int] = Counter()
     said = []
     for equation, inline in everything:
         section = sum(start <= lines[equation.line - 1] for start in starts)
@@ -157,6 +158,9 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         if isinstance(left, ast.Name):
             alone = together[equation.opens] == 1
             phrase, words_ahead = subject(before, alone)
+            if not alone and (names := listed(before, together[equation.opens])):
+                phrase = names[places[equation.opens]]
+            places[equation.opens] += 1
             shared = alone or equation.opens not in named_first or re.search(r"\b(?:and|are|both)\b", before[-120:])
             one = replace(one, about=words_ahead if shared else "")
             named_first.add(equation.opens)

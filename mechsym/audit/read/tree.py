@@ -6,7 +6,7 @@ formula may hold (two arguments, degrees, cases) is a tree of the few functions 
 """
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from hashlib import blake2b
 from typing import TypeGuard
@@ -144,6 +144,11 @@ def substitute(tree: Node, change: Callable[[Node], Node | None]) -> Node:
         if below is not child:
             tree = replace(tree, (step,), below)
     return tree
+
+
+def renamed(tree: Node, meant: Mapping[str, str]) -> Node:
+    """A tree with other names for some of its letters."""
+    return substitute(tree, lambda n: name(meant[n.id]) if isinstance(n, ast.Name) and n.id in meant else None)
 
 
 def without_double_signs(tree: Node) -> Node:
