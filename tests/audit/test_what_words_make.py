@@ -246,3 +246,9 @@ def test_a_dotted_letter_is_none_with_an_index(tmp_path):
     )
     text += "| $E$ | energy | J |\n"
     assert blamed(judged(tmp_path, text, "text.md")) == []
+
+
+def test_a_rate_in_time_takes_time_itself(tmp_path):
+    text = "It swings by\n$$ r = A e^{-d t}\\sin(w t) $$\nThe derivative is\n$$ \\dot r = w A e^{-d t}\\cos(w t){} $$"
+    assert _last(tmp_path, text.replace("{}", r" - d A e^{-d t}\sin(w t)"))["verdict"] == "exact"
+    assert blamed(judged(tmp_path, text.replace("{}", ""), "text.md")) == []  # a term is left out, as weak damping lets

@@ -2,8 +2,7 @@
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
-from functools import partial
+from collections.abc import Iterator
 
 from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.motion import ANGLES, KINETIC
@@ -143,14 +142,11 @@ def _differentiated(world: World, order: int, said: Said) -> Iterator[Expected]:
         if source.inline or source.claim or len(source.sides) != 2 or source.section != said.section:
             continue
         whole = minus(*(world.plain(side) for side in source.sides))
-        rates = {letter: _rate_in(letter, used) for letter in letters(whole)}
-        if any(rates.values()):
-            tree = derivative(whole, partial(_rate_of, rates))
+        rates = {letter: name(rate) for letter in letters(whole) if (rate := _rate_in(letter, used))}
+        if rates:
+            moving = rates | {"t": number(1)}
+            tree = derivative(whole, lambda k, known=moving: known.get(k, number(0)))  # type: ignore[misc]
             yield Expected(tree=tree, printed=minus(left, right), note=f"the rate of ({source.name})", scaled=True)
-
-
-def _rate_of(rates: Mapping[str, str], letter: str) -> Node:
-    return name(rates[letter]) if rates[letter] else number(0)
 
 
 def _rate_in(letter: str, used: set[str]) -> str:
