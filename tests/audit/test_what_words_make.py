@@ -249,6 +249,6 @@ def test_a_dotted_letter_is_none_with_an_index(tmp_path):
 
 
 def test_a_rate_in_time_takes_time_itself(tmp_path):
-    text = "It swings by\n$$ r = A e^{-d t}\\sin(w t) $$\nThe derivative is\n$$ \\dot r = w A e^{-d t}\\cos(w t){} $$"
-    assert _last(tmp_path, text.replace("{}", r" - d A e^{-d t}\sin(w t)"))["verdict"] == "exact"
+    text = "It swings by\n$$ r = A e^{-q t}\\sin(w t) $$\nThe derivative is\n$$ \\dot r = w A e^{-q t}\\cos(w t){} $$"
+    assert _last(tmp_path, text.replace("{}", r" - q A e^{-q t}\sin(w t)"))["verdict"] == "exact"
     assert blamed(judged(tmp_path, text.replace("{}", ""), "text.md")) == []  # a term is left out, as weak damping lets

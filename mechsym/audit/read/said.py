@@ -8,7 +8,7 @@ import re
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from zlib import crc32
 
@@ -106,6 +106,26 @@ class Text:
     prose: str
 
 
+@dataclass
+class _Spoken:
+    """What the words in front of displays call what they give."""
+
+    together: Counter[int]  #: Equations that stand in one display
+    seen: Counter[int] = field(default_factory=Counter)
+
+    def of(self, equation: Displayed, before: str) -> tuple[str, str]:
+        """The name of a letter that an equation gives, empty where none is told, and the last words in front of it."""
+        many, place = self.together[equation.opens], self.seen[equation.opens]
+        self.seen[equation.opens] += 1
+        phrase, about = subject(before, many == 1)
+        if many == 1:
+            return phrase, about
+        names = listed(before, many)
+        # of a row of many the first is what the words say, if they do not say it of all
+        shared = place == 0 or re.search(r"\b(?:and|are|both)\b", before[-120:])
+        return names[place] if names else phrase, about if shared else ""
+
+
 def read_text_whole(text: str, marked: bool = False) -> Text:
     """All equations of a text in their order, those within its lines as well; marked: it marks every equation."""
     text = _BRACKETS.sub(lambda m: " $" if m[0] == r"\(" else "$ ", expanded(text))
@@ -145,9 +165,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     )
     aside = [*_inline(text), *_tabled(written, lines)]
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in aside)], key=lambda p: p[0].begins)
-    together = Counter(equation.opens for equation in shown)
-    named_first: set[int] = set()  # of a row of many the first is what the words in front of it say
-    places: Counter[int] = Counter()
+    spoken = _Spoken(together=Counter(equation.opens for equation in shown))
     said = []
     for equation, inline in everything:
         section = sum(start <= lines[equation.line - 1] for start in starts)
@@ -156,14 +174,8 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         one = _read(equation, spelling, section, before, inline)
         left = one.sides[0] if one.sides and not inline else None
         if isinstance(left, ast.Name):
-            alone = together[equation.opens] == 1
-            phrase, words_ahead = subject(before, alone)
-            if not alone and (names := listed(before, together[equation.opens])):
-                phrase = names[places[equation.opens]]
-            places[equation.opens] += 1
-            shared = alone or equation.opens not in named_first or re.search(r"\b(?:and|are|both)\b", before[-120:])
-            one = replace(one, about=words_ahead if shared else "")
-            named_first.add(equation.opens)
+            phrase, about = spoken.of(equation, before)
+            one = replace(one, about=about)
             if phrase:
                 ahead.setdefault(left.id, phrase)
         if one.sides or not inline:
