@@ -174,8 +174,8 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         one = _read(equation, spelling, section, before, inline)
         left = one.sides[0] if one.sides and not inline else None
         if isinstance(left, ast.Name):
-            phrase, about = spoken.of(equation, before)
-            one = replace(one, about=about)
+            phrase, last = spoken.of(equation, before)
+            one = replace(one, about=last)
             if phrase:
                 ahead.setdefault(left.id, phrase)
         if one.sides or not inline:
