@@ -134,6 +134,14 @@ def descriptions() -> None:
     print("py_fatigue: {:.0f} MPa by the description, {:.0f} by the program".format(*means))
 
 
+def paper_roll() -> tuple[float, float]:
+    """Length of paper on a roll, and what eqn3 of the text gives with its own constant [m]."""
+    least, most, length = 0.02, 0.055, 47.0
+    k = (most**2 - least**2) / (2 * length)
+    constant = least**2 / 2  # the radius where nothing is rolled up
+    return length, (most**2 - constant) / (2 * k)
+
+
 def main() -> None:
     """Print the numbers in the order of the page."""
     for target in (25, 35):
@@ -181,6 +189,8 @@ def main() -> None:
     print(
         f"Coding_Project: a rod of {rods.min():.3f} to {rods.max():.3f} as written; at rest for {still:.0%} of a turn"
     )
+    length, rolled = paper_roll()
+    print(f"ModSimPy: {rolled:.1f} m of paper as written, {length:.1f} m")
     descriptions()
 
 
