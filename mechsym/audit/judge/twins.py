@@ -1,7 +1,8 @@
 """Equations that say of one part what another says of its twin: x_2 is x_1 with the letters of the other part.
 
 Two formulas of one shape, whose letters have another index, differ in what the letters of one are in the other. Where
-they differ in one thing more, a function, an operator or a letter that is elsewhere another, one of them has a slip.
+they differ in one thing more, a function, an operator or a letter that is elsewhere another, one of them has a slip. So it
+is where a letter has the other sign, theta + psi and theta - psi, and of projections on two axes, sines for cosines.
 """
 
 import ast
@@ -128,7 +129,7 @@ class Twins:
             return None
         inside = {id(n) for _, f in walk(plain) for _, n in walk(argument_of(f, *_OTHER) or number(0))}
         outside = {n.id for _, n in walk(plain) if isinstance(n, ast.Name) and id(n) not in inside}
-        for letter in {*letters(plain)} - outside:
+        for letter in sorted({*letters(plain)} - outside):
             tree = without_double_signs(substitute(plain, partial(_with_other_sign, letter)))
             if (right := _but_one(tree, self._side(second))) is not None:
                 return right
@@ -144,7 +145,7 @@ class Twins:
         (wanted, there), *_ = _beside(tree, printed).other
         swapped = [n for _, n in walk(tree) if function_of(n) in _OTHER]
         if function_of(wanted) in _OTHER and isinstance(there, ast.Call):  # F cos(a) cos(b), F sin(a) cos(b) in space
-            return right if len(swapped) > 1 and all(_circular(term) == 1 for term in terms(tree)) else None
+            return right if len(swapped) > 1 and all(_circular(term) == 1 for term in _terms(tree)) else None
         inside = any(wanted is n for f in swapped for _, n in walk(argument_of(f, *_OTHER) or f))
         sign = is_operation(wanted, *_KIN[0]) and is_operation(there, *_KIN[0])
         return right if inside and len(swapped) > (1 if sign else 2) else None
@@ -211,8 +212,8 @@ def _circular(tree: Node) -> int:
     return sum(function_of(n) in _OTHER for _, n in walk(tree))
 
 
-def terms(tree: Node) -> list[Node]:
-    """The terms of a sum, without their signs."""
+def _terms(tree: Node) -> list[Node]:
+    # of a sum, without their signs
     if is_operation(tree, ast.Add, ast.Sub):
-        return [*terms(tree.left), *terms(tree.right)]
+        return [*_terms(tree.left), *_terms(tree.right)]
     return [tree.operand] if isinstance(tree, ast.UnaryOp) else [tree]
