@@ -1,4 +1,4 @@
-"""What an equation has to be by those before it and the words between: solved for a letter, derived, reduced, worked."""
+"""What an equation has to be by those before it and the words between: solved for a letter, derived, reduced."""
 
 import ast
 import re
@@ -62,7 +62,7 @@ class Expected:
 
 
 def expected(world: World, order: int) -> Iterator[Expected]:
-    """What an equation may have to say: a derivative, an inertia, a torque or a frequency by the equations before it."""
+    """What an equation may have to say by those before it: a derivative, an inertia, a torque or a frequency."""
     said = world.paper.said[order]
     words = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))[-1]
     if len(said.sides) == 2 and not said.claim and not CUT_SHORT.search(words):

@@ -1,8 +1,8 @@
 """Equations that say of one part what another says of its twin: x_2 is x_1 with the letters of the other part.
 
 Two formulas of one shape, whose letters have another index, differ in what the letters of one are in the other. Where
-they differ in one thing more, a function, an operator or a letter that is elsewhere another, one of them has a slip. So it
-is where a letter has the other sign, theta + psi and theta - psi, and of projections on two axes, sines for cosines.
+they differ in one thing more, a function, an operator or a letter that is elsewhere another, one of them has a slip. So
+it is where a letter has the other sign, theta + psi and theta - psi, and of projections on two axes, sines for cosines.
 """
 
 import ast
