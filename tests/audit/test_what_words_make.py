@@ -252,3 +252,11 @@ def test_a_rate_in_time_takes_time_itself(tmp_path):
     text = "It swings by\n$$ r = A e^{-q t}\\sin(w t) $$\nThe derivative is\n$$ \\dot r = w A e^{-q t}\\cos(w t){} $$"
     assert _last(tmp_path, text.replace("{}", r" - q A e^{-q t}\sin(w t)"))["verdict"] == "exact"
     assert blamed(judged(tmp_path, text.replace("{}", ""), "text.md")) == []  # a term is left out, as weak damping lets
+
+
+def test_an_equation_of_mathematics_has_no_seconds(tmp_path):
+    text = "The angle of\n$$ z = \\sin y $$\nobeys\n$$ \\frac{dy}{dt} = -2 y t $$"
+    assert blamed(judged(tmp_path, text, "text.md")) == []
+    # a mass has a unit
+    text = "| $m$ | mass | kg |\n|---|---|---|\n| $q$ | mass flow | kg/s |\n\n$$ q = m t $$"
+    assert len(blamed(judged(tmp_path, text, "text.md"))) == 1

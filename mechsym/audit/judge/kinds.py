@@ -339,6 +339,11 @@ def letters_of(said: Said) -> Iterable[str]:
     return {n for side in said.sides for n in letters(side)}
 
 
+def _is_only_time(kinds: Kinds, letter: str) -> bool:
+    slope = slope_in(letter)
+    return letter in ("t", "dt") or kinds.of(slope.of if slope and slope.by == "t" else letter) in (None, PURE)
+
+
 def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list[Odd]:
     """Misfits that no letter of doubtful unit explains: a form of several, or a left side whose own unit is printed."""
     _, fitting = odd(kinds, said)
@@ -350,6 +355,8 @@ def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list
     for one in misfits:
         if len(one.said.sides) > 2 and not doubtful.isdisjoint(letters_of(one.said)):
             continue
+        if all(_is_only_time(kinds, n) for n in letters_of(one.said)):
+            continue  # y' = -2 y t of mathematics has no seconds
         left = one.said.sides[0]
         two = len(one.said.sides) == 2
         if two and "factor" not in one.why and any(kinds.is_lent(n) and n not in sure for n in letters_of(one.said)):
