@@ -260,3 +260,34 @@ def test_an_equation_of_mathematics_has_no_seconds(tmp_path):
     # a mass has a unit
     text = "| $m$ | mass | kg |\n|---|---|---|\n| $q$ | mass flow | kg/s |\n\n$$ q = m t $$"
     assert len(blamed(judged(tmp_path, text, "text.md"))) == 1
+
+
+CRANK = r"""| $\varphi$ | crank angle | rad |
+|---|---|---|
+| $\beta$ | angle of the rod | rad |
+| $\omega$ | angular velocity of the crank | rad/s |
+
+The crosshead is loaded by $F$, and the rod carries
+$$ S = \frac{F}{\cos\beta} $$
+The tangential force is
+$$ T = S\sin(\varphi+\beta) $$
+the radial force
+$$ K = S\cos(\varphi+\beta) $$
+and the torque
+$$ M = T r = F r\frac{\sin(\varphi+\beta)}{\cos\beta} $$"""
+
+
+def test_a_slip_is_told_where_it_stands_and_not_where_it_leads(tmp_path):
+    assert blamed(judged(tmp_path, CRANK, "text.md")) == []
+    rows = judged(tmp_path, CRANK.replace(r"\frac{F}{\cos\beta}", r"F\cos\beta"), "text.md")
+    assert blamed(rows) == [rows[0]] and rows[2]["verdict"] == "carried" and rows[3]["verdict"] == "exact"
+    assert same(rows[0]["correction"], r"\frac{F}{\cos\beta}") and "as corrected" in rows[3]["note"]
+
+
+def test_turns_a_minute_and_the_angular_speed_of_the_crank_are_one_thing(tmp_path):
+    text = "| $\\omega$ | angular velocity of the crank | rad/s |\n|---|---|---|\n| $M$ | torque | N m |\n\n"
+    text += "$$ x = r\\cos\\varphi $$\n\n$$ v = -r\\omega\\sin\\varphi $$\n\nWith the speed $n$ in 1/min the power is\n"
+    text += "$$ P = M\\omega = \\frac{\\pi n M}{30} $$"
+    assert _last(tmp_path, text)["verdict"] == "exact"
+    row = _last(tmp_path, text.replace("{30}", "{60}"))
+    assert row["verdict"] == "misprint" and same(row["correction"], r"\frac{\pi n M}{30}")

@@ -2,20 +2,23 @@
 
 import ast
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import product
 
-from mechsym.audit.hosts.judged import AGREES, Judged, passed, settled
+from mechsym.audit.hosts.judged import AGREES, UNTOLD, Judged, passed, settled
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved
+from mechsym.audit.judge.forms import known, readings, steady
 from mechsym.audit.judge.lagrangian import Energies
-from mechsym.audit.judge.primes import PRIMED, by_angle, is_slope, primed, rated, slope_of, stems_of
+from mechsym.audit.judge.primes import PRIMED, by_angle, is_slope, primed, slope_of, stems_of
 from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.sampled import alike, free, is_multiple, states, where_defined
+from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.twins import Twins
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.reader import AnyLetter, read_expression
@@ -72,17 +75,12 @@ class Judge:
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
                 return slip
-        if (follows := self._by_solving(order, said) or self._by_what_is_before(order, said)) is not None:
-            return follows
-        if (by_words := self._by_words(order, said)) is not None:
-            return by_words
-        if (as_twin := self._by_twin(order, said)) is not None:
-            return as_twin
+        for way in (self._by_solving, self._by_what_is_before, self._by_words, self._by_twin, self._by_later):
+            if (judged := way(order, said)) is not None:
+                return judged
         if of_units.id_of(said) in self.agreeing:
             return Judged(verdict=AGREES, matched="units", note=own.note)
-        return (
-            own if own.verdict else Judged(verdict="untestable", note="nothing in the text or a theory is told of it")
-        )
+        return own if own.verdict else UNTOLD
 
     def _met(self, order: int, said: Said) -> Judged | None:
         for fit in self.fits:
@@ -113,7 +111,7 @@ class Judge:
         if not self.energies.laws or len(said.sides) != 2:
             return None
         theory = self.world.theory(order)
-        sides = [by_angle(self._known(side, theory), theory) for side in said.sides]
+        sides = [by_angle(known(self.world, side, theory), theory) for side in said.sides]
         if not self.energies.tells(order, theory, sides):
             return None
         matched = "the text's energies"
@@ -147,19 +145,35 @@ class Judge:
                 return Judged(verdict=passed, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
                 right = read_expression(row["correction"], (), AnyLetter())[0]
-                if (
-                    not isinstance(said.sides[0], ast.Name)
-                    and is_operation(right, ast.Div)
-                    and value_of(right.left) == 1
-                ):
-                    right = right.right  # what stands on the right of 1/E
-                elif isinstance(said.sides[0], ast.Name):
+                gone = [k for k in letters(said.sides[k]) if k in self.wrong and k not in letters(right)]
+                if gone:
+                    return self._follows(gone)
+                if isinstance(said.sides[0], ast.Name):
                     self.wrong[said.sides[0].id] = (said.name, self.world.plain(said.sides[k]), self.world.plain(right))
+                elif is_operation(right, ast.Div) and value_of(right.left) == 1:
+                    right = right.right  # what stands on the right of 1/E
                 return Judged(
                     verdict="misprint", matched=row["claim"], note=row["note"], error=row["max_rel_error"],
                     correction=to_latex(right, self._spelled(said)),
                 )  # fmt: skip
         return None
+
+    def _by_later(self, order: int, said: Said) -> Judged | None:
+        # a definition with which two later equations miss what their words say by the same slip of this one
+        own = next((d for d in self.world.defined if d.order == order and d.side), None)
+        if own is None or len(said.sides) != 2 or said.claim:
+            return None
+        slips: dict[int, Judged] = {}
+        for place, printed, right, against in self.worded.blamed_on(own.letter):
+            meant = isolate(self.world.plain(printed), own.letter, self.world.plain(right))
+            row = None if meant is None else self._asked_of(self.world.bare, meant, own.tree, said)
+            slip = None if row is None else self._finding(row, said, said.sides[1], against)
+            slips |= {} if slip is None else {place: slip}
+        if len(slips) < 2 or len({slip.correction for slip in slips.values()}) > 1:
+            return None
+        others = ", ".join(dict.fromkeys(f"({self.world.paper.said[place].name})" for place in slips))
+        note = f"without it {others} is what its words say"
+        return replace(next(iter(slips.values())), matched="the text", note=note)
 
     def _by_solving(self, order: int, said: Said) -> Judged | None:
         # what the equation before it gives, where a word says that this is it
@@ -167,10 +181,10 @@ class Judge:
         if follows is None or CUT_SHORT.search(said.before):
             return None
         theory, (tree, place) = self.world.theory(order), follows
-        wanted, printed = self._known(tree, theory), self._known(said.sides[1], theory)
+        wanted, printed = known(self.world, tree, theory), known(self.world, said.sides[1], theory)
         source = self.world.paper.said[place].name
         try:
-            at = states(self._steady(theory, said))
+            at = states(steady(self.world, theory, said))
             if alike(at, wanted, printed):
                 return Judged(verdict="exact", matched="the text", note=f"follows from ({source})", error=0.0)
             if alike(at, wanted, negative(printed)):
@@ -256,14 +270,14 @@ class Judge:
     def _pair(self, order: int, said: Said, i: int, k: int) -> Judged:
         nothing = Judged(verdict="")
         theory = self.world.theory(order)
-        left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
+        left, right = known(self.world, said.sides[i], theory), known(self.world, said.sides[k], theory)
         if value_of(right) == 0 and value_of(left) is None and not (free(theory, left)):
             return nothing
         if any(self._is_still(n) for n in {*letters(left), *letters(right)}):
             return nothing
-        for first, second in self._readings(left, right, theory):
+        for first, second in readings(self.world, left, right, theory):
             try:
-                same = alike(states(self._steady(theory, said)), first, second)
+                same = alike(states(steady(self.world, theory, said)), first, second)
             except (BadInput, KeyError, RecursionError):
                 return nothing
             if same:
@@ -278,18 +292,9 @@ class Judge:
         known = {d.letter for d in self.world.defined}
         return letter not in known and any(stem in known and not self.world.turns(stem) for stem in stems)
 
-    def _readings(self, left: Node, right: Node, theory: Theory) -> Iterator[tuple[Node, Node]]:
-        # a prime is a derivative by the angle, or in time
-        angle = self.world.angle
-        for by in (Slope("{}", angle).name, "{}_d"):
-            yield primed(left, by, theory), primed(right, by, theory)
-
-    def _known(self, tree: Node, theory: Theory) -> Node:
-        return rated(self.world.plain(tree), theory)
-
     def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:
         nothing = Judged(verdict="")
-        left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
+        left, right = known(self.world, said.sides[i], theory), known(self.world, said.sides[k], theory)
         by = "{}_d" if f"{self.world.angle}d" in letters(right) else Slope("{}", self.world.angle).name
         left, right = primed(left, by, theory), primed(right, by, theory)
         first, second = free(theory, left), free(theory, right)
@@ -312,29 +317,24 @@ class Judge:
         return nothing
 
     def _believed(self, order: int, said: Said, i: int, k: int) -> Judged | None:
-        # right where earlier slips are believed
+        # what follows from an earlier slip as it is printed, or is right without it
         if not self.wrong:
             return None
-        for names in [*([w] for w in self.wrong), list(self.wrong)]:
-            theory = self.world.theory(order, {w: self.wrong[w][1] for w in names})
-            left, right = self._known(said.sides[i], theory), self._known(said.sides[k], theory)
-            for first, second in self._readings(left, right, theory):
+        for names, mended in product([*([w] for w in self.wrong), list(self.wrong)], (False, True)):
+            believed = {w: right if mended else printed for w, (_, printed, right) in self.wrong.items() if w in names}
+            theory = self.world.theory(order, believed)
+            left, right = known(self.world, said.sides[i], theory), known(self.world, said.sides[k], theory)
+            for first, second in readings(self.world, left, right, theory):
                 try:
-                    if alike(states(self._steady(theory, said)), first, second):
-                        return self._follows(names)
+                    same = alike(states(steady(self.world, theory, said)), first, second)
                 except (BadInput, KeyError, RecursionError):
                     continue
+                if same and mended:
+                    corrected = ", ".join(f"({self.wrong[w][0]})" for w in names)
+                    return Judged(verdict="exact", matched="the text", error=0.0, note=f"with {corrected} as corrected")
+                if same:
+                    return self._follows(names)
         return None
-
-    def _steady(self, theory: Theory, said: Said) -> Theory:
-        # at constant speed: with an omega, and in a text without an acceleration of the angle
-        rate = f"{self.world.angle}dd"
-        used = {n for side in said.sides for n in letters(side)}
-        constant = rate not in used and any(self.world.aliases.get(n) == f"{self.world.angle}d" for n in used)
-        if rate in self.world.used and not constant or rate not in theory.letters:
-            return theory
-        still = replace(theory.letters[rate], value=1e-300)
-        return replace(theory, letters={**theory.letters, rate: still})
 
     def _follows(self, names: Sequence[str]) -> Judged:
         sources = tuple(self.wrong[n][0] for n in names)
@@ -348,7 +348,7 @@ class Judge:
             if letter == own or source == said.name:
                 continue
             theory = self.world.theory(order, {letter: right})
-            trees = [self._known(s, theory) for s in said.sides]
+            trees = [known(self.world, s, theory) for s in said.sides]
             if len(trees) < 3 or not any(letter in letters(t) for t in trees):
                 continue
             try:

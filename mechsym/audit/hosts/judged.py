@@ -19,6 +19,9 @@ class Judged:
     follows: tuple[str, ...] = ()
 
 
+UNTOLD = Judged(verdict="untestable", note="nothing in the text or a theory is told of it")
+
+
 def passed(row: Row, matched: str) -> Judged:
     """The verdict of a formula that is right."""
     return Judged(verdict=row["verdict"], matched=matched, note=row["note"], error=row["max_rel_error"])

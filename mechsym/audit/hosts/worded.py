@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
 
@@ -10,8 +11,9 @@ from mechsym.audit.judge.lexicon import Lexicon
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.programs.claims import Claim
+from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.spelling import to_python
-from mechsym.audit.read.tree import binary, function_of, is_operation, letters, number, value_of, walk
+from mechsym.audit.read.tree import Node, binary, function_of, is_operation, letters, number, value_of, walk
 from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Theory
@@ -29,6 +31,7 @@ class Worded:
     world: World
     claims: dict[tuple[int, int], Claim] = field(default_factory=dict)  #: By place of the equation and its side
     neighbours: Neighbours | None = None
+    outcomes: dict[tuple[int, int], Row | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Every side of a letter's equation is a claim, the letter's name in the text its comment."""
@@ -76,11 +79,20 @@ class Worded:
 
     def outcome(self, order: int, side: int) -> Row | None:
         """What theories say of one side of an equation; None where they say nothing."""
-        claim = self.claims.get((order, side))
-        if claim is None or self.neighbours is None:
-            return None
-        row = self.neighbours.outcome(claim)
-        return row if row is not None and row["verdict"] in ("agrees", "misprint") else None
+        if (order, side) not in self.outcomes:
+            claim = self.claims.get((order, side))
+            row = self.neighbours.outcome(claim) if claim is not None and self.neighbours is not None else None
+            self.outcomes[order, side] = row if row is not None and row["verdict"] in ("agrees", "misprint") else None
+        return self.outcomes[order, side]
+
+    def blamed_on(self, letter: str) -> Iterator[tuple[int, Node, Node, str]]:
+        """Equations that another meaning of a letter would mend: place, what is printed, what is wanted, of what."""
+        for (order, side), claim in self.claims.items():
+            row = self.outcome(order, side) if letter in letters(claim.tree) and claim.name != letter else None
+            if row is not None and row["verdict"] == "misprint":
+                right = read_expression(row["correction"], (), AnyLetter())[0]
+                if letter not in letters(right):
+                    yield order, claim.tree, right, row["claim"]
 
 
 def _ruled_out(before: str) -> str:

@@ -35,7 +35,7 @@ from mechsym.audit.read.tree import (
     walk,
 )
 from mechsym.audit.theory.record import Letter, Theory
-from mechsym.audit.theory.tape import TheoryTape, times
+from mechsym.audit.theory.tape import TheoryTape, over, times
 from mechsym.quantities import record
 
 _OPAQUE = re.compile(r"integral\w{8}|constant|function")
@@ -86,8 +86,7 @@ class World:
         trees = [side for said in self.paper.said for side in said.sides]
         sines = [a for t in trees for _, n in walk(t) if (a := argument_of(n, "sin", "cos", "tan")) is not None]
         rates = {k for a in sines if "t" in letters(a) for k in letters(a) if k in SPEEDS}
-        used = {n for tree in trees for n in letters(tree)}
-        angle = next((a for a in ANGLES[1:] if a not in used), "")
+        angle = next((a for a in ANGLES[1:] if all(a not in letters(tree) for tree in trees)), "")
         if len(rates) != 1 or not angle:
             return
         rate = rates.pop()
@@ -243,13 +242,15 @@ class World:
 
     def _name_turns(self) -> None:
         # an angular speed that nothing gives, beside the one letter that counts turns
-        counted = [k for k, about in self.paper.named.items() if about.unit in ("1/s", "-/s", "rpm")]
-        counted = [k for k in counted if re.search(r"\b(?:rotational |engine )?speed$", self._phrase(k))]
-        known = {*self.aliases, *(d.letter for d in self.defined)}
-        if len(counted) == 1 and "omega" in self.used and "omega" not in known:
-            each = number(Fraction(1, 30) if counted[0] in self.kinds.turns else 2)
-            tree = times(times(each, name("pi")), name(counted[0]))
-            self.defined.append(Defined(order=-1, letter="omega", tree=tree))
+        a_second = {k for k, about in self.paper.named.items() if about.unit in ("1/s", "-/s")}
+        counted = sorted(k for k in self.kinds.turns | a_second if re.search("(?:speed|minute)$", self._phrase(k)))
+        if len(counted) != 1 or any(d.letter in (counted[0], "omega") for d in self.defined):
+            return
+        each = times(number(Fraction(1, 30) if counted[0] in self.kinds.turns else 2), name("pi"))
+        if crank := self.aliases.get("omega"):
+            self.defined.append(Defined(order=-1, letter=counted[0], tree=over(name(crank), each)))
+        elif "omega" in self.used:
+            self.defined.append(Defined(order=-1, letter="omega", tree=times(each, name(counted[0]))))
 
     def _called(self, word: str) -> list[str]:
         alike = {"travel": ("travel", "displacement", "position")}.get(word, (word,))

@@ -1,0 +1,34 @@
+"""An equation of a text in the forms in which its sides are compared."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from mechsym.audit.judge.primes import primed, rated
+from mechsym.audit.judge.world import World
+from mechsym.audit.read.said import Said
+from mechsym.audit.read.slopes import Slope
+from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.theory.record import Theory
+
+
+def known(world: World, tree: Node, theory: Theory) -> Node:
+    """A side under the names of the tape: dots, slopes by time, rates of the angle."""
+    return rated(world.plain(tree), theory)
+
+
+def readings(world: World, left: Node, right: Node, theory: Theory) -> Iterator[tuple[Node, Node]]:
+    """Both sides with a prime as a derivative by the angle, or in time."""
+    angle = world.angle
+    for by in (Slope("{}", angle).name, "{}_d"):
+        yield primed(left, by, theory), primed(right, by, theory)
+
+
+def steady(world: World, theory: Theory, said: Said) -> Theory:
+    """A theory at constant speed: with an omega, and in a text without an acceleration of the angle."""
+    rate = f"{world.angle}dd"
+    used = {n for side in said.sides for n in letters(side)}
+    constant = rate not in used and any(world.aliases.get(n) == f"{world.angle}d" for n in used)
+    if rate in world.used and not constant or rate not in theory.letters:
+        return theory
+    still = replace(theory.letters[rate], value=1e-300)
+    return replace(theory, letters={**theory.letters, rate: still})
