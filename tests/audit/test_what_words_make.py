@@ -22,6 +22,14 @@ def _last(tmp_path, text):
         ("heat", "J/kg", None),
         ("force per length", "N/m", None),
         ("relative pressure", "-", None),
+        ("polytropic exponent", "J/kg", "-"),
+        ("mechanical efficiency", "-", None),
+        ("second moment of area of the shank", "m^3", "m^4"),
+        ("moment of inertia per mass", "m^2", None),
+        ("moment of inertia", "kg m s^2", None),  # of technical units
+        ("acceleration of the frame", "g", None),
+        ("power", "N m", "W"),
+        ("heat", "W", None),  # in a time
     ],
 )
 def test_a_table_is_told_of_by_what_it_calls_a_letter(tmp_path, called, unit, wanted):
@@ -291,3 +299,8 @@ def test_turns_a_minute_and_the_angular_speed_of_the_crank_are_one_thing(tmp_pat
     assert _last(tmp_path, text)["verdict"] == "exact"
     row = _last(tmp_path, text.replace("{30}", "{60}"))
     assert row["verdict"] == "misprint" and same(row["correction"], r"\frac{\pi n M}{30}")
+
+
+def test_cross_coupled_stiffness_of_a_bearing_is_no_spring(tmp_path):
+    text = "The rotor moves by\n$$ m\\ddot x + k x + q y = 0 $$\n$$ m\\ddot y + k y - q x = 0 $$"
+    assert blamed(judged(tmp_path, text, "text.md")) == []

@@ -70,6 +70,9 @@ def _is_reciprocal(at: States, group: dict[int, str], whole: dict[int, Node]) ->
         if is_zero(one) and is_zero(other):
             continue
         if alike(at, one, negative(other)):
+            own = {*letters(rows[q][q]), *letters(rows[p][p])}
+            if not {*letters(one)} <= own:
+                return None  # cross-coupled, as by the oil of a bearing
             good = False
         elif not alike(at, one, other):
             return None

@@ -99,14 +99,15 @@ _FIXED = (
 def misnamed(letter: str, meaning: str, unit: str) -> str:
     """The unit of what is never measured in the one that the table has; empty where it is, or may be."""
     meaning, printed = meaning.lower(), tuple(dimension(unit or "-"))
-    for pattern, units in _FIXED:
-        if pattern.search(meaning):
-            right = not unit or any(printed == tuple(dimension(u)) for u in units)
-            return "" if right or printed == PURE else units[0]
     head = _PREPOSITION.split(meaning)[0]
-    usual = usual_unit(letter, head)
-    if not usual or printed == PURE or sum(word in KINDS for word in re.findall("[a-z]+", head)) > 1:  # pressure force
+    units = next((units for pattern, units in _FIXED if pattern.search(meaning)), ())
+    if not units:
+        usual = usual_unit(letter, head)
+        several = sum(word in KINDS for word in re.findall("[a-z]+", head)) > 1  # a pressure force
+        units = () if usual in ("", "-") or several else (usual,)
+    weight = unit == "g" and units[:1] == ("m/s^2",)  # an acceleration in those of falling
+    if not units or not unit or printed == PURE or weight or re.search(r"\bper\b", meaning):
         return ""
-    over = tuple(a - b for a, b in zip(printed, dimension(usual), strict=True))
-    left_open = any(over == tuple(dimension(by)) for by in ("-", *_OPEN, *_OPEN_OF.get(usual, ())))
-    return "" if left_open or usual == "-" else usual
+    over = [tuple(a - b for a, b in zip(printed, dimension(u), strict=True)) for u in units]
+    left_open = {tuple(dimension(by)) for by in ("-", *_OPEN, *_OPEN_OF.get(units[0], ()))}
+    return "" if any(o in left_open for o in over) else units[0]
