@@ -304,3 +304,29 @@ def test_turns_a_minute_and_the_angular_speed_of_the_crank_are_one_thing(tmp_pat
 def test_cross_coupled_stiffness_of_a_bearing_is_no_spring(tmp_path):
     text = "The rotor moves by\n$$ m\\ddot x + k x + q y = 0 $$\n$$ m\\ddot y + k y - q x = 0 $$"
     assert blamed(judged(tmp_path, text, "text.md")) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "printed"),
+    [
+        ("Without the rod the torque is", r"F r\sin\varphi"),
+        ("With a long rod the torque is nearly", r"F r(\sin\varphi + \frac{\lambda}{2}\sin 2\varphi)"),
+        ("On the second crank, 90 degrees ahead, the gas gives the torque", r"F r\cos\varphi"),
+        ("The torque of the weight of the crank is", r"W r\cos\varphi"),
+    ],
+)
+def test_torques_that_are_cut_short_or_of_another_crank_are_left_in_peace(tmp_path, words, printed):
+    text = (
+        "| $F$ | gas force | N |\n|---|---|---|\n| $r$ | crank radius | m |\n| $\\lambda$ | rod ratio $r/l$ | - |\n"
+        "| $l$ | rod length | m |\n\nThe piston moves by\n"
+        f"$$ x = r(1-\\cos\\varphi) + l(1-\\sqrt{{1-\\lambda^2\\sin^2\\varphi}}) $$\n\n{words}\n$$ M = {printed} $$"
+    )
+    assert blamed(judged(tmp_path, text, "text.md")) == []
+
+
+def test_an_exponent_is_no_speed_in_turns_a_minute(tmp_path):
+    text = (
+        "| $n$ | engine speed | rpm |\n|---|---|---|\n| $M$ | torque | N m |\n| $\\omega$ | angular speed | rad/s |\n\n"
+    )
+    text += "$$ P = M\\omega = \\frac{\\pi n M}{30} $$\n\n$$ p = p_0 z^n $$"
+    assert blamed(judged(tmp_path, text, "text.md")) == []

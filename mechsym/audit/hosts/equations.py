@@ -198,7 +198,6 @@ class Judge:
         return None if row is None else self._finding(settled(row), said, said.sides[1], "the text")
 
     def _by_what_is_before(self, order: int, said: Said) -> Judged | None:
-        # a loop that closes, and its rates; a reduced inertia
         slips = []
         for one in expected(self.world, order):
             theory = self.world.theory(order) if one.whole else self.world.bare
@@ -208,9 +207,12 @@ class Judge:
             except (BadInput, KeyError, RecursionError):
                 continue
             slips.append((theory, one))
-        rows = ((one, self._asked_of(theory, one.tree, one.printed, said)) for theory, one in slips)
-        told = (self._finding(settled(row), said, said.sides[not one.scaled], "the text") for one, row in rows if row)
-        return next((slip for slip in told if slip is not None), None)
+        for theory, one in slips:
+            row = self._asked_of(theory, one.tree, one.printed, said)
+            slip = self._finding(settled(row), said, said.sides[not one.scaled], "the text") if row else None
+            if slip or row and row["verdict"] in PASSED:  # what is cut short is no slip
+                return slip
+        return None
 
     def _by_twin(self, order: int, said: Said) -> Judged | None:
         # x_2 by x_1: of two that no theory knows the later one is told of

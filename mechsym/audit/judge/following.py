@@ -26,6 +26,7 @@ _SOLVED = re.compile(
 _DERIVED = re.compile(r"\b(?:differentiat\w+|(?:time )?derivatives?|derived by time)\b", re.IGNORECASE)
 _REDUCED = re.compile(r"\breduc(?:ed|tion|ing)\b|\b(?:equivalent|effective) (?:moment of )?inertia\b", re.IGNORECASE)
 _PUSHES = re.compile(r"\b(?:piston|gas|plunger|yoke|slider|crosshead)\b")
+_ELSEWHERE = re.compile(r"\b(?:second|third|other|ahead|behind|degrees|leads?|lags?)\b|°|\\circ")  # at another angle
 _TORQUE = re.compile(r"\btorque\b|\bmoment\b(?! of)", re.IGNORECASE)
 CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
 _BEFORE = 6  # equations in front of one that it may be the derivative of
@@ -71,9 +72,11 @@ def expected(world: World, order: int) -> Iterator[Expected]:
             yield Expected(tree=tree, printed=said.sides[0], note=note, scaled=True)
         if _DERIVED.search(words):
             yield from _differentiated(world, order, said)
-        if _TORQUE.search(words) or _TORQUE.search(world.paper.called.get(getattr(said.sides[0], "id", ""), "")):
+        left = getattr(said.sides[0], "id", "")
+        of_torque = _TORQUE.search(words) or _TORQUE.search(world.paper.called.get(left, ""))
+        if of_torque and not _ELSEWHERE.search(words) and not re.search(r"[2-9]$", left):
             yield from _by_virtual_work(world, order, said)
-        if function_of(said.sides[1]) == "sqrt" and getattr(said.sides[0], "id", "").startswith(SPEEDS):
+        if function_of(said.sides[1]) == "sqrt" and left.startswith(SPEEDS):
             yield from _natural(world, order, said)
         if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
             yield from _reduced(world, order, said)

@@ -265,9 +265,14 @@ def _kind(kinds: Kinds, tree: Node) -> Kind | None:
 def _numbers_of_turns(kinds: Kinds, said: Sequence[Said]) -> None:
     # N/60 in two equations, or wherever it stands: N counts revolutions a minute, and is sixty times its value in all
     for letter in kinds.turns:
-        uses = [one for one in said if letter in letters_of(one)]
+        uses = [one for one in said if letter in letters_of(one) and not _is_exponent(one, letter)]
         if (count := sum(converted(one, letter) for one in uses)) > 1 or count == len(uses):
             kinds.printed[letter] = (*kinds.printed[letter][:4], Fraction(1), Fraction(0))
+
+
+def _is_exponent(said: Said, letter: str) -> bool:
+    powers = [n for side in said.sides for _, n in walk(side) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Pow)]
+    return any(letter in letters(power.right) for power in powers)
 
 
 def _sum(tree: Node) -> list[Node]:

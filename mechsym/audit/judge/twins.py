@@ -79,7 +79,7 @@ class Twins:
         self.places, self.axes = defaultdict(dict), []
         lefts: dict[str, int] = {}
         for place, said in enumerate(self.world.paper.said):
-            left = said.sides[0] if len(said.sides) == 2 else None
+            left = said.sides[0] if len(said.sides) == 2 and not said.claim else None
             if isinstance(left, ast.Name) and (match := _INDEXED.fullmatch(left.id)):
                 self.places[match[1]][place] = match[2]
             if isinstance(left, ast.Name) and not said.inline:
@@ -112,6 +112,8 @@ class Twins:
         torn = [letter for letter, seen in meant.items() if len(seen) > 1]
         same = all(next(iter(seen)) == ast.dump(name(letter)) for letter, seen in meant.items())
         if len(torn) + len(beside.other) != 1 or same or any(len(meant[letter]) > 2 for letter in torn):
+            return None
+        if not all(_akin(*pair) for pair in beside.other):
             return None
         targets = {letter: pairs[0][1] for letter, pairs in beside.meant.items()}
         for letter in torn:
@@ -196,6 +198,11 @@ def _but_one(wanted: Node, printed: Node) -> Node | None:
 
 def _with_other_sign(letter: str, node: Node) -> Node | None:
     return negative(node) if isinstance(node, ast.Name) and node.id == letter else None
+
+
+def _akin(one: Node, two: Node) -> bool:
+    # of one kind, or a part that has lost or gained something
+    return type(one) is type(two) or ast.dump(one) in ast.dump(two) or ast.dump(two) in ast.dump(one)
 
 
 def _weight(tree: Node) -> int:
