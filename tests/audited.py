@@ -31,6 +31,16 @@ def blamed(rows):
     return [row for row in rows if row["verdict"] in FINDINGS]
 
 
+def is_told(tmp_path, right, printed, line):
+    """Whether that line of a text alone is blamed (None: no line), and corrected as the right text has it."""
+    assert blamed(judged(tmp_path, right, "text.md")) == []
+    rows = blamed(judged(tmp_path, printed, "text.md"))
+    if line is None or [row["line"] for row in rows] != [line]:
+        return line is None and rows == []
+    left, _, other = right.split("\n")[line - 1].strip("$ ").partition("=")
+    return same(rows[0]["correction"], left if other.strip() == "0" else other)  # of a motion the side that moves
+
+
 def same(one, other):
     """Whether two formulas of LaTeX are one at random values of their letters."""
     plain = (text.replace(r"\delta", r"{\delta}") for text in (one, other))  # not the small change of what follows

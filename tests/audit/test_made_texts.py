@@ -1,5 +1,6 @@
 """Made texts of mechanics with planted slips: each is found and rightly corrected, and nothing else is blamed."""
 
+import re
 import tomllib
 from pathlib import Path
 
@@ -39,6 +40,8 @@ def test_planted_slips_are_found_and_nothing_else_is_blamed(name):
         right = wanted[row["line"]]
         assert right == "units" or same(row["correction"], right), row["correction"]
     assert cover.equations - cover.read == planted.get("unread", 0)
+    letters = {letter for row in rows for letter in re.findall(r"the table has (\w+) in", row["note"])}
+    assert letters == set(planted.get("table", ()))  # whose unit there is wrong
     # what is missed stands there, and is read
     missed = {int(line) for line in planted.get("missed", {})}
     assert missed.isdisjoint(wanted) and missed <= {row["line"] for row in rows if row["read"]}

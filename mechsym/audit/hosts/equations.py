@@ -139,13 +139,13 @@ class Judge:
             row = self.worded.outcome(order, k) if self.searches > 0 else None
             self.searches -= row is not None and row["verdict"] != "agrees"
             if row is not None and row["verdict"] == "agrees":
-                passed, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
+                verdict, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
                 if row.get("order") == 1 and not (said.claim or CUT_SHORT.search(said.before)):
                     continue  # so short it may be another thing of that name
-                return Judged(verdict=passed, matched=row["claim"], note=row.get("note", ""), error=error)
+                return Judged(verdict=verdict, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
                 right = read_expression(row["correction"], (), AnyLetter())[0]
-                gone = [k for k in letters(said.sides[k]) if k in self.wrong and k not in letters(right)]
+                gone = [n for n in letters(said.sides[k]) if n in self.wrong and n not in letters(right)]
                 if gone:
                     return self._follows(gone)
                 if isinstance(said.sides[0], ast.Name):
@@ -170,10 +170,10 @@ class Judge:
             slip = None if row is None else self._finding(row, said, said.sides[1], against)
             slips |= {} if slip is None else {place: slip}
         if len(slips) < 2 or len({slip.correction for slip in slips.values()}) > 1:
+            self.wrong.pop(own.letter, None)
             return None
         others = ", ".join(dict.fromkeys(f"({self.world.paper.said[place].name})" for place in slips))
-        note = f"without it {others} is what its words say"
-        return replace(next(iter(slips.values())), matched="the text", note=note)
+        return replace(slips[min(slips)], matched="the text", note=f"without it {others} is what its words say")
 
     def _by_solving(self, order: int, said: Said) -> Judged | None:
         # what the equation before it gives, where a word says that this is it
@@ -291,8 +291,8 @@ class Judge:
     def _is_still(self, letter: str) -> bool:
         # a rate of what the text says elsewhere without time or angle: there it was a state of rest
         stems = [] if letter in self.world.paper.named else stems_of(letter)
-        known = {d.letter for d in self.world.defined}
-        return letter not in known and any(stem in known and not self.world.turns(stem) for stem in stems)
+        given = {d.letter for d in self.world.defined}
+        return letter not in given and any(stem in given and not self.world.turns(stem) for stem in stems)
 
     def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:
         nothing = Judged(verdict="")

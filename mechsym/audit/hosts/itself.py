@@ -22,7 +22,7 @@ from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.repair.rules import CIRCULAR
 from mechsym.audit.row import Row
 from mechsym.audit.theory.record import Letter, Theory
-from mechsym.audit.theory.tape import TheoryTape, derivative
+from mechsym.audit.theory.tape import TheoryTape, slope_by
 from mechsym.audit.verdict import PASSED
 from mechsym.errors import BadInput
 
@@ -76,7 +76,7 @@ def _derived(whole: Node, slope: Node, by: str, called: str, of: str) -> Row | N
     if by not in letters(whole):
         return None
     try:
-        rate = derivative(with_safe_names(whole), lambda k: trees.number(int(k == safe(by))))
+        rate = slope_by(with_safe_names(whole), safe(by))
         theory = itself(whole, of_itself=with_safe_names(whole), slope=rate)
         printed = with_safe_names(slope)
         trees.check(printed)

@@ -15,7 +15,7 @@ from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import SPEEDS
 from mechsym.audit.read.tree import Node, call, function_of, is_operation, letters, name, negative, number, renamed
 from mechsym.audit.theory.record import dependencies
-from mechsym.audit.theory.tape import derivative, is_zero, minus, over, times
+from mechsym.audit.theory.tape import derivative, is_zero, minus, over, slope_by, times
 from mechsym.quantities import record
 
 _SOLVED = re.compile(
@@ -113,14 +113,10 @@ def _natural(world: World, order: int, said: Said) -> Iterator[Expected]:
             continue
         whole = minus(*source.sides)
         for rate in (k for k in letters(whole) if k.endswith("dd")):
-            mass, stiffness = (_slope(whole, k) for k in (rate, rate[:-2]))
+            mass, stiffness = (slope_by(whole, k) for k in (rate, rate[:-2]))
             if {*letters(mass), *letters(stiffness)} == {*letters(printed)} and not is_zero(mass):
                 tree = call("sqrt", over(stiffness, mass))
                 yield Expected(tree=tree, printed=printed, note=f"by the coefficients of ({source.name})")
-
-
-def _slope(tree: Node, letter: str) -> Node:
-    return derivative(tree, lambda k: number(int(k == letter)))
 
 
 def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:

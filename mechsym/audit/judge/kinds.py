@@ -14,7 +14,7 @@ from fractions import Fraction
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import SYMBOLS
-from mechsym.audit.read.tree import Node, argument_of, function_of, letters, value_of, walk
+from mechsym.audit.read.tree import Node, argument_of, function_of, is_operation, letters, value_of, walk
 from mechsym.audit.read.units import misnamed, usual_unit
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
@@ -245,7 +245,7 @@ def kinds_of(paper: Text) -> Kinds:
 def _infer(kinds: Kinds, said: Said) -> None:
     # the letter that an equation defines, or one over it, where its other side is known
     left = said.sides[0] if said.sides else None
-    over = isinstance(left, ast.BinOp) and isinstance(left.op, ast.Div) and value_of(left.left) == 1
+    over = left is not None and is_operation(left, ast.Div) and value_of(left.left) == 1
     letter = left.right if over and isinstance(left, ast.BinOp) else left
     if not isinstance(letter, ast.Name) or kinds.of(letter.id) is not None:
         return
@@ -271,7 +271,7 @@ def _numbers_of_turns(kinds: Kinds, said: Sequence[Said]) -> None:
 
 
 def _is_exponent(said: Said, letter: str) -> bool:
-    powers = [n for side in said.sides for _, n in walk(side) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Pow)]
+    powers = [n for side in said.sides for _, n in walk(side) if is_operation(n, ast.Pow)]
     return any(letter in letters(power.right) for power in powers)
 
 
@@ -352,8 +352,8 @@ def _is_only_time(kinds: Kinds, letter: str) -> bool:
 def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list[Odd]:
     """Misfits that no letter of doubtful unit explains: a form of several, or a left side whose own unit is printed."""
     _, fitting = odd(kinds, said)
-    told = [one for one in said if id_of(one) in fitting and getattr(one.sides[0], "id", "") not in kinds.inferred]
-    sure = {n for one in told for n in letters_of(one)}
+    agreeing = [one for one in said if id_of(one) in fitting and getattr(one.sides[0], "id", "") not in kinds.inferred]
+    sure = {n for one in agreeing for n in letters_of(one)}
     lent = {getattr(one.said.sides[0], "id", "") for one in misfits}
     doubtful = {n for n in lent if kinds.is_lent(n)}  # M_b beside a mass M is a moment
     kept = []

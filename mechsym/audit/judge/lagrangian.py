@@ -17,7 +17,7 @@ from mechsym.audit.read.lagrange import LagrangeEquation, Term, plain_letter
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.tree import Node, binary, is_operation, letters, name, negative, number, substitute, value_of
 from mechsym.audit.theory.record import Theory, dependencies
-from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, times
+from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, slope_by, times
 from mechsym.quantities import record
 
 _INDEX = re.compile(r"(\w+?)_?([ijkrs])$")
@@ -56,7 +56,7 @@ class Energies:
                 if len(said.sides) != 2 or not isinstance(said.sides[0], ast.Name) or said.sides[0].id != law.acts:
                     continue
                 for q in self.world.coordinates:
-                    before, wanted = (_slope(tree, f"{q}dd") for tree in (said.sides[1], law.residual))
+                    before, wanted = (slope_by(tree, f"{q}dd") for tree in (said.sides[1], law.residual))
                     if isinstance(before, ast.Name) and before.id in defined:
                         self.shares[before.id] = wanted
 
@@ -147,10 +147,6 @@ def _within(theory: Theory, tree: Node, known: set[str]) -> Node:
     return tree if free(theory, tree) <= known else number(0)
 
 
-def _slope(tree: Node, letter: str) -> Node:
-    return derivative(tree, lambda k: number(int(k == letter)))
-
-
 def laws(world: World) -> list[MotionLaw]:
     """What the Lagrange equations of a text come to for its coordinates."""
     printed = [(order, said.law) for order, said in enumerate(world.paper.said) if said.law is not None]
@@ -183,7 +179,7 @@ def _of(world: World, order: int, printed: LagrangeEquation) -> Iterator[MotionL
             whole = _whole(theory, world.coordinates, term.of)
             if whole is None:
                 return
-            part = _slope(whole, by)
+            part = slope_by(whole, by)
             part = derivative(part, lambda k: _rate(theory, world.coordinates, k)) if term.timed else part
             residual = (minus if term.sign < 0 else plus)(residual, part)
         if not is_zero(residual) and f"{q}dd" in theory.letters:
@@ -221,7 +217,7 @@ def _whole(theory: Theory, coordinates: frozenset[str], letter: str, depth: int 
             inner[k] = _whole(theory, coordinates, k, depth + 1)
         elif theory.angle and (slope := slope_in(k, theory.angle)) and slope.integrated in theory.tape:
             of = _whole(theory, coordinates, slope.integrated, depth + 1)
-            inner[k] = None if of is None else _slope(of, theory.angle)
+            inner[k] = None if of is None else slope_by(of, theory.angle)
         elif k.endswith("d") and k not in theory.letters and stem in theory.tape:
             of = _whole(theory, coordinates, stem, depth + 1)
             inner[k] = None if of is None else derivative(of, lambda one: _rate(theory, coordinates, one))
@@ -237,7 +233,7 @@ def accelerations(every: Sequence[MotionLaw], used: set[str]) -> Mapping[str, No
         return {}
     rates = [f"{law.coordinate}dd" for law in every]
     rows = [law.vanishing(used) for law in every]
-    matrix = [[_slope(row, rate) for rate in rates] for row in rows]
+    matrix = [[slope_by(row, rate) for rate in rates] for row in rows]
     rest = [substitute(row, lambda n: number(0) if isinstance(n, ast.Name) and n.id in rates else None) for row in rows]
     if size == 1:
         return {rates[0]: negative(over(rest[0], matrix[0][0]))}
@@ -252,7 +248,7 @@ def accelerations(every: Sequence[MotionLaw], used: set[str]) -> Mapping[str, No
 def scaled(law: MotionLaw, printed: Node, used: set[str]) -> Node:
     """What an equation has to come to, whose author divided it by what stands before the acceleration."""
     rate = f"{law.coordinate}dd"
-    own, theirs = (_slope(tree, rate) for tree in (law.residual, printed))
+    own, theirs = (slope_by(tree, rate) for tree in (law.residual, printed))
     whole = law.vanishing(used)
     return whole if is_zero(own) or is_zero(theirs) else binary(ast.Mult, whole, over(theirs, own))
 

@@ -2,12 +2,13 @@
 
 import ast
 from collections.abc import Iterator
+from itertools import combinations
 
 from mechsym.audit.judge.sampled import States, alike, states
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
-from mechsym.audit.read.tree import Node, binary, is_operation, letters, negative, number
-from mechsym.audit.theory.tape import derivative, is_zero, minus
+from mechsym.audit.read.tree import Node, binary, is_operation, letters, negative
+from mechsym.audit.theory.tape import is_zero, minus, slope_by
 
 _OTHER: dict[type[ast.operator], type[ast.operator]] = {ast.Add: ast.Sub, ast.Sub: ast.Add}
 
@@ -50,22 +51,18 @@ def _acceleration(said: Said) -> str:
     return rates.pop().removesuffix("dd") if len(rates) == 1 and len(said.sides) == 2 else ""
 
 
-def _slope(tree: Node, letter: str) -> Node:
-    return derivative(tree, lambda k: number(int(k == letter)))
-
-
 def _is_reciprocal(at: States, group: dict[int, str], whole: dict[int, Node]) -> bool | None:
     # None where nothing can be said: not linear, or one equation is divided by something
     moving = set(group.values())
-    rows = {q: {p: _slope(whole[place], p) for p in moving} for place, q in group.items()}
-    masses = [_slope(whole[place], f"{q}dd") for place, q in group.items()]
+    rows = {q: {p: slope_by(whole[place], p) for p in moving} for place, q in group.items()}
+    masses = [slope_by(whole[place], f"{q}dd") for place, q in group.items()]
     every = [*masses, *(entry for row in rows.values() for entry in row.values())]
     if any(not moving.isdisjoint(letters(entry)) for entry in every) or any(map(is_zero, masses)):
         return None
     if not all((at.value(mass) > 0).all() for mass in masses):
         return None
     good = all((at.value(row[q]) > 0).all() for q, row in rows.items())
-    for q, p in ((q, p) for q in moving for p in moving if q < p):
+    for q, p in combinations(sorted(moving), 2):
         one, other = rows[q][p], rows[p][q]
         if is_zero(one) and is_zero(other):
             continue

@@ -158,9 +158,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
 
     before: the text up to the equation. alone: whether it gives one thing.
     """
-    words = OPENED.sub("", before).rstrip(" \n:;.,")
-    spoken = _SENTENCE.split(words)[-1]
-    sentence = " ".join(_UNWORDED.sub(" ", spoken).split())
+    words, spoken, sentence = _sentence(before)
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
@@ -197,10 +195,16 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     return phrase, phrase or tail
 
 
+def _sentence(before: str) -> tuple[str, str, str]:
+    # what stands in front of an equation, its last sentence as it is printed, and its words alone
+    whole = OPENED.sub("", before).rstrip(" \n:;.,")
+    spoken = _SENTENCE.split(whole)[-1]
+    return whole, spoken, " ".join(_UNWORDED.sub(" ", spoken).split())
+
+
 def listed(before: str, count: int) -> list[str]:
     """What a sentence says that several equations give, one name for each: `The side force and the torque are`."""
-    spoken = OPENED.sub("", before).rstrip(" \n:;.,")
-    sentence = " ".join(_UNWORDED.sub(" ", _SENTENCE.split(spoken)[-1]).split())
+    *_, sentence = _sentence(before)
     bare = re.sub(r"\s+are$", "", sentence)
     parts = re.split(r"\s*,\s*(?:and\s+)?|\s+and\s+", bare)
     if bare == sentence or len(parts) != count:

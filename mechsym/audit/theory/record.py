@@ -11,9 +11,9 @@ import numpy as np
 
 from mechsym.audit.read.algebra import DIGITS, FLOATS, SYMBOLS, Algebra, Values, evaluate
 from mechsym.audit.read.reader import CONSTANTS, read_expression
-from mechsym.audit.read.tree import Node, children, function_of, letters, number, walk
+from mechsym.audit.read.tree import Node, children, function_of, letters, walk
 from mechsym.audit.theory.ranges import harmonic, ranged
-from mechsym.audit.theory.tape import Entry, Harmonic, Ranged, Root, TheoryTape, derivative, needed
+from mechsym.audit.theory.tape import Entry, Harmonic, Ranged, Root, TheoryTape, needed, slope_by
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
 
@@ -24,7 +24,7 @@ def root(entry: Root, names: dict[str, Values], algebra: Algebra) -> Values:
     """Values of the unknown at all states, in its unit; nan where Newton's method does not converge."""
     if algebra is SYMBOLS:
         raise BadInput("a root of an equation is decided by its digits alone")
-    slope = derivative(entry.equation, lambda k: number(int(k == entry.unknown)))
+    slope = slope_by(entry.equation, entry.unknown)
     start = evaluate(entry.start, names, algebra)
     floats = {k: np.asarray(v, dtype=float) for k, v in names.items()}
     solution = _newton(entry, slope, floats, np.asarray(start, dtype=float), FLOATS, _STEPS)

@@ -29,6 +29,11 @@ from mechsym.quantities import record
 Rate = Callable[[str], Node]  # of a letter or a name
 
 
+def slope_by(tree: Node, letter: str) -> Node:
+    """Partial derivative of an expression by one of its letters."""
+    return derivative(tree, lambda k: number(int(k == letter)))
+
+
 def derivative(tree: Node, rate: Rate) -> Node:
     """Derivative of an expression whose letters have given rates."""
     if isinstance(tree, ast.Constant):
@@ -238,7 +243,7 @@ class TheoryTape(Mapping[str, Entry]):
             return self._under_integral(entry, rate) if entry.kind == "integral" and entry.by not in self.free else None
         if isinstance(entry, Root):
             inside = derivative(entry.equation, lambda k: number(0) if k == entry.unknown else rate(k))
-            across = derivative(entry.equation, lambda k: number(int(k == entry.unknown)))
+            across = slope_by(entry.equation, entry.unknown)
             return negative(over(inside, across)) if not is_zero(inside) else number(0)
         if isinstance(entry, (tuple, Harmonic)):
             return None
