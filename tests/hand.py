@@ -31,7 +31,7 @@ LIMIT = 60  # time of a row by the clock [s]
 EXAMPLES = TESTS.parent / "examples"
 OWN = (EXAMPLES / "mechanisms", EXAMPLES / "space", TESTS / "plausible" / "own")
 NAMES = ("hand", "peers", "trackers", "office", "laws", "shop")
-NAMES += ("field", "yard", "depot", "hall", "annex", "garage", "wharf", "quay")
+NAMES += ("field", "yard", "depot", "hall", "annex", "garage", "wharf", "quay", "pier")
 LISTS = {name: tomllib.loads((TESTS / "plausible" / f"{name}.toml").read_text()) for name in NAMES}
 
 

@@ -24,6 +24,7 @@ from mechsym.plausible import Doubt, proportion
 NOTHING = 1e-12  #: Lever of a force [m], or share of a torque, that is rounding
 _SEEN = 0.2  # of a period: five results show a vibration
 _SHORT = 0.01  # of a run, that a result is apart from the next at the most
+_BACK = 1e-9  # of a place that a turn brings back [m]
 _STATES = 200  # of a run, at which forces are compared
 
 
@@ -41,12 +42,22 @@ def of_start(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]
     acts = {name: acting for name, acting in acts.items() if acting and isinstance(acting, float)}
     at = {name: float(column[0]) for name, column in columns.items()} | acts
     listing = plan_of(case.mechanism).listing(None)
-    if listing.get("springs"):
+    if listing.get("springs") or listing.get("weight") and not acts:  # what is driven hardly swings by its weight
         yield from _swinging(case, mechanism, at, columns)
+    yield from _still(listing["parameters"], mechanism, columns)
     for spring in listing.get("stretches", ()):
         yield from _stretched(spring, listing["parameters"], mechanism, columns)
     yield from of_inertia(case, mechanism, at)
     yield from _acting(acts, mechanism, columns)
+
+
+def _still(units: Mapping[str, str], mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
+    """How far the coordinate goes that goes farthest, by a radian, or by the longest letter in metres."""
+    lengths = [abs(mechanism.parameters[name]) for name, unit in units.items() if unit == "m"]
+    by = {"rad": 1.0, "m": max(lengths, default=0.0) or 1.0}
+    going = {q: by.get(mechanism.units.get(q, "rad"), 0.0) for q in mechanism.coordinates}
+    ways = [float(np.nanmax(np.abs(columns[q] - columns[q][0]))) / scale for q, scale in going.items() if scale]
+    yield from proportion("still_run", "farthest way of a coordinate / (a radian, or the longest letter)", max(ways))
 
 
 def _acting(acts: Mapping[str, float], mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
@@ -137,12 +148,21 @@ def _swinging(
 
 
 def of_inertia(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Iterator[Doubt]:
-    """What turns with an angle by the masses that the angle moves on, at the angle where these are most.
+    """What turns with an angle by the masses that the angle moves on, at the angle where these are most; but for what
+    goes round its own axis, whose unbalance says nothing of its size.
 
     at: coordinates of the state, by their names; those that it does not name are 0 [SI].
     """
-    form, units = form_of(mechanism), plan_of(case.mechanism).listing(None)["parameters"]
-    massless = {name: 0.0 for name, unit in units.items() if unit == "kg*m^2"}
+    form, listing = form_of(mechanism), plan_of(case.mechanism).listing(None)
+    still = {**mechanism.parameters, **dict.fromkeys(mechanism.coordinates, 0.0)}
+
+    def goes_round(angle: str, place: Sequence[str]) -> bool:
+        ways = [abs(value_of(x, {**still, angle: math.tau}) - value_of(x, still)) for x in place]
+        return bool(ways) and angle in still and max(ways) < _BACK
+
+    own_axis = {inertia for _, inertia, angle, *place in listing.get("solids", ()) if goes_round(angle, place)}
+    units = listing["parameters"]
+    massless = {name: 0.0 for name, unit in units.items() if unit == "kg*m^2" and name not in own_axis}
     if form is None or not massless:
         return
     bare = form.bound({**mechanism.parameters, **massless})

@@ -33,6 +33,8 @@ _OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its join
 _MIDDLE = 0.25  # how far the centre of a bar is from the middle of its joints, by its length [-]
 _SWINGS = 8.0  # inertia of what swings about its joint by mass and the longest link squared [-]
 _CARRIES = 5.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+_DEEP = 3.0  # how far a link goes along its axis, by the longest link [-]
+_BURSTS = 300.0  # speed of the radius of gyration at which discs of steel burst [m/s]
 _BEHIND_GEARS = 1e4  # inertia of a load by that of its motor, seen through the gear [-]
 
 STEP, PLACES = 1e-4, tuple(k * math.pi / 6 for k in range(12))  # of a slope, and where it is taken [rad]
@@ -59,7 +61,7 @@ def by_links(
     acts = {q: "N*m" for q, unit in listing["coordinates"].items() if unit == "rad"} | dict(listing["inputs"])
     longest = max((_length(link, letters) for link in links), default=0.0)
     moving = sum(value_of(link["mass"], letters) for link in links)
-    of_links = (doubt for link in links for doubt in _of(link, letters, speeds, rotors, (longest, moving)))
+    of_links = (doubt for link in links for doubt in _judged(link, letters, speeds, rotors, (longest, moving)))
     pushes, turns = ([abs(given) for name, given in inputs.items() if acts.get(name) == unit] for unit in ("N", "N*m"))
     forces = max(pushes, default=0.0), max(turns, default=0.0)
     slides = "m" in listing["coordinates"].values()
@@ -73,7 +75,7 @@ def by_links(
         *_masses(links, letters, units, slides, rotors),
         *_stress(links, letters, *forces),
         *_carried(listing, letters, speeds),
-        *_solids(listing, letters, rotors),
+        *_solids(listing, letters, speeds, rotors),
         *_turning(listing, letters, forces[1], spread if links else 1.0),
     )
     for doubt in (*of_links, *together):
@@ -113,26 +115,39 @@ def _carried(listing: "Listing", letters: Mapping[str, float], speeds: Mapping[s
         yield from proportion("point_speed", f"speed of {name}", fastest)
 
 
-def _solids(listing: "Listing", letters: Mapping[str, float], rotors: Collection[str]) -> Iterator[Doubt]:
-    """Inertias of bodies that are no links by their mass and the longest letter squared."""
+def _solids(
+    listing: "Listing", letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str]
+) -> Iterator[Doubt]:
+    """Bodies that are no links: the speed of their radius of gyration, and their inertia by their mass and the longest
+    letter squared, or the edge of their cube of steel where that is longer, as beside an unbalance.
+    """
     longest = max((abs(letters[name]) for name, unit in listing["parameters"].items() if unit == "m"), default=0.0)
-    for mass, inertia, angle in listing.get("solids", ()) if longest > 0 else ():
+    for mass, inertia, angle, *_ in listing.get("solids", ()) if longest > 0 else ():
         weighed, turned = value_of(mass, letters), value_of(inertia, letters)
+        if not (weighed > 0 and turned > 0):
+            continue
         yield from _thin(inertia, weighed, turned)
-        ratio = turned / (weighed * longest**2)
+        if angle in speeds:
+            about, radius = f"speed of {angle}d at the radius sqrt({inertia}/{mass})", math.sqrt(turned / weighed)
+            yield from proportion("point_speed", about, abs(speeds[angle]) * radius, _BURSTS)
+        edge = (weighed / _STEEL) ** (1 / 3)
+        ratio, of = (
+            turned / (weighed * max(longest, edge) ** 2),
+            "longest letter" if longest > edge else "edge in steel",
+        )
         if ratio > 1:
-            what = f"inertia {inertia} / ({mass} * (longest letter)^2)"
+            what = f"inertia {inertia} / ({mass} * ({of})^2)"
             yield from proportion("link_inertia", what, ratio, _WHEEL if angle in rotors else _SWINGS)
 
 
-def _thin(of: str, mass: float, inertia: float) -> Iterator[Doubt]:
+def _thin(of: str, mass: float, inertia: float, high: float | None = None) -> Iterator[Doubt]:
     r"""How long a shaft of steel is that has a mass and an inertia about its axis: no body is a thread.
 
     .. math:: L = \frac{m^2}{2\pi\rho I}
     """
     if mass > 0 and inertia > 0:
         what = f"length of a steel shaft with the mass and the inertia of {of}"
-        yield from proportion("shaft_length", what, mass**2 / (2 * math.pi * _STEEL * inertia))
+        yield from proportion("shaft_length", what, mass**2 / (2 * math.pi * _STEEL * inertia), high)
 
 
 def _turning(listing: "Listing", letters: Mapping[str, float], torque: float, longer: float) -> Iterator[Doubt]:
@@ -266,6 +281,17 @@ def _swinging(listing: "Listing", letters: Mapping[str, float]) -> Iterator[Doub
 _OfAll = tuple[float, float]  # longest link [m], and what all weigh [kg]
 
 
+def _judged(
+    link: Json, letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str], all_: _OfAll
+) -> Iterator[Doubt]:
+    """All doubts of a link; its depth only where no other law has told of its inertia."""
+    doubts = [*_of(link, letters, speeds, rotors, all_)]
+    yield from doubts
+    if not {doubt.code for doubt in doubts} & {"link_inertia", "link_needle"}:
+        mass, inertia = (value_of(link[name], letters) for name in ("mass", "inertia"))
+        yield from _thin(link["name"], mass, inertia, None if link["turns"] in rotors else _DEEP * all_[0] or None)
+
+
 def _of(
     link: Json, letters: Mapping[str, float], speeds: Mapping[str, float], rotors: Collection[str], all_: _OfAll
 ) -> Iterator[Doubt]:
@@ -273,7 +299,6 @@ def _of(
     points = [_point(pair, letters) for pair in link["points"]]
     length = _length(link, letters)
     mass, inertia = (value_of(link[name], letters) for name in ("mass", "inertia"))
-    yield from _thin(name, mass, inertia)
     if length <= 0:
         return
     if len(points) == 1:  # its size is that of its centre's distance: a disc beside its axis is wider, a bob thinner

@@ -197,6 +197,8 @@ class Declaration(Linkage, Elements, Drawing):
         straight = kind == self._unit("m")
         if kind not in (None, dimensions.PURE) and not straight:
             refuse(f"{what} acts along {along}, which is in {dimensions.in_words(kind)}; give a length or an angle")
+        if kind == dimensions.PURE:
+            self._checked(displacement, "rad", "displacement")
         unit = "" if kind is None else units[0 if straight else 1]
         return Element(value=self._sized(value, unit or units[0], what, what), along=displacement)
 

@@ -102,7 +102,7 @@ def _own(m: Declaration) -> Json:
         "sketch": m.sketches,
         "links": [link for link in (*map(partial(_link, m), m.links), *_in_space(m)) if link],
         "bodies": _bodies(m),
-        "solids": [[str(b.mass), str(b.inertia), str(b.turns)] for b in _loose(m) if b.inertia != 0],
+        "solids": [[str(b.mass), str(b.inertia), str(b.turns), *_short(m, b.at)] for b in _loose(m) if b.inertia != 0],
         "weight": [*map(str, m.gravity)] if any(m.gravity) else [],
         "springs": _constants(m, m.springs),
         "dampers": _constants(m, m.dampers),
@@ -152,6 +152,8 @@ def _link(m: Declaration, link: Link) -> Json:
     if link.mass == link.inertia == 0 or len(points) < 2 and not alone or not free <= {*m.parameter_list}:
         return {}
     ground = [joint.side(link) for joint in joints if joint.other(link).link is m.frame and joint.kind == "pin"]
+    known = None if link.turns is None else m.tape.flat(link.turns)
+    driver = [q for q in m.q if q not in m.dependent_list and known is not None and not (known - q).free_symbols]
     return {
         "name": link.name,
         "mass": str(link.mass),
@@ -159,7 +161,7 @@ def _link(m: Declaration, link: Link) -> Json:
         "centre": [str(c) for c in link.centre],
         "points": points,
         "pivot": next(((str(p.u), str(p.v)) for p in ground if isinstance(p, LinkPoint)), None),
-        "turns": str(link.turns) if link.turns in m.q and link.turns not in m.dependent_list else "",
+        "turns": str(driver[0]) if driver else "",
     }
 
 

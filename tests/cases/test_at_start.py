@@ -18,12 +18,42 @@ OWN = Path(__file__).parents[1] / "plausible" / "own"
 
 
 def doubts(machine, set_=None, **start):
-    """Value of each doubt of a run that stays as it starts."""
+    """Value of each doubt of a run that stays as it starts, but for that."""
     case = cases.load(str(OWN / f"{machine}.toml"), set_)
     mechanism = mechanism_of(case)
     names = [*mechanism.coordinates, *(f"{q}d" for q in mechanism.coordinates)]
     columns = {name: np.full(2, start.get(name, 0.0)) for name in names}
-    return {d.code: d.value for d in of_start(case, mechanism, columns)}
+    return {d.code: d.value for d in of_start(case, mechanism, columns) if d.code != "still_run"}
+
+
+@pytest.mark.parametrize(
+    ("machine", "moves", "way"),
+    [("bell", {"psi": 2e-4}, 2e-4), ("bell", {"theta": 5e-5, "psi": 8e-5}, 8e-5), ("crane", {"s": 4e-4}, 4e-4 / 6)],
+)
+def test_a_run_in_which_nothing_moves_is_told(machine, moves, way):
+    """Radians, and metres by the rope of the crane, the longest letter."""
+    case = cases.load(str(OWN / f"{machine}.toml"), {"parameters.p": "6 m"} if machine == "crane" else None)
+    mechanism = mechanism_of(case)
+    names = [*mechanism.coordinates, *(f"{q}d" for q in mechanism.coordinates)]
+    columns = {name: np.array([0.3, 0.3 + moves.get(name, 0.0)]) for name in names}
+    told = {d.code: d.value for d in of_start(case, mechanism, columns)}
+    assert told.get("still_run") == (pytest.approx(way) if way < 1e-4 else None)
+
+
+def test_an_unbalance_says_nothing_of_the_size_of_its_rotor():
+    """The fan's rotor goes round its own axis; wheels of a mass that rolls on are held against it."""
+    assert not doubts("absorber", {"parameters.e": "0.05 mm"}, phid=155.0).keys() & {"turning_share", "link_inertia"}
+    assert doubts("wagon", {"parameters.R": "0.5 mm"})["turning_share"] > 5000
+
+
+@pytest.mark.parametrize(("share", "told"), [(9.9, False), (10.1, True)])
+def test_a_damper_by_the_swing_of_what_hangs(share, told):
+    """The bell alone, its clapper fast: omega^2 = m g s / (I + m s^2), delta = b / (2 (I + m s^2))."""
+    light = {"parameters.m_k": "1e-9 kg", "parameters.I_k": "1e-9 kg*m^2"}
+    inertia = 120 + 900 * 0.38**2
+    b = 2 * inertia * math.sqrt(900 * 9.81 * 0.38 / inertia) * share
+    found = doubts("bell", {**light, "parameters.b": f"{b!r} N*m*s/rad"})
+    assert ("damping_share" in found) == told
 
 
 def test_a_mass_on_a_spring_that_is_let_go_far_out_jolts():

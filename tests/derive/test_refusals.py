@@ -44,6 +44,7 @@ CASES = {
         10,
         "write degrees as 120 * pi / 180",
     ),
+    "degrees of a spring": ("    m.spring(1.0, stretch=phi - 90)\n", 10, "write degrees as -90 * pi / 180"),
     "degrees of a line": ("    m.frame.line(angle=-90)\n", 10, "write degrees as -90 * pi / 180"),
     "leaves": ("    raise SystemExit(3)\n", 10, "SystemExit: 3"),
     "any error": ("    1 / 0\n", 10, "ZeroDivisionError"),

@@ -24,13 +24,15 @@ DIGITS = 9  # of a number that is kept
 LONG = 12  # numbers of a list that are kept one by one; of a longer one count, ends and extremes
 MOST_LINES = 2000  # of a text that is kept
 MASK = "masked"
-# what differs from run to run: wall times and the run itself, by the name of their key, and in texts
-MASKED = re.compile(r"^(wall_s|seconds|\w*_seconds|run|version|python|platform|processor)$")
+# what differs from run to run: wall times and the run itself, by the name of their key, and in texts; and rounding that
+# is seen by samples, which hangs on the processor
+MASKED = re.compile(r"^(wall_s|seconds|\w*_seconds|run|version|python|platform|processor|seen|factor)$")
 MASKED_TEXT = (
     (re.compile(r"\S*/mechsym/native/derived-[0-9a-f]+-[0-9a-f]+"), "CACHE/derived"),
     (re.compile(r"(?<=# source sha256: )[0-9a-f]+"), "STAMP"),
     (re.compile(r"\b\d+(\.\d+)?(e[-+]\d+)? s\b(?= (of wall|wall|by the clock))"), "TIME s"),
     (re.compile(r"^(wall_s +)[-+.\de]+$"), r"\1TIME"),
+    (re.compile(r"^(\w+\.\w+ +\S+ +)\S+( +\S+ +\S+ +)\S+(?= +\w+ = )"), r"\1SEEN\2FACTOR"),
 )
 COUNTED = (".c", ".h", ".mo", ".jl", ".m", ".py", ".md", ".toml", ".csv", ".txt", ".v")  # files that are lines of text
 
