@@ -137,7 +137,7 @@ def shared(rows: Sequence[Row]) -> list[Row]:
 def _answer(asked: Asked, said: Statement, claim: str, one: bool) -> Row:
     chosen = [c for c in conventions.checked(asked.convention) if c != "show"]
     question = question_of(asked, said)
-    verdict = decide(question, one=one)
+    verdict = decide(question, one=one, cut_short=bool(claim))
     read = {*dependencies(question.theory, [question.quantity]), *used_names(question.formula)}
     held, idle = ([f"{k} = {v:g}" for k, v in question.hold.items() if (k in read) == there] for there in (True, False))
     notes = [f"compared at {', '.join(held)}" if held else "", left_note(question, asked.quantity, said.left)]

@@ -1,5 +1,6 @@
 """The decision: exact, truncation, convention, mixed, misprint (with the edit that repairs it), nearer, wrong."""
 
+import ast
 from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Any
@@ -15,7 +16,7 @@ from mechsym.audit.judge.question import Question, names, used_names, value
 from mechsym.audit.judge.window import DECADES, is_wide
 from mechsym.audit.read.reader import joined
 from mechsym.audit.read.spelling import to_python
-from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.read.tree import Node, letters, walk
 from mechsym.audit.repair.examination import Examination, Repair, exact_repair, examine, standing
 from mechsym.audit.repair.search import Found, search, truncated
 from mechsym.audit.theory.record import dependencies
@@ -51,11 +52,11 @@ class Decision:
     note: str = ""
 
 
-def decide(question: Question, settled: bool = False, one: bool = False) -> Decision:
+def decide(question: Question, settled: bool = False, one: bool = False, cut_short: bool = False) -> Decision:
     """Compare a printed formula with the derived quantity; `settled`: its author's way of counting is known; `one`:
-    two slips at once are not searched for."""
+    two slips at once are not searched for; `cut_short`: its author says that it is one."""
     exam = examine(question)
-    plain = _plain(exam)
+    plain = _plain(exam, cut_short)
     if plain is not None:
         return plain
     for condition in (*conditions(question), *conditions(question, written=True)):
@@ -67,7 +68,18 @@ def decide(question: Question, settled: bool = False, one: bool = False) -> Deci
     return _searched(exam, settled, one)
 
 
-def _plain(exam: Examination) -> Decision | None:
+def _keeps_the_rod(question: Question) -> bool:
+    """Whether a sine, a root or the like of the formula is of what hangs on the length of a rod."""
+    for _, node in walk(question.formula.tree):
+        if isinstance(node, ast.Call):
+            own = question.formula.letters
+            inside = [k for name in letters(node) for k in (letters(own[name]) if name in own else [name])]
+            if {*question.theory.rods} & dependencies(question.theory, inside):
+                return True
+    return False
+
+
+def _plain(exam: Examination, cut_short: bool = False) -> Decision | None:
     # what needs no search: exact, without values, or a truncation
     tree = exam.question.formula.tree
     met = agreement(exam.judged, tree)
@@ -88,6 +100,8 @@ def _plain(exam: Examination) -> Decision | None:
         return None
     start = standing(exam, tree)
     note = truncated(exam, start)
+    if note is not None and not cut_short and _keeps_the_rod(exam.question) and exact_repair(exam, start) is not None:
+        return None  # a series has no angle of the rod in it
     return None if note is None else _decision(exam, "truncation", start, note=note, domain=domain(exam.question))
 
 

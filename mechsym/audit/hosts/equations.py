@@ -12,7 +12,7 @@ from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
-from mechsym.audit.judge.following import CUT_SHORT, expected, solved
+from mechsym.audit.judge.following import CUT_SHORT, expected, solved, with_frequency
 from mechsym.audit.judge.forms import known, readings, steady
 from mechsym.audit.judge.lagrangian import Energies
 from mechsym.audit.judge.primes import PRIMED, by_angle, is_slope, primed, slope_of, stems_of
@@ -25,10 +25,10 @@ from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import to_latex, to_python
-from mechsym.audit.read.tree import Node, is_operation, letters, negative, value_of
+from mechsym.audit.read.tree import Node, is_operation, letters, name, negative, substitute, value_of
 from mechsym.audit.row import Row, answer
 from mechsym.audit.theory.record import Theory
-from mechsym.audit.theory.tape import retaped
+from mechsym.audit.theory.tape import minus, plus, retaped
 from mechsym.audit.verdict import FINDINGS, PASSED
 from mechsym.errors import BadInput
 
@@ -37,7 +37,7 @@ _BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
 _CASE = re.compile(
     r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
-_SEARCHES = 48  # searches for a slip in one text
+_SEARCHES, _EACH = 48, 3  # searches for a slip in one text: so many, or so many an equation where these are more
 
 
 @dataclass
@@ -51,8 +51,12 @@ class Judge:
     worded: Worded
     energies: Energies
     twins: Twins
-    searches: int = _SEARCHES
+    searches: int = field(init=False)  #: That are left for slips
     wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
+
+    def __post_init__(self) -> None:
+        """A long text may be searched for longer."""
+        self.searches = max(_SEARCHES, _EACH * sum(not said.inline for said in self.world.paper.said))
 
     def verdict(self, order: int, said: Said) -> Judged:
         """The verdict of an equation: a theory that fits, the text itself, its units."""
@@ -120,17 +124,14 @@ class Judge:
         for letter, (source, _, right) in self.wrong.items():
             if self.energies.holds(order, self.world.theory(order, {letter: right}), sides):
                 return Judged(verdict="exact", matched=matched, error=0.0, note=f"with ({source}) as corrected")
-        printed, wanted = self.energies.wanted(order, theory, sides)
-        return self._motion_slip(theory, wanted, printed, said)
-
-    def _motion_slip(self, theory: Theory, wanted: Sequence[Node], printed: Node, said: Said) -> Judged | None:
+        printed, wanted, beside = self.energies.wanted(order, theory, sides)
         # one slip away from what the energies give; what is cut short is none
-        if CUT_SHORT.search(said.before):
-            return None
-        for tree in wanted:
+        for tree in wanted if not CUT_SHORT.search(said.before) else ():
             row = self._asked_of(theory, tree, printed, said)
-            if row is not None and (slip := self._finding(row, said, printed, "the text's energies")):
-                return slip
+            if row is not None and (slip := self._finding(row, said, printed, matched)):
+                right = read_expression(row["correction"], (), AnyLetter())[0]
+                right = minus(right, beside.operand) if isinstance(beside, ast.UnaryOp) else plus(right, beside)
+                return replace(slip, correction=to_latex(right, self._spelled(said)))
         return None
 
     def _by_words(self, order: int, said: Said) -> Judged | None:
@@ -144,7 +145,7 @@ class Judge:
                     continue  # so short it may be another thing of that name
                 return Judged(verdict=verdict, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
-                right = read_expression(row["correction"], (), AnyLetter())[0]
+                right = self._in_own_letters(read_expression(row["correction"], (), AnyLetter())[0], said.sides[k])
                 gone = [n for n in letters(said.sides[k]) if n in self.wrong and n not in letters(right)]
                 if gone:
                     return self._follows(gone)
@@ -158,8 +159,17 @@ class Judge:
                 )  # fmt: skip
         return None
 
+    def _in_own_letters(self, right: Node, printed: Node) -> Node:
+        # what was put in for letters of an equation, under these letters again
+        known = {ast.dump(d.tree): d.letter for d in reversed(self.world.defined) if d.letter in letters(printed)}
+        for _ in known:
+            right = substitute(right, lambda n: name(known[ast.dump(n)]) if ast.dump(n) in known else None)
+        return right
+
     def _by_later(self, order: int, said: Said) -> Judged | None:
         # a definition with which two later equations miss what their words say by the same slip of this one
+        if (slip := self._by_its_frequency(order, said)) is not None:
+            return slip
         own = next((d for d in self.world.defined if d.order == order and d.side), None)
         if own is None or len(said.sides) != 2 or said.claim:
             return None
@@ -174,6 +184,21 @@ class Judge:
             return None
         others = ", ".join(dict.fromkeys(f"({self.world.paper.said[place].name})" for place in slips))
         return replace(slips[min(slips)], matched="the text", note=f"without it {others} is what its words say")
+
+    def _by_its_frequency(self, order: int, said: Said) -> Judged | None:
+        # an equation of motion whose frequency stands behind it, and is what its words say
+        for place, wanted in with_frequency(self.world, order):
+            if not self._agrees(place):
+                continue
+            row = self._asked_of(self.world.bare, wanted, self.world.plain(said.sides[0]), said)
+            if row is not None and (slip := self._finding(row, said, said.sides[0], "the text")):
+                return replace(slip, note=f"({self.world.paper.said[place].name}) is its frequency; {slip.note}")
+        return None
+
+    def _agrees(self, order: int) -> bool:
+        # whether an equation is what its words say in every form
+        rows = [self.worded.outcome(order, k) for k in range(1, len(self.world.paper.said[order].sides))]
+        return all(row is not None and row["verdict"] == "agrees" for row in rows)
 
     def _by_solving(self, order: int, said: Said) -> Judged | None:
         # what the equation before it gives, where a word says that this is it
@@ -199,7 +224,7 @@ class Judge:
 
     def _by_what_is_before(self, order: int, said: Said) -> Judged | None:
         slips = []
-        for one in expected(self.world, order):
+        for one in expected(self.world, order) if not self._agrees(order) else ():
             theory = self.world.theory(order) if one.whole else self.world.bare
             try:
                 if (is_multiple if one.scaled else alike)(states(theory), one.printed, one.tree):

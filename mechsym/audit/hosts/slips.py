@@ -167,6 +167,17 @@ def renamed_to(node: Node, names: Mapping[str, str]) -> Node | None:
 def slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row | None:
     """What is said of a formula: it agrees, one slip takes it away from a quantity, or it is wrong; None: not sure.
 
+    A letter that it has not is looked for where nothing else explains it.
+    """
+    row = _slip(replace(near, fitted=replace(near.fitted, spare={})), beside, of_angle)
+    if near.fitted.spare and (row is None or row["verdict"] == "wrong"):
+        return _slip(near, beside, of_angle)
+    return row
+
+
+def _slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row | None:
+    """The same with all letters of its function.
+
     Programs count a way or a speed in either direction: what goes against the quantity is asked about turned, too.
     """
     fitted, form, quantity, states = near.fitted, near.form, near.quantity, near.states
@@ -223,6 +234,6 @@ def _renamed(row: Row, fitted: Fitted, own: Mapping[str, str]) -> Row:
     names = {k: v for k, v in plain.items() if k != v} | {m: plain[k] for m, k in _own_names(own).items()}
     if not names:
         return row
-    pattern = re.compile(rf"\b(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})\b")
+    pattern = re.compile(rf"(?<!')\b(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})\b")
     texts = {k: pattern.sub(lambda m: names[m[0]], row[k]) for k in ("correction", "note") if row[k]}
     return row | texts

@@ -18,6 +18,9 @@ from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Theory
 
+# slider cranks are counted from the other dead centre in every theory
+_FROM_BOTTOM = re.compile(r"\b(?:counted|measured|taken)\s+from\s+(?:the\s+|its\s+)?(?:bottom|outer|lower)\s+dead")
+
 
 @cache
 def _vocabularies() -> tuple[Lexicon, ...]:
@@ -36,8 +39,10 @@ class Worded:
     def __post_init__(self) -> None:
         """Every side of a letter's equation is a claim, the letter's name in the text its comment."""
         paper = self.world.paper
-        called = dict(paper.called) | dict.fromkeys(self.world.kinds.turns, "revolutions per minute")
         values = {d.letter: d.tree for d in self.world.defined}
+        # the angle that turns follows from nothing
+        called = {k: words for k, words in paper.called.items() if words != "angle" or k not in values}
+        called |= dict.fromkeys(self.world.kinds.turns, "revolutions per minute")
         for order, said in enumerate(paper.said):
             if not said.sides or said.claim or said.inline:
                 continue
@@ -54,7 +59,9 @@ class Worded:
                     tree = binary(ast.Div, number(1), side) if over else side
                     self.claims[order, k] = Claim(
                         scope="", name=left, tree=tree, line=said.shown.line, about=about, case=0, values=others,
-                        abouts=called, ruled_out=_ruled_out(said.before),
+                        abouts=called, ruled_out=_ruled_out(said.before, paper.prose),
+                        parameters=tuple(called),
+                        written={name: tree for name, tree in values.items() if name != left},
                     )  # fmt: skip
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}
         names |= {word for name in names for word in called.get(name, "").split()}
@@ -64,7 +71,7 @@ class Worded:
     def _contradicts(self, theory: Theory) -> bool:
         # of another mechanism: by a word, or by its stroke of four throws, where that of the theory is two
         prose = self.world.paper.prose.lower()
-        if any(word in prose for word in theory.not_of):
+        if any(word in prose for word in theory.not_of) or theory.rods and _FROM_BOTTOM.search(prose):
             return True
         for meaning, said in theory.words.items():
             for one in self.world.defined if not meaning.isidentifier() else ():
@@ -95,8 +102,12 @@ class Worded:
                     yield order, claim.tree, right, row["claim"]
 
 
-def _ruled_out(before: str) -> str:
-    """Of engines with two strokes and with four the kind that the sentence in front of an equation does not name."""
-    sentence = re.split(r"[.;]\s", before.strip())[-1]
-    named = {word.lower() for word in re.findall(r"\b(two|four)[- ]stroke", sentence, re.IGNORECASE)}
-    return {"two": "four_stroke", "four": "two_stroke"}[named.pop()] if len(named) == 1 else ""
+def _ruled_out(before: str, prose: str) -> str:
+    """Of engines with two strokes and with four the kind that the sentence in front of an equation does not name, or
+    that a text never names.
+    """
+    for words in (re.split(r"[.;]\s", before.strip())[-1], prose):
+        named = {word.lower() for word in re.findall(r"\b(two|four)[- ]stroke", words, re.IGNORECASE)}
+        if named:
+            return {"two": "four_stroke", "four": "two_stroke"}[named.pop()] if len(named) == 1 else ""
+    return ""

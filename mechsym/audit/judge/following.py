@@ -13,9 +13,20 @@ from mechsym.audit.read.nomenclature import OPENED
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import SPEEDS
-from mechsym.audit.read.tree import Node, call, function_of, is_operation, letters, name, negative, number, renamed
+from mechsym.audit.read.tree import (
+    Node,
+    argument_of,
+    call,
+    function_of,
+    is_operation,
+    letters,
+    name,
+    negative,
+    number,
+    renamed,
+)
 from mechsym.audit.theory.record import dependencies
-from mechsym.audit.theory.tape import derivative, is_zero, minus, over, slope_by, times
+from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, slope_by, times
 from mechsym.quantities import record
 
 _SOLVED = re.compile(
@@ -117,6 +128,24 @@ def _natural(world: World, order: int, said: Said) -> Iterator[Expected]:
             if {*letters(mass), *letters(stiffness)} == {*letters(printed)} and not is_zero(mass):
                 tree = call("sqrt", over(stiffness, mass))
                 yield Expected(tree=tree, printed=printed, note=f"by the coefficients of ({source.name})")
+
+
+def with_frequency(world: World, order: int) -> Iterator[tuple[int, Node]]:
+    """The left side of a linear equation of motion by each frequency behind it that has no other letters, with the
+    place of that one."""
+    said = world.paper.said[order]
+    if len(said.sides) != 2:
+        return
+    whole, behind = minus(*said.sides), world.paper.said[order + 1 : order + 1 + _BEFORE]
+    for rate in (k for k in letters(whole) if k.endswith("dd")):
+        mass, stiffness = (slope_by(whole, k) for k in (rate, rate[:-2]))
+        for place, other in enumerate(behind, order + 1):
+            root = argument_of(other.sides[1], "sqrt") if len(other.sides) == 2 and not other.inline else None
+            if root is not None:
+                square = world.plain(root)
+                if not is_zero(mass) and {*letters(mass), *letters(stiffness)} == {*letters(square)}:
+                    more = minus(times(square, mass), stiffness)
+                    yield place, plus(world.plain(said.sides[0]), times(more, name(rate[:-2])))
 
 
 def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:

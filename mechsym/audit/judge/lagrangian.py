@@ -103,33 +103,34 @@ class Energies:
         left, right = sides
         if isinstance(left, ast.Name):
             return any(alike(states(theory), tree, right) for tree in self._of_letter(order, left.id, right, theory))
-        left, right = (self._acted(order, theory, side) for side in sides)
+        (left, _), (right, _) = (self._acted(order, theory, side) for side in sides)
         used, whole = _used(theory, (left, right)), minus(left, right)
         acts = right.id if isinstance(right, ast.Name) else ""
         wanted = [law.vanishing(used, acts) for law in self._at(order)]
         return any(same_motion(theory, self.world.coordinates, whole, tree) for tree in wanted)
 
-    def _acted(self, order: int, theory: Theory, tree: Node) -> Node:
-        # a side without terms of what acts from outside, whose letters no energy has
+    def _acted(self, order: int, theory: Theory, tree: Node) -> tuple[Node, Node]:
+        # a side without terms of what acts from outside, whose letters no energy has, and these terms
         laws = self._at(order)
         if isinstance(tree, ast.Name) or any(law.acts is not None for law in laws):
-            return tree
+            return tree, number(0)
         known = {k for law in laws for k in letters(law.residual)} | {f"{law.coordinate}d" for law in laws}
         return _within(theory, tree, known)
 
-    def wanted(self, order: int, theory: Theory, sides: Sequence[Node]) -> tuple[Node, list[Node]]:
-        """The side that a slip is looked for in, and what it may have to be."""
+    def wanted(self, order: int, theory: Theory, sides: Sequence[Node]) -> tuple[Node, list[Node], Node]:
+        """The side that a slip is looked for in, what it may have to be, and what acts from outside beside it."""
         left, right = sides
         if isinstance(left, ast.Name):
-            return right, self._of_letter(order, left.id, right, theory)
-        left, right = (self._acted(order, theory, side) for side in sides)
+            return right, self._of_letter(order, left.id, right, theory), number(0)
+        (left, beside), (right, _) = (self._acted(order, theory, side) for side in sides)
         acting = {right.id} if isinstance(right, ast.Name) else set()
         printed = left if acting or value_of(right) == 0 else minus(left, right)
         own = [law for law in self._at(order) if f"{law.coordinate}dd" in letters(printed)]
         used = _used(theory, sides) - acting
         chosen = [law for law in own if not acting or law.acts in {*acting, None}]
         # the slip may stand in what is before the acceleration
-        return printed, [tree for law in chosen for tree in (law.vanishing(used), scaled(law, printed, used))]
+        every = [tree for law in chosen for tree in (law.vanishing(used), scaled(law, printed, used))]
+        return printed, every, beside if printed is left else number(0)
 
 
 def _used(theory: Theory, sides: Sequence[Node]) -> set[str]:
@@ -140,11 +141,13 @@ def _used(theory: Theory, sides: Sequence[Node]) -> set[str]:
     return used | {k for k, needs in defined.items() if needs and needs <= used}
 
 
-def _within(theory: Theory, tree: Node, known: set[str]) -> Node:
+def _within(theory: Theory, tree: Node, known: set[str]) -> tuple[Node, Node]:
+    # the terms of a sum that are in known letters, and the others
     if is_operation(tree, ast.Add, ast.Sub):
+        joined = plus if isinstance(tree.op, ast.Add) else minus
         left, right = _within(theory, tree.left, known), _within(theory, tree.right, known)
-        return (plus if isinstance(tree.op, ast.Add) else minus)(left, right)
-    return tree if free(theory, tree) <= known else number(0)
+        return joined(left[0], right[0]), joined(left[1], right[1])
+    return (tree, number(0)) if free(theory, tree) <= known else (number(0), tree)
 
 
 def laws(world: World) -> list[MotionLaw]:

@@ -186,6 +186,8 @@ def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
                 put_in[letter] = claim.values[letter]
             elif ranked:
                 options[letter] = ranked[:_MEANINGS]
+            elif letter in claim.written:
+                put_in[letter] = claim.written[letter]
             else:
                 return
         if not put_in:

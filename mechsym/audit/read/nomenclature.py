@@ -47,18 +47,26 @@ _CALLED = re.compile(
     r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)(?!\s+per\b)",
     re.IGNORECASE | re.MULTILINE,
 )
+_SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
+_PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
+# the gas presses with a force
+_ACTS = re.compile(
+    rf"\b(?:the|its|an?)\s+({_SHORT})(?:\s+(?:of|at|on|in)\b[^.]*?)?\s+(?:presses|pushes|pulls|acts|resists)"
+    r"(?:\s+[a-z]+)?\s+with$",
+    re.IGNORECASE,
+)
 _LAST = 6  # words in front of an equation
 # names with an `of` of their own
 _FUSED = re.compile(r"\b(moments?|modulus|coefficient|radius) of (inertia|elasticity|friction|gyration)\b")
 _VERB = re.compile(
-    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns|becomes?|means|reads?|that|which)\b"
+    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns|makes?|becomes?|means|reads?|that|which)\b"
 )
 # a shaft of the diameter $d$ has: the diameter is said of its own letter
 _LETTER_LAST = re.compile(r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I)
 _OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?([a-z]+(?:\s+of\s+[a-z]+)?)")
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
-_SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
-_PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
+
+
 #: Where a display begins, at the end of what stands in front of it
 OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
 # what is no word of a sentence; where it began itself
@@ -66,7 +74,8 @@ _UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|
 _SENTENCE = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)|\n\s*\n")
 _COUNTED = re.compile(
     r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
-    r"(?:in\s+)?((?:revolutions|turns|strokes|cycles|cylinders|teeth)(?:\s+per\s+[a-z]+)?)"
+    r"(?:in\s+)?((?:revolutions|turns(?!\s+(?:by|about|with|at|on|round|through))|strokes|cycles|cylinders|teeth)"
+    r"(?:\s+per\s+[a-z]+)?)"
 )
 _PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
@@ -74,7 +83,8 @@ _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficie
 _ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
 _MEASURED = re.compile(  # a spring of stiffness $k$
     r"^((?!moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
-    r"(stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|volume)$"
+    r"((?:[a-z]+ )?stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|"
+    r"volume|exponent)$"
 )
 _BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|and|with|by|has|is)\s+", re.IGNORECASE)
 # what goes on to a display, as `the volume of both is`
@@ -138,7 +148,8 @@ def called(text: str) -> dict[str, str]:
     """Letters as they are spelled there, with the words in front of them: the rod force $S$."""
     pairs = []
     for match in _COUNTED.finditer(text):
-        pairs.append((match[2], " ".join([match[1] or "", *match[3].split()]).strip()))
+        owner = "" if match[3].startswith("cylinders") else match[1] or ""  # the power of $z$ cylinders
+        pairs.append((match[2], " ".join([owner, *match[3].split()]).strip()))
     pairs += [(match[1], "revolutions per minute") for match in _PER_MINUTE.finditer(text)]
     for match in _CALLED.finditer(text):
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
@@ -173,12 +184,18 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
     )
     last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
-    behind = re.search(rf"\b(?:has|gives?|yields?)\s+(?:the|an?)\s+({_SHORT})$", bare)
+    behind = re.search(rf"\b(?:has|gives?|yields?|makes?|takes?)\s+(?:the|an?)\s+({_SHORT})$", bare)
+    moves = re.search(rf"\b(?:the|its)\s+({_SHORT})\s+(?:rises|falls|drops|grows)\b", bare, re.IGNORECASE)
     # fires with the frequency
-    onto = None if ends or _LETTER_LAST.search(spoken) else re.search(rf"\b(?:with|by|to|at) the ({_SHORT})$", bare)
+    onto = (
+        None
+        if ends or _LETTER_LAST.search(spoken)
+        else re.search(rf"\b(?:with|by|to|at) the ({_SHORT}(?: of {_PLAIN})?)$", bare)
+    )
     verb = _VERB.search(bare)
     chosen = (
         behind
+        or moves
         or onto
         or (first if not verb else None)
         or beside
@@ -186,6 +203,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         or (last if ends or not verb else None)
     )
     letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
+    if acts := _ACTS.search(bare):
+        return f"{' '.join(acts[1].split()[-2:])} force", tail
     if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio":
         return "", tail
     phrase = _ENDS.sub("", chosen[1]).replace("-of-", " of ")

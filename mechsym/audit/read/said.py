@@ -16,7 +16,7 @@ from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.lagrange import LagrangeEquation, calligraphic, lagrange_equation
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.macros import expanded
-from mechsym.audit.read.nomenclature import Named, called, listed, nomenclature, subject
+from mechsym.audit.read.nomenclature import OPENED, Named, called, listed, nomenclature, subject
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
 from mechsym.audit.read.tree import Node, check, number
@@ -36,6 +36,7 @@ _NO_PRODUCT = re.compile(
     r"\\(?:text|mathrm|rm)\s*\{?\s*[ij]\s*\}"
     r"|(?:(?<![A-Za-z])E|\\math(?:cal|bb|scr)\s*\{?\s*[A-Z]\s*\}?)\s*(?:\\left)?\s*\\\{"
 )
+_CLOSED = re.compile(r"(?:\\end\{[a-z]+\*?\}|\$\$|\\\])$")  # where a display ends
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{1,200}?)\$(?!\$)")
@@ -113,10 +114,10 @@ class _Spoken:
     together: Counter[int]  #: Equations that stand in one display
     seen: Counter[int] = field(default_factory=Counter)
 
-    def of(self, equation: Displayed, before: str) -> tuple[str, str]:
+    def of(self, opens: int, before: str) -> tuple[str, str]:
         """The name of a letter that an equation gives, empty where none is told, and the last words in front of it."""
-        many, place = self.together[equation.opens], self.seen[equation.opens]
-        self.seen[equation.opens] += 1
+        many, place = self.together[opens], self.seen[opens]
+        self.seen[opens] += 1
         phrase, about = subject(before, many == 1)
         if many == 1:
             return phrase, about
@@ -165,22 +166,35 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     )
     aside = [*_inline(text), *_tabled(written, lines)]
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in aside)], key=lambda p: p[0].begins)
-    spoken = _Spoken(together=Counter(equation.opens for equation in shown))
+    rows = _rows(text, shown)
+    spoken = _Spoken(together=Counter(rows[equation.opens] for equation in shown))
     said = []
     for equation, inline in everything:
         section = sum(start <= lines[equation.line - 1] for start in starts)
-        words_end = equation.opens or equation.begins  # of a row of many, the words in front of all
+        opens = rows.get(equation.opens, equation.opens)
+        words_end = opens or equation.begins  # of a row of many, the words in front of all
         before = text[max(0, words_end - 240) : words_end]
         one = _read(equation, spelling, section, before, inline)
         left = one.sides[0] if one.sides and not inline else None
         if isinstance(left, ast.Name):
-            phrase, last = spoken.of(equation, before)
+            phrase, last = spoken.of(opens, before)
             one = replace(one, about=last)
             if phrase:
                 ahead.setdefault(left.id, phrase)
         if one.sides or not inline:
             said.append(one)
     return Text(said=said, named=named, called=ahead, prose=text)
+
+
+def _rows(text: str, shown: Sequence[Displayed]) -> dict[int, int]:
+    """Where the row of displays begins that a display belongs to, no word between them, by where it begins itself."""
+    rows: dict[int, int] = {}
+    last = 0
+    for opens in dict.fromkeys(one.opens for one in shown):
+        before = OPENED.sub("", text[max(0, opens - 60) : opens]).rstrip()
+        rows[opens] = rows[last] if last and _CLOSED.search(before) else opens
+        last = opens
+    return rows
 
 
 def _inline(text: str) -> Iterator[Displayed]:

@@ -37,6 +37,7 @@ class Claim:
     about: str  #: What a comment or a description says of it
     case: int  #: Number of the branch that it lies in, 0 in none
     values: Mapping[str, Node] = field(default_factory=dict)
+    written: Mapping[str, Node] = field(default_factory=dict)  #: What names are that no word of a theory tells
     abouts: Mapping[str, str] = field(default_factory=dict)
     parameters: Sequence[str] = ()
     ruled_out: str = ""  #: What names of quantities have that its words speak against: `two_stroke`
