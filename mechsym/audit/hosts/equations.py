@@ -13,11 +13,11 @@ from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved, with_frequency
-from mechsym.audit.judge.forms import known, readings, steady
+from mechsym.audit.judge.forms import is_still, known, readings, spelled, steady
 from mechsym.audit.judge.lagrangian import Energies
-from mechsym.audit.judge.primes import PRIMED, by_angle, is_slope, primed, slope_of, stems_of
+from mechsym.audit.judge.primes import by_angle, is_slope, primed, stems_of
 from mechsym.audit.judge.resultants import squares_of_sums
-from mechsym.audit.judge.sampled import alike, free, is_multiple, states, where_defined
+from mechsym.audit.judge.sampled import alike, free, is_multiple, states, vanishes, where_defined
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.twins import Twins
 from mechsym.audit.judge.world import World
@@ -25,7 +25,7 @@ from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import to_latex, to_python
-from mechsym.audit.read.tree import Node, is_operation, letters, name, negative, substitute, value_of
+from mechsym.audit.read.tree import Node, is_operation, letters, negative, value_of
 from mechsym.audit.row import Row, answer
 from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import minus, plus, retaped
@@ -37,7 +37,6 @@ _BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
 _CASE = re.compile(
     r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
-_SEARCHES, _EACH = 48, 3  # searches for a slip in one text: so many, or so many an equation where these are more
 
 
 @dataclass
@@ -51,12 +50,8 @@ class Judge:
     worded: Worded
     energies: Energies
     twins: Twins
-    searches: int = field(init=False)  #: That are left for slips
+    searches: int  #: For slips that are left, each of which takes long
     wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
-
-    def __post_init__(self) -> None:
-        """A long text may be searched for longer."""
-        self.searches = max(_SEARCHES, _EACH * sum(not said.inline for said in self.world.paper.said))
 
     def verdict(self, order: int, said: Said) -> Judged:
         """The verdict of an equation: a theory that fits, the text itself, its units."""
@@ -131,7 +126,7 @@ class Judge:
             if row is not None and (slip := self._finding(row, said, printed, matched)):
                 right = read_expression(row["correction"], (), AnyLetter())[0]
                 right = minus(right, beside.operand) if isinstance(beside, ast.UnaryOp) else plus(right, beside)
-                return replace(slip, correction=to_latex(right, self._spelled(said)))
+                return replace(slip, correction=to_latex(right, spelled(self.world, said)))
         return None
 
     def _by_words(self, order: int, said: Said) -> Judged | None:
@@ -145,26 +140,22 @@ class Judge:
                     continue  # so short it may be another thing of that name
                 return Judged(verdict=verdict, matched=row["claim"], note=row.get("note", ""), error=error)
             if row is not None:
-                right = self._in_own_letters(read_expression(row["correction"], (), AnyLetter())[0], said.sides[k])
-                gone = [n for n in letters(said.sides[k]) if n in self.wrong and n not in letters(right)]
-                if gone:
-                    return self._follows(gone)
+                right = read_expression(row["correction"], (), AnyLetter())[0]
+                right = self.worded.in_own_letters(right, said.sides[k])
+                gone = [n for n in letters(said.sides[k]) if n not in letters(right)]
+                if wrong := [n for n in gone if n in self.wrong]:
+                    return self._follows(wrong)
+                if "repaired by letter" not in row["note"] and any(self.worded.is_suspect(n, order) for n in gone):
+                    continue  # the slip is one of that letter's own equation
                 if isinstance(said.sides[0], ast.Name):
                     self.wrong[said.sides[0].id] = (said.name, self.world.plain(said.sides[k]), self.world.plain(right))
                 elif is_operation(right, ast.Div) and value_of(right.left) == 1:
                     right = right.right  # what stands on the right of 1/E
                 return Judged(
                     verdict="misprint", matched=row["claim"], note=row["note"], error=row["max_rel_error"],
-                    correction=to_latex(right, self._spelled(said)),
+                    correction=to_latex(right, spelled(self.world, said)),
                 )  # fmt: skip
         return None
-
-    def _in_own_letters(self, right: Node, printed: Node) -> Node:
-        # what was put in for letters of an equation, under these letters again
-        known = {ast.dump(d.tree): d.letter for d in reversed(self.world.defined) if d.letter in letters(printed)}
-        for _ in known:
-            right = substitute(right, lambda n: name(known[ast.dump(n)]) if ast.dump(n) in known else None)
-        return right
 
     def _by_later(self, order: int, said: Said) -> Judged | None:
         # a definition with which two later equations miss what their words say by the same slip of this one
@@ -188,17 +179,12 @@ class Judge:
     def _by_its_frequency(self, order: int, said: Said) -> Judged | None:
         # an equation of motion whose frequency stands behind it, and is what its words say
         for place, wanted in with_frequency(self.world, order):
-            if not self._agrees(place):
+            if not self.worded.agrees(place):
                 continue
             row = self._asked_of(self.world.bare, wanted, self.world.plain(said.sides[0]), said)
             if row is not None and (slip := self._finding(row, said, said.sides[0], "the text")):
                 return replace(slip, note=f"({self.world.paper.said[place].name}) is its frequency; {slip.note}")
         return None
-
-    def _agrees(self, order: int) -> bool:
-        # whether an equation is what its words say in every form
-        rows = [self.worded.outcome(order, k) for k in range(1, len(self.world.paper.said[order].sides))]
-        return all(row is not None and row["verdict"] == "agrees" for row in rows)
 
     def _by_solving(self, order: int, said: Said) -> Judged | None:
         # what the equation before it gives, where a word says that this is it
@@ -213,7 +199,7 @@ class Judge:
             if alike(at, wanted, printed):
                 return Judged(verdict="exact", matched="the text", note=f"follows from ({source})", error=0.0)
             if alike(at, wanted, negative(printed)):
-                mended = to_latex(negative(said.sides[1]), self._spelled(said))
+                mended = to_latex(negative(said.sides[1]), spelled(self.world, said))
                 return Judged(
                     verdict="misprint", matched="the text", note=f"({source}) gives the other sign", correction=mended
                 )
@@ -224,7 +210,7 @@ class Judge:
 
     def _by_what_is_before(self, order: int, said: Said) -> Judged | None:
         slips = []
-        for one in expected(self.world, order) if not self._agrees(order) else ():
+        for one in expected(self.world, order) if not self.worded.agrees(order) else ():
             theory = self.world.theory(order) if one.whole else self.world.bare
             try:
                 if (is_multiple if one.scaled else alike)(states(theory), one.printed, one.tree):
@@ -247,22 +233,15 @@ class Judge:
             return None
         twin = self.world.paper.said[slip[1]].name
         note = f"its twin ({twin}) has another form" + ": one of both has a slip" * (not sure)
-        mended = to_latex(slip[0], self._spelled(said))
+        mended = to_latex(slip[0], spelled(self.world, said))
         return Judged(verdict="misprint", matched="the text", note=note, correction=mended)
-
-    def _spelled(self, said: Said) -> dict[str, str]:
-        everywhere = {k: v for one in self.world.paper.said for k, v in one.spelled.items()}
-        slopes = {k: v for k, v in everywhere.items() if PRIMED.fullmatch(k)}
-        named = {slope_of(k, self.world.angle): v for k, v in slopes.items()}
-        written = everywhere | named | dict(said.spelled)
-        return written | {rate: written[k] for k, rate in self.world.aliases.items() if k in said.spelled}
 
     def _slip(self, fit: fitting.Match, order: int, said: Said) -> Judged | None:
         # one slip away from the quantity that the text's words name, in letters that are all known
         for k, side in enumerate(said.sides[1:], 1):
             tree = self.world.plain(side)
             used = [n for n in letters(tree) if n != "pi"]
-            if (order, k) in fit.met or not used or len(used) < 2:
+            if (order, k) in fit.met or not used or len(used) < 2 or vanishes(tree):
                 continue
             partners = [fit.met[order, j].quantity for j in range(1, len(said.sides)) if (order, j) in fit.met]
             for quantity in partners or fitting.candidates(fit, said, self.world):
@@ -300,7 +279,7 @@ class Judge:
         left, right = known(self.world, said.sides[i], theory), known(self.world, said.sides[k], theory)
         if value_of(right) == 0 and value_of(left) is None and not (free(theory, left)):
             return nothing
-        if any(self._is_still(n) for n in {*letters(left), *letters(right)}):
+        if any(is_still(self.world, n) for n in {*letters(left), *letters(right)}):
             return nothing
         for first, second in readings(self.world, left, right, theory):
             try:
@@ -312,12 +291,6 @@ class Judge:
                     return nothing
                 return Judged(verdict="exact", matched="the text", error=0.0)
         return self._unlike(order, said, i, k, theory)
-
-    def _is_still(self, letter: str) -> bool:
-        # a rate of what the text says elsewhere without time or angle: there it was a state of rest
-        stems = [] if letter in self.world.paper.named else stems_of(letter)
-        given = {d.letter for d in self.world.defined}
-        return letter not in given and any(stem in given and not self.world.turns(stem) for stem in stems)
 
     def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:
         nothing = Judged(verdict="")
@@ -421,5 +394,5 @@ class Judge:
             self.wrong[left] = (said.name, self.world.plain(side), right)
         return Judged(
             verdict="misprint", matched=matched, note=row["note"], error=row["max_rel_error"],
-            correction=to_latex(right, self._spelled(said)),
+            correction=to_latex(right, spelled(self.world, said)),
         )  # fmt: skip

@@ -60,7 +60,11 @@ class Neighbours:
             return None
         # called like another quantity, in letters that others show to be understood, it is no excuse to be this one
         other = any(
-            n.away and n.fitted.rank > 2 and n.quantity in n.fitted.quantities and self._beside(n) for n in every
+            n.away
+            and n.fitted.rank > 2
+            and n.quantity in n.fitted.quantities
+            and (self._beside(n) or self._is_named(n))
+            for n in every
         )
         for near in every:
             if near.away == 0.0 and (near.quantity in near.fitted.quantities or not other and not self._clashes(near)):
@@ -93,6 +97,11 @@ class Neighbours:
         if misprints:
             return misprints[likeness.index(max(likeness))]
         return worse or {"verdict": "", "claim": ""}
+
+    def _is_named(self, near: Near) -> bool:
+        # in words, and off by a number that is lost or taken twice: no other quantity of its theory is meant
+        met = compared(near.form, near.states, near.quantity) if self.si and near.fitted.rank > _BY_A_SIGN else None
+        return met is not None and is_slip(met.ratio)
 
     def _sense(self, near: Near) -> Row:
         # where signs are told, what is counted the other way round

@@ -26,6 +26,7 @@ from mechsym.audit.verdict import PASSED, RIGHT_WITH, decide
 from mechsym.errors import BadInput
 
 _EXACT = 1e-9  # relative error of a correction that explains a formula: a limit of long rods does not [-]
+_GROWS = 12  # parts that what is put back may have at the most
 _LARGEST = 120  # parts of a formula for which a slip is searched: the search is the one thing here that takes long
 
 
@@ -104,11 +105,21 @@ def _explains(repair: Repair, near: Near, tree: Node, own: Mapping[str, str], be
     whole = named and set(letters(repair.tree)) == set(letters(tree))
     steps = _NO_SLIP - ({"put back"} if whole else set())
     plain = {m for other in beside for m in other.fitted.meanings.values()}
-    counted = (own.get(_counted_otherwise(edit.new, tree), "pi") for edit in repair.edits)
+    counted = [own.get(_counted_otherwise(edit.new, tree), "pi") for edit in repair.edits]
+    counted = [m for m in counted if not _is_exponent(near, m)]
+    grown = sum(1 for _ in trees.walk(repair.tree)) - sum(1 for _ in trees.walk(tree))
+    if grown > _GROWS and any(edit.kind == "put back" for edit in repair.edits):
+        return False
     if any(edit.kind in steps for edit in repair.edits) or any(m != "pi" and m not in plain for m in counted):
         return False
     others = {k: trees.name(m) for k, m in own.items() if m.isidentifier()}
     return not _is_idle(repair.tree, replace(near.form, letters={**others, **near.form.letters}), near.states)
+
+
+def _is_exponent(near: Near, meaning: str) -> bool:
+    # the ratio of specific heats is no count, which somebody might begin with another number
+    letter = near.fitted.theory.letters.get(meaning)
+    return letter is not None and letter.unit == "-" and letter.domain is not None and letter.domain[1] <= 2
 
 
 def _is_idle(tree: Node, form: Formula, states: Probes) -> bool:
@@ -236,4 +247,6 @@ def _renamed(row: Row, fitted: Fitted, own: Mapping[str, str]) -> Row:
         return row
     pattern = re.compile(rf"(?<!')\b(?:{'|'.join(map(re.escape, sorted(names, key=len, reverse=True)))})\b")
     texts = {k: pattern.sub(lambda m: names[m[0]], row[k]) for k in ("correction", "note") if row[k]}
+    if note := texts.get("note"):  # what is the theory's by another name there
+        texts["note"] = re.sub(r"\b(\w+) means \1 here, not the theory's \1(?:; |$)", "", note)
     return row | texts

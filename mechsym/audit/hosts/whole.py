@@ -34,6 +34,7 @@ from mechsym.quantities.results import part, result, tell
 SUFFIXES = (".tex", ".md", ".rst", ".txt", ".ipynb")
 _PLAIN = {".ipynb": words_of_notebook, ".rst": with_dollars}  #: How the text of a file is got
 _LARGEST = 8_000_000  # characters of a file
+_SEARCHES, _EACH = 48, 3  # searches for a slip in one text: so many, or so many an equation where these are more
 _SECONDS = 0.07  # that an equation of a text takes in the mean (measured: 0.04 of 2,440, 0.07 of 305) [s]
 
 
@@ -127,6 +128,7 @@ def _rows_of(text: TextFile) -> Iterator[Row]:
     judge = Judge(
         world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted, worded=Worded(world),
         energies=Energies(world=world, laws=laws(world)), twins=Twins(world),
+        searches=max(_SEARCHES, _EACH * sum(not said.inline for said in paper.said)),
     )  # fmt: skip
     for order, said in enumerate(world.paper.said):
         if not said.inline:

@@ -8,12 +8,14 @@ from functools import cache
 
 from mechsym.audit.hosts.neighbours import Neighbours
 from mechsym.audit.judge.lexicon import Lexicon
+from mechsym.audit.judge.sampled import vanishes
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.programs.claims import Claim
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.spelling import to_python
-from mechsym.audit.read.tree import Node, binary, function_of, is_operation, letters, number, value_of, walk
+from mechsym.audit.read.tree import Node, binary, function_of, is_operation, letters, number, substitute, value_of, walk
+from mechsym.audit.read.tree import name as name_of
 from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Theory
@@ -54,7 +56,11 @@ class Worded:
             left = letter.id
             about = called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
-                if len(letters(side)) > 1 and not any(function_of(n) == "sum" for _, n in walk(side)):
+                if (
+                    len(letters(side)) > 1
+                    and not vanishes(side)
+                    and not any(function_of(n) == "sum" for _, n in walk(side))
+                ):
                     others = {name: tree for name, tree in values.items() if name not in (left, *called)}
                     tree = binary(ast.Div, number(1), side) if over else side
                     self.claims[order, k] = Claim(
@@ -91,6 +97,28 @@ class Worded:
             row = self.neighbours.outcome(claim) if claim is not None and self.neighbours is not None else None
             self.outcomes[order, side] = row if row is not None and row["verdict"] in ("agrees", "misprint") else None
         return self.outcomes[order, side]
+
+    def agrees(self, order: int) -> bool:
+        """Whether an equation is what its words say in every form."""
+        rows = [self.outcome(order, k) for k in range(1, len(self.world.paper.said[order].sides))]
+        return all(row is not None and row["verdict"] == "agrees" for row in rows)
+
+    def is_suspect(self, letter: str, order: int) -> bool:
+        """Whether a letter of an equation has a display of its own that is not what its words say; one beside the
+        equation, that is a slip away from it.
+        """
+        said = self.world.paper.said
+        own = [d for d in self.world.defined if d.letter == letter and (d.order, d.side) in self.claims]
+        apart = [d for d in own if said[d.order].shown.opens != said[order].shown.opens]
+        rows = [self.outcome(d.order, d.side) for d in own if d not in apart]
+        return any(not self.agrees(d.order) for d in apart) or any(r and r["verdict"] == "misprint" for r in rows)
+
+    def in_own_letters(self, right: Node, printed: Node) -> Node:
+        """A form in which what was put in for letters of an equation stands under these letters again."""
+        known = {ast.dump(d.tree): d.letter for d in reversed(self.world.defined) if d.letter in letters(printed)}
+        for _ in known:
+            right = substitute(right, lambda n: name_of(known[ast.dump(n)]) if ast.dump(n) in known else None)
+        return right
 
     def blamed_on(self, letter: str) -> Iterator[tuple[int, Node, Node, str]]:
         """Equations that another meaning of a letter would mend: place, what is printed, what is wanted, of what."""

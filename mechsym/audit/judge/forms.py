@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from mechsym.audit.judge.primes import primed, rated
+from mechsym.audit.judge.primes import PRIMED, primed, rated, slope_of, stems_of
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
@@ -32,3 +32,18 @@ def steady(world: World, theory: Theory, said: Said) -> Theory:
         return theory
     still = replace(theory.letters[rate], value=1e-300)
     return replace(theory, letters={**theory.letters, rate: still})
+
+
+def spelled(world: World, said: Said) -> dict[str, str]:
+    """The author's LaTeX of every letter of a text, as this equation has it where they differ."""
+    everywhere = {k: v for one in world.paper.said for k, v in one.spelled.items()}
+    named = {slope_of(k, world.angle): v for k, v in everywhere.items() if PRIMED.fullmatch(k)}
+    written = everywhere | named | dict(said.spelled)
+    return written | {rate: written[k] for k, rate in world.aliases.items() if k in said.spelled}
+
+
+def is_still(world: World, letter: str) -> bool:
+    """Whether it is a rate of what the text says elsewhere without time or angle: there it was a state of rest."""
+    stems = [] if letter in world.paper.named else stems_of(letter)
+    given = {d.letter for d in world.defined}
+    return letter not in given and any(stem in given and not world.turns(stem) for stem in stems)

@@ -237,19 +237,24 @@ def kinds_of(paper: Text) -> Kinds:
             # numbers in a row are data, in units that stand elsewhere
             data = beside[said.shown.begins] > 1 and said.sides and value_of(said.sides[-1]) is not None
             if not data:
-                _infer(kinds, said)
+                infer(kinds, said)
     _numbers_of_turns(kinds, paper.said)
+    for said in paper.said if kinds.turns else ():
+        infer(kinds, said)
     return kinds
 
 
-def _infer(kinds: Kinds, said: Said) -> None:
-    # the letter that an equation defines, or one over it, where its other side is known
+def infer(kinds: Kinds, said: Said) -> None:
+    """The unit of the letter that an equation defines, or one over it, where its other side is known."""
     left = said.sides[0] if said.sides else None
     over = left is not None and is_operation(left, ast.Div) and value_of(left.left) == 1
     letter = left.right if over and isinstance(left, ast.BinOp) else left
-    if not isinstance(letter, ast.Name) or kinds.of(letter.id) is not None:
+    if not isinstance(letter, ast.Name) or letter.id in kinds.inferred or letter.id in kinds.printed:
         return
     known = [k for side in said.sides[1:] if (k := _kind(kinds, side)) is not None]
+    like = kinds.of(letter.id)  # n_p as n, but for what takes it from a minute to a second
+    if like is not None and (like[4:] == PURE[4:] or not known or known[0][:4] != like[:4]):
+        return
     if known and all(k == known[0] for k in known):
         sign = -1 if over else 1
         kinds.inferred[letter.id] = (*(sign * e for e in known[0][:4]), Fraction(0), Fraction(0))

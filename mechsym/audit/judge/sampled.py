@@ -8,6 +8,7 @@ import numpy as np
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.theory.record import Theory, complete, dependencies
+from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 _STATES = 48
@@ -68,6 +69,18 @@ def where_defined(theory: Theory, tree: Node) -> Theory:
     letters_of = dict(theory.letters) | {k: replace(theory.letters[k], domain=(0.3, 0.9)) for k in starts}
     letters_of[theory.angle] = replace(theory.letters[theory.angle], domain=(1.2, 1.6))
     return replace(theory, letters=letters_of)
+
+
+def vanishes(tree: Node) -> bool:
+    """Whether a form is 0 whatever its letters are."""
+    drawn = np.random.default_rng(11).uniform(0.3, 1.7, (len(letters(tree)), _STATES))
+    values = dict(zip(letters(tree), drawn, strict=True)) | {"pi": np.pi}
+    with np.errstate(all="ignore"):
+        try:
+            value = np.asarray(evaluate(tree, values, FLOATS), dtype=float)
+        except (BadInput, KeyError, TypeError):
+            return False
+    return bool(np.all(np.abs(value) < _CLOSE))
 
 
 def free(theory: Theory, tree: Node) -> set[str]:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from mechsym.audit.judge.kinds import Kind, Kinds, Odd, converted, id_of, letters_of, odd, text
+from mechsym.audit.judge.kinds import Kind, Kinds, Odd, converted, id_of, infer, letters_of, odd, text
 from mechsym.audit.read.said import Said, Text
 from mechsym.quantities import dimension, record
 
@@ -38,7 +38,7 @@ def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list
         _, letter, kind = best
         about = paper.named[letter]
         mended = [o for o in left if letter in letters_of(o.said)]
-        kinds.printed[letter] = kind
+        _measure(kinds, letter, kind, paper.said)
         kinds.inferred.pop(letter, None)
         left, _ = odd(kinds, paper.said)
         names = list(dict.fromkeys(o.said.name for o in mended if all(o.said.name != m.said.name for m in left)))
@@ -89,13 +89,23 @@ _TRIED = (
 )  # fmt: skip
 
 
+def _measure(kinds: Kinds, letter: str, kind: Kind, said: Sequence[Said]) -> None:
+    # a letter in another unit, and what follows from it anew
+    kinds.printed[letter] = kind
+    uses = [one for one in said if letter in letters_of(one)]
+    for one in uses:
+        kinds.inferred.pop(getattr(one.sides[0], "id", ""), None)
+    for one in uses:
+        infer(kinds, one)
+
+
 def _mended(kinds: Kinds, letter: str, kind: Kind, own: Sequence[Said], before: set[str]) -> int:
     # how many equations of a letter another unit mends; none where it spoils one
-    old = kinds.printed.get(letter)
-    kinds.printed[letter] = kind
+    printed, inferred = dict(kinds.printed), dict(kinds.inferred)
+    _measure(kinds, letter, kind, own)
     after = {id_of(o.said) for o in odd(kinds, own)[0]}
-    if old is None:
-        del kinds.printed[letter]
-    else:
-        kinds.printed[letter] = old
+    kinds.printed.clear()
+    kinds.printed.update(printed)
+    kinds.inferred.clear()
+    kinds.inferred.update(inferred)
     return 0 if after - before else len(before - after)

@@ -19,7 +19,7 @@ class Named:
 
 _SYMBOL = r"(\$[^$\n]{1,40}\$|\\\([^\n]{1,40}?\\\)|[A-Za-zα-ωΑ-Ω][\w{}\\^]{0,12})"
 _LISTED = re.compile(
-    rf"{_SYMBOL}\s*(?:[–—=:-]|is the|denotes the)\s*([A-Za-z][^\[\]\n;,$&|]{{2,70}}?)\s*\[([^\[\]\n]{{1,40}})\]"
+    rf"{_SYMBOL}\s*(?:[–—=:]|-{{1,3}}|is the|denotes the)\s*([A-Za-z][^\[\]\n;,$&|]{{2,70}}?)\s*\[([^\[\]\n]{{1,40}})\]"
 )
 _BACKWARDS = re.compile(
     r"^\s*[-*+]\s*([A-Za-z][^:`$\[\]\n]{2,60}):\s*[`$]([^`$\n]{1,24})[`$]\s*(?:\([^()]*\)\s*)?\[([^\[\]\n]{1,40})\]"
@@ -28,6 +28,9 @@ _BOLD = re.compile(
     r"^\s*[-*+]\s*(?:\*\*|[`$])([^*`$\n]{1,24}?)(?:\*\*|[`$])\s*[=:–—-]\s*"
     r"([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*$"
 )
+# $D$ bore (m), $S$ stroke (m): one behind the other in a sentence
+_RUN_IN = re.compile(r"\$([^$\n]{1,40})\$\s+([a-z][A-Za-z\s-]{2,60}?)(?:\s*\(([^()\n]{1,20})\))?(?=\s*[,.;])")
+_FEWEST = 4  # letters of such a list
 _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
     r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|be|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
@@ -49,21 +52,27 @@ _CALLED = re.compile(
 )
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
+_FOR = re.compile(r"^(?:For|With|In|At|From|By)\b.*\bthe\s+")  # for the unevenness the speeds
+# the torque is with the volume $V$ of both: a letter stands behind the last of what it is with
+_GIVEN_WITH = re.compile(r"\s(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*\$[^$]+\$(?:\s+of\s+[a-z ]+)?\s*$")
 # the gas presses with a force
 _ACTS = re.compile(
-    rf"\b(?:the|its|an?)\s+({_SHORT})(?:\s+(?:of|at|on|in)\b[^.]*?)?\s+(?:presses|pushes|pulls|acts|resists)"
-    r"(?:\s+[a-z]+)?\s+with$",
+    rf"\b(?:the|its|an?)\s+({_SHORT}?)(?:\s+pressure)?(?:\s+(?:of|at|on|in|above)\b[^.]*?)?"
+    r"\s+(?:presses|pushes|pulls|acts|resists)(?:\s+[a-z]+){0,3}?\s+with$",
     re.IGNORECASE,
 )
 _LAST = 6  # words in front of an equation
 # names with an `of` of their own
-_FUSED = re.compile(r"\b(moments?|modulus|coefficient|radius) of (inertia|elasticity|friction|gyration)\b")
+_FUSED = re.compile(
+    r"\b(moments?|modulus|coefficient|radius|degree) of "
+    r"(inertia|elasticity|friction|gyration|irregularity|fluctuation)\b"
+)
 _VERB = re.compile(
-    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns|makes?|becomes?|means|reads?|that|which)\b"
+    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns(?!\s+(?:per|a)\b)|makes?|becomes?|means|reads?|that|which)\b"
 )
 # a shaft of the diameter $d$ has: the diameter is said of its own letter
 _LETTER_LAST = re.compile(r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I)
-_OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?([a-z]+(?:\s+of\s+[a-z]+)?)")
+_OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?((?:all\s+)?[a-z]+(?:\s+of\s+[a-z]+)?)")
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 
 
@@ -99,6 +108,12 @@ _CELLS = re.compile(r"(?<!\\)&|\||\t")
 def nomenclature(text: str) -> dict[str, Named]:
     """Letters as they are spelled there, with what they are called and measured in."""
     names: dict[str, Named] = {}
+    run = [m for m in _RUN_IN.finditer(text) if not m[3] or unit_of(m[3])]
+    run = run if sum(bool(m[3]) for m in run) >= _FEWEST else []
+    for match in run:
+        line = text.count("\n", 0, match.start()) + 1
+        unit = (unit_of(match[3]) if match[3] else "") or ""
+        names.setdefault(spelled(match[1]), Named(meaning=" ".join(match[2].split()), unit=unit, line=line))
     for number, row in enumerate(text.split("\n"), 1):
         if len(row) > 6000:
             continue
@@ -113,7 +128,7 @@ def nomenclature(text: str) -> dict[str, Named]:
                     names[one] = Named(meaning=meaning.strip(), unit=known or "", line=number)
         for match in _PROSE.finditer(row):
             one = spelled(match[2])
-            if match[1] in KINDS and one and len(one) < 20 and one not in names:
+            if not run and match[1] in KINDS and one and len(one) < 20 and one not in names:
                 names[one] = Named(meaning=match[1], unit="", line=number)
     phrases = [(m[1], m[3], m.start()) for m in _WHERE.finditer(text) if not _is_called_before(text, m)]
     phrases += [
@@ -135,6 +150,8 @@ def _is_moment(text: str, match: re.Match[str]) -> bool:
 def _is_called_before(text: str, match: re.Match[str]) -> bool:
     # the load $F$ the stress: what follows without a comma or a verb is said of something else
     comma = text[match.end(1) + 1 : match.end(1) + 2] == ","
+    if not comma and not match[2] and "=" in match[1]:
+        return True  # with $\lambda = r/l$ the way is
     before = re.search(r"([A-Za-z-]+)\s*$", text[max(0, match.start() - 40) : match.start()])
     if comma and not match[2] and _AHEAD_OF.match(text, match.end()):
         return True  # it is said of the equation behind
@@ -155,7 +172,11 @@ def called(text: str) -> dict[str, str]:
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
         phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
         if of := _OF_WHAT.match(text, match.end()):  # the coefficient $k$ of fluctuation
-            phrase += f" of {of[1]}" if phrase.endswith(("coefficient", "moment", "modulus")) else ""
+            phrase += (
+                f" of {of[1]}"
+                if phrase.endswith(("coefficient", "moment", "modulus", "swept volume", "mass flow"))
+                else ""
+            )
         pairs += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
     names: dict[str, str] = {}
     for symbol, phrase in pairs:
@@ -173,24 +194,30 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
+    if _GIVEN_WITH.search(spoken):
+        bare = re.sub(r"\s+(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*$", "", bare)
     bare = _FUSED.sub(r"\1-of-\2", bare)
     tail = " ".join(bare.split()[-_LAST:]).replace("-of-", " of ")
+    tail = _FOR.sub("", tail)
     if not alone:
         return "", tail
     ends = bare != sentence  # with a verb: the torque of the gas is
-    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between)\b", bare)
+    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|by)\b", bare)
     beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if ends else None
     headed = re.search(
         rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
     )
     last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
-    behind = re.search(rf"\b(?:has|gives?|yields?|makes?|takes?)\s+(?:the|an?)\s+({_SHORT})$", bare)
+    behind = re.search(
+        rf"\b(?:has|gives?|yields?|makes?|takes?|stores?)\s+(?:the|an?)\s+({_SHORT})(?:\s+of\s+(?:the|an?)\s+{_PLAIN})?$",
+        bare,
+    )
     moves = re.search(rf"\b(?:the|its)\s+({_SHORT})\s+(?:rises|falls|drops|grows)\b", bare, re.IGNORECASE)
     # fires with the frequency
     onto = (
         None
         if ends or _LETTER_LAST.search(spoken)
-        else re.search(rf"\b(?:with|by|to|at) the ({_SHORT}(?: of {_PLAIN})?)$", bare)
+        else re.search(rf"\b(?:with|by|to|at) (?:the [^,]* and )?the ({_SHORT}(?: of {_PLAIN})?)$", bare)
     )
     verb = _VERB.search(bare)
     chosen = (
@@ -228,6 +255,9 @@ def listed(before: str, count: int) -> list[str]:
     parts = re.split(r"\s*,\s*(?:and\s+)?|\s+and\s+", bare)
     if bare == sentence or len(parts) != count:
         return []
+    shared = re.fullmatch(r"(?:the |whose |its )?([a-z]+) and (?:the )?([a-z]+) ([a-z]+)s\b.*", bare, re.IGNORECASE)
+    if shared is not None and count == 2:  # the tangential and radial forces
+        return [f"{shared[1]} {shared[3]}", f"{shared[2]} {shared[3]}"]
     heads = [
         re.split(r"\s+(?:of|on|in|for|at)\s+", re.sub(r"^(?:the|its|an?)\s+", "", p, flags=re.I))[0] for p in parts
     ]

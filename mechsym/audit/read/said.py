@@ -123,7 +123,7 @@ class _Spoken:
             return phrase, about
         names = listed(before, many)
         # of a row of many the first is what the words say, if they do not say it of all
-        shared = place == 0 or re.search(r"\b(?:and|are|both)\b", before[-120:])
+        shared = place == 0 or re.search(r"\b(?:are|both)\b", before[-120:])
         return names[place] if names else phrase, about if shared else ""
 
 
