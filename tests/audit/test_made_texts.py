@@ -231,18 +231,23 @@ def test_each_section_has_energies_of_its_own(tmp_path):
     [
         (r"F\tan\psi", "exact"),
         (r"-F\tan\psi", "convention"),
-        (r"F\sin\psi", "truncation"),
+        (r"F\sin\psi", "misprint"),
         (r"\frac{F}{\tan\psi}", "misprint"),
     ],
 )
 def test_what_words_tell_is_no_more_than_it_is(formula, verdict, tmp_path):
-    """The sine of a rod's angle is nearly its tangent, and the other way round is another sense."""
+    """The other way round is another sense; the sine of a rod's angle is no series of its tangent, but near to it."""
     text = (
         "The crank of radius $r$ and the rod of length $l$ with the rod angle $\\psi$ carry the piston force $F$.\n\n"
         f"$$\\psi = \\arcsin\\frac{{r\\sin\\alpha}}{{l}}$$\n\nThe side thrust is\n\n$$N = {formula}$$"
     )
     row = judged(tmp_path, text, "text.md")[-1]
     assert (row["verdict"], row["matched"]) == (verdict, "slider_forces.side_force"), row["note"]
+    if verdict == "misprint":
+        assert same(row["correction"], r"F\tan\psi")
+        assert blamed(judged(tmp_path, text.replace("N = F\\sin", "N \\approx F\\sin"), "text.md")) == (
+            [] if "sin" in formula else [row]
+        )
 
 
 def test_a_dotted_letter_has_as_many_rates_as_dots(tmp_path):

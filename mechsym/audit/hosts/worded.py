@@ -99,19 +99,15 @@ class Worded:
         return self.outcomes[order, side]
 
     def agrees(self, order: int) -> bool:
-        """Whether an equation is what its words say in every form."""
+        """Whether an equation is exactly what its words say in every form."""
         rows = [self.outcome(order, k) for k in range(1, len(self.world.paper.said[order].sides))]
-        return all(row is not None and row["verdict"] == "agrees" for row in rows)
+        return all(row and row["verdict"] == "agrees" and row.get("passed", "exact") == "exact" for row in rows)
 
     def is_suspect(self, letter: str, order: int) -> bool:
-        """Whether a letter of an equation has a display of its own that is not what its words say; one beside the
-        equation, that is a slip away from it.
-        """
-        said = self.world.paper.said
-        own = [d for d in self.world.defined if d.letter == letter and (d.order, d.side) in self.claims]
-        apart = [d for d in own if said[d.order].shown.opens != said[order].shown.opens]
-        rows = [self.outcome(d.order, d.side) for d in own if d not in apart]
-        return any(not self.agrees(d.order) for d in apart) or any(r and r["verdict"] == "misprint" for r in rows)
+        """Whether another equation defines a letter, and is a slip away from what its own words say."""
+        own = [d for d in self.world.defined if d.letter == letter and d.order != order]
+        rows = [self.outcome(d.order, d.side) for d in own if d.side]
+        return any(row is not None and row["verdict"] == "misprint" for row in rows)
 
     def in_own_letters(self, right: Node, printed: Node) -> Node:
         """A form in which what was put in for letters of an equation stands under these letters again."""
