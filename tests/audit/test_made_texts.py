@@ -15,7 +15,7 @@ from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.macros import expanded
 from mechsym.audit.read.mathml import formula as formula_of_page
 from mechsym.audit.read.matrices import entrywise
-from mechsym.audit.read.nomenclature import called, subject
+from mechsym.audit.read.nomenclature import called, listed, nomenclature, subject
 from mechsym.audit.read.said import read_text_whole
 from mechsym.errors import BadInput
 
@@ -125,6 +125,16 @@ def test_words_in_front_of_letters_name_them():
         ("The force is the product of the pressure $p$ and the area $A$:\n$$", ""),
         ("The energy of the gas per unit volume is\n$$", ""),
         ("The ratio of the force to the area is\n$$", ""),
+        ("During compression the pressure rises from $p_1$ by a polytrope,\n$$", "pressure"),
+        ("The gas above the piston presses with\n$$", "gas force"),
+        ("The gas pressure $p$ above atmosphere presses on the piston with\n$$", "gas force"),
+        ("and the torque $M$ in it makes the shear stress\n$$", "shear stress"),
+        ("The shear stress by the torque of the shaft is\n$$", "shear stress"),
+        ("The mean torque at the pressure $p$ is with the volume $V$ of both\n$$", "mean torque"),
+        ("The tooth force is with the module $m$ and the pitch radius\n$$", "pitch radius"),
+        ("With the mean and the degree of irregularity\n$$", "degree of irregularity"),
+        ("It gives the power of the engine\n$$", "power"),
+        ("The mean power at $n$ turns per minute is\n$$", "mean power"),
     ],
 )
 def test_a_sentence_says_what_its_equation_gives(before, phrase):
@@ -260,3 +270,44 @@ def test_a_dotted_letter_has_as_many_rates_as_dots(tmp_path):
     paper = read_text_whole(text)
     assert World(paper=paper, kinds=kinds_of(paper)).coordinates == {"zd"}
     assert judged(tmp_path, text, "text.md")[-1]["verdict"] == "exact"
+
+
+@pytest.mark.parametrize(
+    ("sentence", "letter", "name"),
+    [
+        (r"The crank of radius $R$ turns by $\theta$.", "R", "crank radius"),
+        ("the power of $z$ cylinders", "z", "cylinders"),
+        ("it runs at $n$ turns per minute", "n", "turns per minute"),
+        ("a shaft of torsional stiffness $k$", "k", "shaft torsional stiffness"),
+        ("the swept volume $V_H$ of all cylinders", "V_H", "swept volume of all cylinders"),
+    ],
+)
+def test_words_belong_to_their_letter(sentence, letter, name):
+    assert called(sentence)[letter] == name
+
+
+@pytest.mark.parametrize(
+    ("before", "names"),
+    [
+        (
+            "The angular velocity and the angular acceleration of the rod are",
+            ["angular velocity", "angular acceleration"],
+        ),
+        ("At the pin are the side force and the torque", []),
+        ("the tangential and radial forces", ["tangential force", "radial force"]),
+    ],
+)
+def test_a_row_of_equations_has_a_name_for_each(before, names):
+    assert listed(before, 2) == names
+
+
+def test_letters_of_a_list_in_a_sentence_and_of_one_with_dashes():
+    run = "$D$ bore (m), $S$ stroke\n(m), $z$ number of cylinders, $n$ speed (1/min), $p$ gas pressure (Pa)."
+    assert {k: (v.meaning, v.unit) for k, v in nomenclature(run).items()} == {
+        "D": ("bore", "m"), "S": ("stroke", "m"), "z": ("number of cylinders", ""), "n": ("speed", "rpm"),
+        "p": ("gas pressure", "Pa"),
+    }  # fmt: skip
+    ((letter, named),) = nomenclature(r"\item $s_k$ -- pull-out slip of the motor [kg m$^2$]").items()
+    assert (letter, named.meaning, named.unit) == ("s_k", "pull-out slip of the motor", "kg m^2")
+    # what a sentence defines on its way is not what comes behind
+    assert not nomenclature(r"With $\lambda = r/l$ the way of the piston is")

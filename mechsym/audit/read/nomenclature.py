@@ -252,12 +252,12 @@ def listed(before: str, count: int) -> list[str]:
     """What a sentence says that several equations give, one name for each: `The side force and the torque are`."""
     *_, sentence = _sentence(before)
     bare = re.sub(r"\s+are$", "", sentence)
-    parts = re.split(r"\s*,\s*(?:and\s+)?|\s+and\s+", bare)
-    if bare == sentence or len(parts) != count:
-        return []
     shared = re.fullmatch(r"(?:the |whose |its )?([a-z]+) and (?:the )?([a-z]+) ([a-z]+)s\b.*", bare, re.IGNORECASE)
     if shared is not None and count == 2:  # the tangential and radial forces
         return [f"{shared[1]} {shared[3]}", f"{shared[2]} {shared[3]}"]
+    parts = re.split(r"\s*,\s*(?:and\s+)?|\s+and\s+", bare)
+    if bare == sentence or len(parts) != count:
+        return []
     heads = [
         re.split(r"\s+(?:of|on|in|for|at)\s+", re.sub(r"^(?:the|its|an?)\s+", "", p, flags=re.I))[0] for p in parts
     ]
