@@ -330,3 +330,31 @@ def test_an_exponent_is_no_speed_in_turns_a_minute(tmp_path):
     )
     text += "$$ P = M\\omega = \\frac{\\pi n M}{30} $$\n\n$$ p = p_0 z^n $$"
     assert blamed(judged(tmp_path, text, "text.md")) == []
+
+
+RATE = r"r\omega\left(\sin\alpha + \frac{\lambda\sin\alpha\cos\alpha}{\sqrt{1-\lambda^2\sin^2\alpha}}\right)"
+
+
+@pytest.mark.parametrize(
+    ("printed", "verdict"),
+    [(RATE, "exact"), (f"-{RATE}", "convention"), (RATE.replace("+", "-"), "misprint")],
+)
+def test_the_speed_of_a_piston_is_the_rate_of_its_way(tmp_path, printed, verdict):
+    text = "With $\\lambda = r/l$ and the angular velocity $\\omega$ the exhaust piston is at\n"
+    text += "$$ x_e = r(1-\\cos\\alpha) + l(1-\\sqrt{1-\\lambda^2\\sin^2\\alpha}) $$\n\nand has the speed\n"
+    row = _last(tmp_path, f"{text}$$ v_e = {printed} $$")
+    assert row["verdict"] == verdict
+    assert verdict != "misprint" or same(row["correction"], RATE)
+
+
+def test_a_word_that_corrects_a_formula_says_more_than_its_units(tmp_path):
+    text = "| $\\sigma$ | bending stress | Pa |\n|---|---|---|\n| $\\tau$ | shear stress | Pa |\n\n"
+    row = _last(tmp_path, text + "The equivalent stress is\n" + r"$$ \sigma_v = \sqrt{\sigma^2 + 3\tau} $$")
+    assert row["verdict"] == "misprint" and same(row["correction"], r"\sqrt{\sigma^2 + 3\tau^2}")
+
+
+def test_a_diameter_before_a_letter_is_no_differential(tmp_path):
+    text = "The pin of diameter $d$ and width $b$ bears the force $F$ with the specific load\n"
+    assert _last(tmp_path, text + r"$$ p = \frac{F}{d b} $$")["verdict"] == "exact"
+    row = _last(tmp_path, text + r"$$ p = \frac{F}{\pi d b} $$")
+    assert row["verdict"] == "misprint" and same(row["correction"], r"\frac{F}{d b}")

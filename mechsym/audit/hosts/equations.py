@@ -70,6 +70,8 @@ class Judge:
         if own.verdict in (*FINDINGS, CARRIED) or own.verdict not in ("", DEFINED) and not odd:
             return own
         if odd:
+            if (slip := self._by_words(order, said)) is not None and slip.verdict == "misprint":
+                return slip  # which mends the units, too
             return Judged(verdict="wrong", matched="units", note="; ".join(dict.fromkeys(o.why for o in odd)))
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:

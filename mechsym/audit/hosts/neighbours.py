@@ -59,15 +59,12 @@ class Neighbours:
         if not every:
             return None
         # called like another quantity, in letters that others show to be understood, it is no excuse to be this one
-        other = any(
-            n.away
-            and n.fitted.rank > 2
-            and n.quantity in n.fitted.quantities
-            and (self._beside(n) or self._is_named(n))
-            for n in every
-        )
+        called = [n for n in every if n.away and n.fitted.rank > 2 and n.quantity in n.fitted.quantities]
+        other, named = any(self._beside(n) for n in called), any(self._is_named(n) for n in called)
         for near in every:
-            if near.away == 0.0 and (near.quantity in near.fitted.quantities or not other and not self._clashes(near)):
+            own = near.fitted.theory.words  # that have another name for it
+            excused = not other and not (named and near.quantity in own) and not self._clashes(near)
+            if near.away == 0.0 and (near.quantity in near.fitted.quantities or excused):
                 sense, against = self._sense(near), f"{near.fitted.theory.name}.{near.quantity}"
                 if sense and _is_rate_of_its_own(near):
                     right = to_python(trees.negative(claim.tree))

@@ -42,8 +42,10 @@ class Worded:
         """Every side of a letter's equation is a claim, the letter's name in the text its comment."""
         paper = self.world.paper
         values = {d.letter: d.tree for d in self.world.defined}
-        # the angle that turns follows from nothing
-        called = {k: words for k, words in paper.called.items() if words != "angle" or k not in values}
+        # the angle that turns is the one that the text's motion goes by, and follows from nothing
+        plain = {k for k, words in paper.called.items() if words == "angle"}
+        vague = {k for k in plain if k in values or self.world.angle in plain - {k}}
+        called = {k: words for k, words in paper.called.items() if k not in vague}
         called |= dict.fromkeys(self.world.kinds.turns, "revolutions per minute")
         for order, said in enumerate(paper.said):
             if not said.sides or said.claim or said.inline:

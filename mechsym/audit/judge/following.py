@@ -40,6 +40,7 @@ _PUSHES = re.compile(r"\b(?:piston|gas|plunger|yoke|slider|crosshead)\b")
 _ELSEWHERE = re.compile(r"\b(?:second|third|other|ahead|behind|degrees|leads?|lags?)\b|°|\\circ")  # at another angle
 _TORQUE = re.compile(r"\btorque\b|\bmoment\b(?! of)", re.IGNORECASE)
 CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
+_SPEED, _WAYS = re.compile(r"\b(?:speeds?|velocit(?:y|ies))\b", re.IGNORECASE), "xyzsh"
 _BEFORE = 6  # equations in front of one that it may be the derivative of
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
 
@@ -84,6 +85,8 @@ def expected(world: World, order: int) -> Iterator[Expected]:
         if _DERIVED.search(words):
             yield from _differentiated(world, order, said)
         left = getattr(said.sides[0], "id", "")
+        if _SPEED.search(world.paper.called.get(left, "")) or _SPEED.search(words):
+            yield from _speed_of_its_way(world, order, said, left)
         of_torque = _TORQUE.search(words) or _TORQUE.search(world.paper.called.get(left, ""))
         if of_torque and not _ELSEWHERE.search(words) and not re.search(r"[2-9]$", left):
             yield from _by_virtual_work(world, order, said)
@@ -105,6 +108,17 @@ def _by_virtual_work(world: World, order: int, said: Said) -> Iterator[Expected]
         work = times(name(forces[0]), name(Slope(way, world.angle).name))
         for tree in (work, negative(work)):
             yield Expected(tree=tree, printed=printed, note=f"the work of {forces[0]} on {way}", whole=True)
+
+
+def _speed_of_its_way(world: World, order: int, said: Said, left: str) -> Iterator[Expected]:
+    # v_i is the rate of x_i: of the one way with the same index that the text has
+    index = left[1:]
+    before = (d for d in world.defined if d.order < order and d.letter[1:] == index and d.letter[0] in _WAYS)
+    ways = [d.letter for d in before if world.turns(d.letter) and not world.paper.said[d.order].claim]
+    if index and len(set(ways)) == 1 and left[0] in "vcuw" and world.angle:
+        rate = times(name(Slope(ways[0], world.angle).name), name(f"{world.angle}d"))
+        for tree in (rate, negative(rate)):
+            yield Expected(tree=tree, printed=world.plain(said.sides[1]), note=f"the rate of {ways[0]}", whole=True)
 
 
 def _above(tree: Node) -> list[str]:

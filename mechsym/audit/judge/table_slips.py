@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from mechsym.audit.judge.kinds import Kind, Kinds, Odd, converted, id_of, infer, letters_of, odd, text
 from mechsym.audit.read.said import Said, Text
+from mechsym.audit.read.slopes import slope_in
 from mechsym.quantities import dimension, record
 
 
@@ -26,7 +27,7 @@ def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list
     while left:
         best: tuple[int, str, Kind] | None = None
         for letter in sorted({n for o in left for n in letters_of(o.said) if n in paper.named and paper.named[n].unit}):
-            own = [s for s in paper.said if any(n.startswith(letter) for n in letters_of(s))]
+            own = [s for s in paper.said if any(n.startswith(letter) or _moves(n, letter) for n in letters_of(s))]
             before = {id_of(o.said) for o in odd(kinds, own)[0]}
             sure = _sure(letter, left)
             for kind in _wanted(kinds, letter):
@@ -87,6 +88,12 @@ _TRIED = (
     "-", "m", "m^2", "m^3", "s", "kg", "K", "N", "N*m", "Pa", "W", "J/kg/K", "m/s", "m/s^2", "rad/s", "rad/s^2",
     "kg*m^2", "kg/m^3", "N/m", "J/kg", "kg/s", "W/m/K", "W/m^2/K", "N*s/m", "N*m*s", "kg*m", "m^3/s", "Pa*s",
 )  # fmt: skip
+
+
+def _moves(name: str, letter: str) -> bool:
+    # the slope of a letter, or by it
+    slope = slope_in(name)
+    return slope is not None and letter in (slope.of, slope.by)
 
 
 def _measure(kinds: Kinds, letter: str, kind: Kind, said: Sequence[Said]) -> None:

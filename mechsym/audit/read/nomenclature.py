@@ -35,10 +35,11 @@ _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
     r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|be|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
     # the force $F$, the mass $m$: what stands before a letter is not said of the one before it
-    r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b(?!\s+(?:inertia|elasticity))|\bin\b|(?(2)\$|(?!))|\Z))"
+    r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b(?!\s+(?:inertia|elasticity|specific))|\bin\b|(?(2)\$|(?!))|\Z))"
 )
+_KINDS = "|".join(kind.replace(" ", r"\s+") for kind in sorted(KINDS, key=len, reverse=True))
 _AHEAD = re.compile(
-    rf"\b(\w{{1,20}})\s+({'|'.join(sorted(KINDS, key=len, reverse=True))})\s+"
+    rf"\b(\w{{1,20}})\s+({_KINDS})\s+"
     r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$(?!\s+per\b)"
 )
 # words in front of a letter, and of an equation: as many as a name has
@@ -169,6 +170,8 @@ def called(text: str) -> dict[str, str]:
         pairs.append((match[2], " ".join([owner, *match[3].split()]).strip()))
     pairs += [(match[1], "revolutions per minute") for match in _PER_MINUTE.finditer(text)]
     for match in _CALLED.finditer(text):
+        if match[1].endswith(" and"):
+            continue  # the force and $m$ the mass
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
         phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
         if of := _OF_WHAT.match(text, match.end()):  # the coefficient $k$ of fluctuation
@@ -217,7 +220,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     onto = (
         None
         if ends or _LETTER_LAST.search(spoken)
-        else re.search(rf"\b(?:with|by|to|at) (?:the [^,]* and )?the ({_SHORT}(?: of {_PLAIN})?)$", bare)
+        else re.search(rf".*\b(?:with|by|to|at) (?:the [^,]* and )?the ({_SHORT}(?: of {_PLAIN})?)$", bare)
     )
     verb = _VERB.search(bare)
     chosen = (

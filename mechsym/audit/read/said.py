@@ -76,6 +76,7 @@ class _Spelling:
     applied: re.Pattern[str] | None = None  #: Letters with arguments of which some are defined
     matrices: frozenset[str] = frozenset()  #: Letters that are turned over or given row by row
     delta: bool = False  #: Whether a delta stands alone, so that one before a letter is a factor
+    diameter: bool = False  #: Whether a d is a letter of its own, so that one before a letter is a factor
     twofold: Sequence[str] = ()  #: Greek letters that its formulas have in both forms, which are two letters then
 
 
@@ -162,6 +163,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         applied=_applied(shown),
         matrices=_matrices(shown),
         delta=bool(_ALONE_DELTA.search(text)),
+        diameter="d" in ahead,
         twofold=twofold,
     )
     aside = [*_inline(text), *_tabled(written, lines)]
@@ -247,6 +249,9 @@ def _prepared(text: str, spelling: _Spelling) -> str:
         text = re.sub(rf"\\var{letter}(?![A-Za-z])", rf"\\Var{letter} ", text)
     if spelling.delta:
         text = re.sub(r"\\delta(?=\s*(?:\\[a-z]|[A-Za-z]))", r"{\\delta}", text)
+    if spelling.diameter and "int" not in text:  # pi d b is no differential, which stands above another one
+        text = re.sub(r"(?<=[A-Za-z0-9}] )d(?= +[A-Za-z](?![A-Za-z]))", "{d}", text)
+        text = re.sub(r"(\\frac\{(?!\s*d)[^{}]*\}\s*\{\s*)d(?= +[A-Za-z](?![A-Za-z]))", r"\1{d}", text)
     text += "}" * (text.count("{") - text.count("}") == 1)  # one brace lost at the end
     text = _INDEXED.sub(
         lambda m: f"{m[1]}_{{{m[2].strip('{}')}{m[3].strip('{}')}}}" if m[1] in spelling.indexed else m[0], text
