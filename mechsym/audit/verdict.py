@@ -60,7 +60,7 @@ def decide(question: Question, settled: bool = False, one: bool = False, cut_sho
     if plain is not None:
         return plain
     for condition in (*conditions(question), *conditions(question, written=True)):
-        judged = _plain(examine(under(question, condition)))
+        judged = _plain(examine(under(question, condition)), cut_short)
         if judged is not None and judged.verdict in ("exact", "truncation"):
             words = "exact" if judged.verdict == "exact" else f"a truncation of relative order {judged.order}"
             note = joined(judged.note, f"{words} at {condition.told}")

@@ -255,9 +255,9 @@ def test_what_words_tell_is_no_more_than_it_is(formula, verdict, tmp_path):
     assert (row["verdict"], row["matched"]) == (verdict, "slider_forces.side_force"), row["note"]
     if verdict == "misprint":
         assert same(row["correction"], r"F\tan\psi")
-        assert blamed(judged(tmp_path, text.replace("N = F\\sin", "N \\approx F\\sin"), "text.md")) == (
-            [] if "sin" in formula else [row]
-        )
+    for said, cut in (("N = F\\sin", "N \\approx F\\sin"), ("The side", "For small angles the side")):
+        if "sin" in formula:
+            assert not blamed(judged(tmp_path, text.replace(said, cut), "text.md"))
 
 
 def test_a_dotted_letter_has_as_many_rates_as_dots(tmp_path):

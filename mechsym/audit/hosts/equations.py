@@ -37,6 +37,7 @@ _BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
 _CASE = re.compile(
     r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
+_NEARLY = 0.1  # what is cut short is off by at the most, of its largest value [-]
 
 
 @dataclass
@@ -76,7 +77,8 @@ class Judge:
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
                 return slip
-        for way in (self._by_solving, self._by_what_is_before, self._by_words, self._by_twin, self._by_later):
+        behind = (self._by_its_frequency, self._by_later)
+        for way in (self._by_solving, self._by_what_is_before, self._by_words, self._by_twin, *behind):
             if (judged := way(order, said)) is not None:
                 return judged
         if of_units.id_of(said) in self.agreeing:
@@ -133,36 +135,35 @@ class Judge:
 
     def _by_words(self, order: int, said: Said) -> Judged | None:
         # by what the letters are called, as in a program
+        short = bool(said.claim or CUT_SHORT.search(said.before))
         for k in range(1, len(said.sides)):
             row = self.worded.outcome(order, k) if self.searches > 0 else None
             self.searches -= row is not None and row["verdict"] != "agrees"
-            if row is not None and row["verdict"] == "agrees":
+            if row is None or row["verdict"] == "misprint" and short and row["max_rel_error"] < _NEARLY:
+                continue
+            if row["verdict"] == "agrees":
                 verdict, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
-                if row.get("order") == 1 and not (said.claim or CUT_SHORT.search(said.before)):
+                if row.get("order") == 1 and not short:
                     continue  # so short it may be another thing of that name
                 return Judged(verdict=verdict, matched=row["claim"], note=row.get("note", ""), error=error)
-            if row is not None:
-                right = read_expression(row["correction"], (), AnyLetter())[0]
-                right = self.worded.in_own_letters(right, said.sides[k])
-                gone = [n for n in letters(said.sides[k]) if n not in letters(right)]
-                if wrong := [n for n in gone if n in self.wrong]:
-                    return self._follows(wrong)
-                if "repaired by letter" not in row["note"] and any(self.worded.is_suspect(n, order) for n in gone):
-                    continue  # the slip is one of that letter's own equation
-                if isinstance(said.sides[0], ast.Name):
-                    self.wrong[said.sides[0].id] = (said.name, self.world.plain(said.sides[k]), self.world.plain(right))
-                elif is_operation(right, ast.Div) and value_of(right.left) == 1:
-                    right = right.right  # what stands on the right of 1/E
-                return Judged(
-                    verdict="misprint", matched=row["claim"], note=row["note"], error=row["max_rel_error"],
-                    correction=to_latex(right, spelled(self.world, said)),
-                )  # fmt: skip
+            right = self.worded.in_own_letters(read_expression(row["correction"], (), AnyLetter())[0], said.sides[k])
+            gone = [n for n in letters(said.sides[k]) if n not in letters(right)]
+            if wrong := [n for n in gone if n in self.wrong]:
+                return self._follows(wrong)
+            if "repaired by letter" not in row["note"] and any(self.worded.is_suspect(n, order) for n in gone):
+                continue  # the slip is one of that letter's own equation
+            if isinstance(said.sides[0], ast.Name):
+                self.wrong[said.sides[0].id] = (said.name, self.world.plain(said.sides[k]), self.world.plain(right))
+            elif is_operation(right, ast.Div) and value_of(right.left) == 1:
+                right = right.right  # what stands on the right of 1/E
+            return Judged(
+                verdict="misprint", matched=row["claim"], note=row["note"], error=row["max_rel_error"],
+                correction=to_latex(right, spelled(self.world, said)),
+            )  # fmt: skip
         return None
 
     def _by_later(self, order: int, said: Said) -> Judged | None:
         # a definition with which two later equations miss what their words say by the same slip of this one
-        if (slip := self._by_its_frequency(order, said)) is not None:
-            return slip
         own = next((d for d in self.world.defined if d.order == order and d.side), None)
         if own is None or len(said.sides) != 2 or said.claim:
             return None
@@ -180,10 +181,9 @@ class Judge:
 
     def _by_its_frequency(self, order: int, said: Said) -> Judged | None:
         # an equation of motion whose frequency stands behind it, and is what its words say
+        printed = self.world.plain(said.sides[0])
         for place, wanted in with_frequency(self.world, order):
-            if not self.worded.agrees(place):
-                continue
-            row = self._asked_of(self.world.bare, wanted, self.world.plain(said.sides[0]), said)
+            row = self._asked_of(self.world.bare, wanted, printed, said) if self.worded.agrees(place) else None
             if row is not None and (slip := self._finding(row, said, said.sides[0], "the text")):
                 return replace(slip, note=f"({self.world.paper.said[place].name}) is its frequency; {slip.note}")
         return None
