@@ -13,9 +13,9 @@ from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved, with_frequency
-from mechsym.audit.judge.forms import is_still, known, readings, spelled, steady
+from mechsym.audit.judge.forms import has_sense, is_still, known, readings, spelled, steady
 from mechsym.audit.judge.lagrangian import Energies
-from mechsym.audit.judge.primes import by_angle, is_slope, primed, stems_of
+from mechsym.audit.judge.primes import by_angle, is_slope, primed
 from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.sampled import alike, free, is_multiple, states, vanishes, where_defined
 from mechsym.audit.judge.solving import isolate
@@ -92,15 +92,10 @@ class Judge:
                 against = f"{fit.theory.name}.{met[0].quantity}"
                 if all(m.sign > 0 for m in met):
                     return self._carried(order, said, Judged(verdict="exact", matched=against, error=0.0))
-                if self._has_sense(said):
+                if has_sense(self.world, said):
                     continue
                 return Judged(verdict="convention", matched=against, note="exact with the opposite sense")
         return None
-
-    def _has_sense(self, said: Said) -> bool:
-        # the rate of what the text itself defines cannot be counted the other way
-        stems = stems_of(said.sides[0].id) if isinstance(said.sides[0], ast.Name) else ()
-        return any(d.letter in stems for d in self.world.defined)
 
     def _by_energies(self, order: int, said: Said) -> Judged | None:
         # an equation of motion, or what stands before an acceleration in one, by the energies of the text
@@ -150,8 +145,10 @@ class Judge:
             gone = [n for n in letters(said.sides[k]) if n not in letters(right)]
             if wrong := [n for n in gone if n in self.wrong]:
                 return self._follows(wrong)
-            if "repaired by letter" not in row["note"] and any(self.worded.is_suspect(n, order) for n in gone):
-                continue  # the slip is one of that letter's own equation
+            own = "repaired by letter" not in row["note"] and any(self.worded.is_suspect(n, order) for n in gone)
+            lost = "repaired by put back" in row["note"] and not _BESIDE.search(row["note"])
+            if own or lost and of_units.id_of(said) not in self.odd:
+                continue  # the slip is one of that letter's own equation; what is left out may be 1 there
             if isinstance(said.sides[0], ast.Name):
                 self.wrong[said.sides[0].id] = (said.name, self.world.plain(said.sides[k]), self.world.plain(right))
             elif is_operation(right, ast.Div) and value_of(right.left) == 1:
@@ -313,7 +310,7 @@ class Judge:
             row = self._asked_of(theory, wanted, printed, said)
             if row is not None and row["verdict"] in PASSED:
                 return passed(row, "the text")
-            row = settled(row) if row is not None and self._has_sense(said) else row
+            row = settled(row) if row is not None and has_sense(self.world, said) else row
             if row is not None and (slip := self._finding(row, said, said.sides[side], "the text")):
                 return slip
         return nothing
@@ -388,7 +385,7 @@ class Judge:
             if not set(letters(self.world.plain(side))) <= set(letters(right)):
                 return None  # with a letter more it may be of another model
         beside = _BESIDE.search(row["note"]) and set(letters(right)) <= set(letters(self.world.plain(side)))
-        lost = _PUT_BACK.search(row["note"]) and not self._has_sense(said)
+        lost = _PUT_BACK.search(row["note"]) and not has_sense(self.world, said)
         if lost and of_units.id_of(said) not in self.odd and not beside:
             return None  # what is left out may be 1 there; with a unit, or beside itself, it cannot
         left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""

@@ -1,5 +1,6 @@
 """An equation of a text in the forms in which its sides are compared."""
 
+import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -47,3 +48,9 @@ def is_still(world: World, letter: str) -> bool:
     stems = [] if letter in world.paper.named else stems_of(letter)
     given = {d.letter for d in world.defined}
     return letter not in given and any(stem in given and not world.turns(stem) for stem in stems)
+
+
+def has_sense(world: World, said: Said) -> bool:
+    """Whether it gives the rate of what the text itself defines, which cannot be counted the other way."""
+    stems = stems_of(said.sides[0].id) if isinstance(said.sides[0], ast.Name) else ()
+    return any(d.letter in stems for d in world.defined)
