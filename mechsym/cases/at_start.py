@@ -42,7 +42,8 @@ def of_start(case: Case, mechanism: Mechanism, columns: Mapping[str, np.ndarray]
     acts = {name: acting for name, acting in acts.items() if acting and isinstance(acting, float)}
     at = {name: float(column[0]) for name, column in columns.items()} | acts
     listing = plan_of(case.mechanism).listing(None)
-    if listing.get("springs") or listing.get("weight") and not acts:  # what is driven hardly swings by its weight
+    hangs = listing.get("weight") and not acts and not rotors  # what is driven hardly swings by its weight
+    if listing.get("springs") or hangs:
         yield from _swinging(case, mechanism, at, columns)
     yield from _still(listing["parameters"], mechanism, columns)
     for spring in listing.get("stretches", ()):
@@ -132,7 +133,9 @@ def _swinging(
         if swings.max() > 0:
             what = "fastest decay at the start / (2 * fastest vibration without dampers)"
             yield from proportion("damping_share", what, float(-rates.real.min() / (2 * swings.max())))
-    wanted = case.need("simulation")
+    wanted = case.sections.get("simulation")
+    if wanted is None:  # a report runs what says nothing of it
+        return
     # a short run with results that nobody asked for so far apart shows nothing, which is no jolt
     step = 0.0 if wanted.t_end is None else min(wanted.step, max(wanted.output_step or 0.0, _SHORT * wanted.t_end))
     for q, acceleration in zip(mechanism.coordinates, first.ravel(), strict=True):
