@@ -358,3 +358,11 @@ def test_a_diameter_before_a_letter_is_no_differential(tmp_path):
     assert _last(tmp_path, text + r"$$ p = \frac{F}{d b} $$")["verdict"] == "exact"
     row = _last(tmp_path, text + r"$$ p = \frac{F}{\pi d b} $$")
     assert row["verdict"] == "misprint" and same(row["correction"], r"\frac{F}{d b}")
+
+
+@pytest.mark.parametrize(
+    ("right", "read"),
+    [(r"U_{s}(0)\left(1 + \frac{z}{d}\right)", False), (r"U_s\cos(0) + z", True), (r"U_s(1 + z)", True)],
+)
+def test_a_value_at_nought_is_no_product(tmp_path, right, read):
+    assert _last(tmp_path, f"The current is\n$$ U = {right} $$")["read"] is read

@@ -287,6 +287,9 @@ _TURNED = re.compile(
     rf"({_SIGN}|\)|\])\s*\^\s*(?:\{{\s*)?(?:T(?![A-Za-z_\\])|\\(?:top|intercal|mathsf\s*\{{\s*T\s*\}}))"
 )
 _COUNTED = re.compile(r"[A-Za-z)}]\s*\^\s*(?:\{\s*[01]\s*\}|[01](?![\d./]))")
+_AT_ZERO = re.compile(
+    r"(?<![A-Za-z])(?:[A-Za-z]|\\(?!left|sin|cos|tan|exp|ln|log)[a-z]+(?:\{[A-Za-z]\})?)(?:_\w|_\{[^{}]*\})?\s*(?:\\left)?\(\s*0\s*(?:\\right)?\)"
+)
 _GIVEN = re.compile(rf"({_SIGN})\s*=\s*(?:\\left)?\s*[\[(]?\s*\\begin\{{(?:[bpvB]?matrix|array)\}}")
 _BOLD = re.compile(r"\\(?:mathbf|boldsymbol|bm|textbf)\s*\{?\s*([A-Za-z])\s*\}?")
 
@@ -316,6 +319,8 @@ def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inli
     try:
         if _multiplies_matrices(shown.text, spelling):
             raise BadInput("it multiplies matrices, whose order counts")
+        if _AT_ZERO.search(shown.text):
+            raise BadInput("it has a value at 0, as x(0), which is no product")
         if _COUNTED.search(shown.text):
             raise BadInput("raised 0 and 1 are indices, no powers")
         if (law := lagrange_equation(shown.text)) is not None:
