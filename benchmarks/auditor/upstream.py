@@ -1,6 +1,7 @@
 """What each line of docs/upstream.md costs, computed without the auditor: `python -m benchmarks.auditor.upstream`."""
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 
 def newton(slope, target: float, share: float, start: float = 20.0) -> int:
@@ -194,6 +195,12 @@ def main() -> None:
     )
     length, rolled = paper_roll()
     print(f"ModSimPy: {rolled:.1f} m of paper as written, {length:.1f} m")
+    mass, stiffness = 4.0e7, 1.44e7
+    swing = solve_ivp(
+        lambda t, y: (y[1], -stiffness / mass * y[0]), (0, 40), (1, 0), rtol=1e-10, events=lambda t, y: y[1]
+    )
+    turning = 2 * np.pi / (swing.t_events[0][-1] - swing.t_events[0][-3])
+    print(f"WEC-Sim: {np.sqrt(mass / stiffness):.3f} rad/s as written, {turning:.3f} rad/s by its motion")
     descriptions()
 
 
