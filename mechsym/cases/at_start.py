@@ -57,8 +57,11 @@ def _still(units: Mapping[str, str], mechanism: Mechanism, columns: Mapping[str,
     lengths = [abs(mechanism.parameters[name]) for name, unit in units.items() if unit == "m"]
     by = {"rad": 1.0, "m": max(lengths, default=0.0) or 1.0}
     going = {q: by.get(mechanism.units.get(q, "rad"), 0.0) for q in mechanism.coordinates}
-    ways = [float(np.nanmax(np.abs(columns[q] - columns[q][0]))) / scale for q, scale in going.items() if scale]
-    yield from proportion("still_run", "farthest way of a coordinate / (a radian, or the longest letter)", max(ways))
+    ways = [
+        float(np.nanmax(np.abs(columns[q] - columns[q][0]), initial=0.0)) / scale for q, scale in going.items() if scale
+    ]
+    what = "farthest way of a coordinate / (a radian, or the longest letter)"
+    yield from proportion("still_run", what, max(ways, default=1.0))
 
 
 def _acting(acts: Mapping[str, float], mechanism: Mechanism, columns: Mapping[str, np.ndarray]) -> Iterator[Doubt]:
@@ -160,8 +163,11 @@ def of_inertia(case: Case, mechanism: Mechanism, at: Mapping[str, float]) -> Ite
     still = {**mechanism.parameters, **dict.fromkeys(mechanism.coordinates, 0.0)}
 
     def goes_round(angle: str, place: Sequence[str]) -> bool:
-        ways = [abs(value_of(x, {**still, angle: math.tau}) - value_of(x, still)) for x in place]
-        return bool(ways) and angle in still and max(ways) < _BACK
+        try:
+            ways = [abs(value_of(x, {**still, angle: math.tau}) - value_of(x, still)) for x in place]
+        except ZeroDivisionError:  # a place that has no value where all coordinates are 0
+            return False
+        return bool(ways) and angle in still and all(way < _BACK for way in ways)
 
     own_axis = {inertia for _, inertia, angle, *place in listing.get("solids", ()) if goes_round(angle, place)}
     units = listing["parameters"]

@@ -131,10 +131,8 @@ def _solids(
             about, radius = f"speed of {angle}d at the radius sqrt({inertia}/{mass})", math.sqrt(turned / weighed)
             yield from proportion("point_speed", about, abs(speeds[angle]) * radius, _BURSTS)
         edge = (weighed / _STEEL) ** (1 / 3)
-        ratio, of = (
-            turned / (weighed * max(longest, edge) ** 2),
-            "longest letter" if longest > edge else "edge in steel",
-        )
+        of, size = ("longest letter", longest) if longest > edge else ("edge in steel", edge)
+        ratio = turned / (weighed * size**2)
         if ratio > 1:
             what = f"inertia {inertia} / ({mass} * ({of})^2)"
             yield from proportion("link_inertia", what, ratio, _WHEEL if angle in rotors else _SWINGS)

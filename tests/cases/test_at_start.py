@@ -46,14 +46,21 @@ def test_an_unbalance_says_nothing_of_the_size_of_its_rotor():
     assert doubts("wagon", {"parameters.R": "0.5 mm"})["turning_share"] > 5000
 
 
+def test_a_place_that_has_no_value_at_nought_hides_nothing(tmp_path):
+    """A rotor whose place is a quotient of coordinates."""
+    text = (OWN / "absorber.py").read_text()
+    (tmp_path / "fan.py").write_text(text.replace("e * sin(phi))", "e * sin(phi) * y**2 / (y**2 + z**2))"))
+    (tmp_path / "fan.toml").write_text((OWN / "absorber.toml").read_text().replace("./absorber.py", "./fan.py"))
+    assert "turning_share" in doubts(str(tmp_path / "fan"), {"parameters.e": "0.05 mm"}, y=0.01)
+
+
 @pytest.mark.parametrize(("share", "told"), [(9.9, False), (10.1, True)])
 def test_a_damper_by_the_swing_of_what_hangs(share, told):
     """The bell alone, its clapper fast: omega^2 = m g s / (I + m s^2), delta = b / (2 (I + m s^2))."""
     light = {"parameters.m_k": "1e-9 kg", "parameters.I_k": "1e-9 kg*m^2"}
     inertia = 120 + 900 * 0.38**2
     b = 2 * inertia * math.sqrt(900 * 9.81 * 0.38 / inertia) * share
-    found = doubts("bell", {**light, "parameters.b": f"{b!r} N*m*s/rad"})
-    assert ("damping_share" in found) == told
+    assert ("damping_share" in doubts("bell", {**light, "parameters.b": f"{b!r} N*m*s/rad"})) == told
 
 
 def test_a_mass_on_a_spring_that_is_let_go_far_out_jolts():

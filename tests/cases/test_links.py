@@ -324,6 +324,8 @@ def test_a_body_is_a_disc_no_wider_than_its_machine_but_for_a_flywheel(rotor, ra
     letters = {"m": 10.0, "q": 2.0, "I": 10.0 * (radius * 2.0) ** 2 / 2}
     doubts = {"link_inertia": pytest.approx(radius**2 / 2)} if told else {}
     assert _values(by_links(listing, letters, {}, {})) == doubts
+    # a model without its mass has no size
+    assert "link_inertia" not in _values(by_links(listing, {**letters, "m": 0.0}, {}, {"phi": 10.0}))
 
 
 @pytest.mark.parametrize(

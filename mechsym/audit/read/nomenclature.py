@@ -75,8 +75,6 @@ _VERB = re.compile(
 _LETTER_LAST = re.compile(r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I)
 _OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?((?:all\s+)?[a-z]+(?:\s+of\s+[a-z]+)?)")
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
-
-
 #: Where a display begins, at the end of what stands in front of it
 OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
 # what is no word of a sentence; where it began itself
@@ -175,11 +173,8 @@ def called(text: str) -> dict[str, str]:
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
         phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
         if of := _OF_WHAT.match(text, match.end()):  # the coefficient $k$ of fluctuation
-            phrase += (
-                f" of {of[1]}"
-                if phrase.endswith(("coefficient", "moment", "modulus", "swept volume", "mass flow"))
-                else ""
-            )
+            whole = phrase.endswith(("coefficient", "moment", "modulus", "swept volume", "mass flow"))
+            phrase += f" of {of[1]}" if whole else ""
         pairs += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
     names: dict[str, str] = {}
     for symbol, phrase in pairs:
