@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 
-from mechsym.audit.hosts.judged import AGREES, UNTOLD, Judged, passed, settled
+from mechsym.audit.hosts.judged import AGREES, UNTOLD, Judged, of_other_left, passed, settled
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
@@ -67,6 +67,8 @@ class Judge:
                 verdict="misprint", matched="the text", correction=to_latex(squares, said.spelled),
                 note="the squares belong outside the sums: so the resultant has the size that stands beside it",
             )  # fmt: skip
+        if (left := of_other_left(self.twins, order)) is not None:
+            return left
         own = self._by_text(order, said)
         if own.verdict in (*FINDINGS, CARRIED) or own.verdict not in ("", DEFINED) and not odd:
             return own
@@ -297,13 +299,14 @@ class Judge:
         by = "{}_d" if f"{self.world.angle}d" in letters(right) else Slope("{}", self.world.angle).name
         left, right = primed(left, by, theory), primed(right, by, theory)
         first, second = free(theory, left), free(theory, right)
+        if not first and (isinstance(said.sides[i], ast.Name) or value_of(said.sides[i]) is not None):
+            return nothing  # a letter has this value somewhere, or is to be found for it
         circular = isinstance(left, ast.Name) and left.id in second
         if not (first <= second or second <= first or circular) or not second or value_of(right) == 0:
             return nothing
         if isinstance(left, ast.Name) and left.id in theory.letters and not circular:
             return nothing
-        believed = self._believed(order, said, i, k)
-        if believed:
+        if believed := self._believed(order, said, i, k):
             return believed
         # of a chain the slip may stand in the earlier form
         for wanted, printed, side in ((left, right, k), (right, left, i))[: 1 + (i > 0)]:

@@ -1,5 +1,6 @@
 """What is said of an equation of a text."""
 
+from mechsym.audit.judge.twins import Twins
 from mechsym.audit.row import Row
 from mechsym.audit.verdict import RIGHT_WITH
 from mechsym.quantities import record
@@ -33,3 +34,13 @@ def settled(row: Row) -> Row:
     if not row["correction"] or not head.startswith(RIGHT_WITH):
         return row
     return row | {"verdict": "misprint", "note": rest}
+
+
+def of_other_left(twins: Twins, order: int) -> Judged | None:
+    """The verdict of a row whose left side is the letter of the row before it."""
+    meant = twins.other_left(order)
+    if meant is None:
+        return None
+    said = twins.world.paper.said
+    note = f"({said[meant[1]].name}) gives this letter already, and no equation gives {meant[0]}"
+    return Judged(verdict="misprint", matched="the text", note=note, correction=f"{meant[0]} = {said[order].texts[1]}")

@@ -34,6 +34,7 @@ _PLAIN = {
 }
 _PLAIN |= {Fraction(3, 2), Fraction(3, 4), Fraction(5, 2), Fraction(1, 8), Fraction(4, 3)}
 _UNITS = ("kg", "m", "s", "K")
+_WAYS = ("x", "y", "z", "s")
 
 
 _STEMS = "|".join([*sorted(SYMBOLS, key=len, reverse=True), "[A-Za-z]"])
@@ -222,7 +223,9 @@ def kinds_of(paper: Text) -> Kinds:
             if argument is not None and all(
                 isinstance(n, ast.Name | ast.operator) or value_of(n) is not None for n in _sum(argument)
             ):
-                kinds.printed |= {n: PURE for n in letters(argument) if kinds.of(n) is None}
+                alone = isinstance(argument, ast.Name)  # cos 3 x of a way x has a number in 1/m
+                angles = [n for n in letters(argument) if alone or n not in _WAYS]
+                kinds.printed |= {n: PURE for n in angles if kinds.of(n) is None}
     for letter in used:
         unit = next((u for u in _SCALED if letter.endswith(u) and len(letter) > len(u)), "")
         if unit:
@@ -251,7 +254,10 @@ def infer(kinds: Kinds, said: Said) -> None:
     letter = left.right if over and isinstance(left, ast.BinOp) else left
     if not isinstance(letter, ast.Name) or letter.id in kinds.inferred or letter.id in kinds.printed:
         return
-    known = [k for side in said.sides[1:] if (k := _kind(kinds, side)) is not None]
+    at_a_point = (
+        "(" in said.shown.text.partition("=")[0] and value_of(said.sides[-1]) is not None
+    )  # x(t_f) = 1 may be 1 m
+    known = [k for side in said.sides[1:] if not at_a_point and (k := _kind(kinds, side)) is not None]
     like = kinds.of(letter.id)  # n_p as n, but for what takes it from a minute to a second
     if like is not None and (like[4:] == PURE[4:] or not known or known[0][:4] != like[:4]):
         return
@@ -301,7 +307,7 @@ def odd(kinds: Kinds, said: Sequence[Said]) -> tuple[list[Odd], set[str]]:
             continue
         sides: list[tuple[int, Kind]] = []
         for i, side in enumerate(one.sides):
-            if value_of(side) is not None:  # 0 has any unit, and a number alone is in one that stands behind it
+            if not letters(side):  # 0 has any unit, and numbers alone are in one that stands behind them
                 continue
             try:
                 sides.append((i, kinds.kind(side)))
@@ -350,8 +356,9 @@ def letters_of(said: Said) -> Iterable[str]:
 
 
 def _is_only_time(kinds: Kinds, letter: str) -> bool:
-    slope = slope_in(letter)
-    return letter in ("t", "dt") or kinds.of(slope.of if slope and slope.by == "t" else letter) in (None, PURE)
+    slope, rate = slope_in(letter), _RATE.fullmatch(letter)
+    of = slope.of if slope and slope.by == "t" else rate[1] if rate else letter
+    return letter in ("t", "dt") or kinds.of(of) in (None, PURE)
 
 
 def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list[Odd]:

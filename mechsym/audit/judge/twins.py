@@ -103,6 +103,29 @@ class Twins:
                 return right, place
         return None
 
+    def other_left(self, order: int) -> tuple[str, int] | None:
+        """What a left side stands for that the row before it has, and its place: m_R = .., m_R = .. for m_R and m_L."""
+        before, here = self.world.paper.said[max(order - 1, 0)], self.world.paper.said[order]
+        if not all(len(one.sides) == 2 and isinstance(one.sides[0], ast.Name) for one in (before, here)):
+            return None
+        letter, how = letters(here.sides[0])[0], here.spelled.get(letters(here.sides[0])[0], "")
+        stem, index, _ = how.partition("_")
+        in_one = letters(before.sides[0]) == (letter,) and before.shown.opens == here.shown.opens
+        if not (order and index and in_one and self._is_twin(order - 1, order)):
+            return None
+        lefts = {one.sides[0].id for one in self.world.paper.said if one.sides and isinstance(one.sides[0], ast.Name)}
+        spelled = {n: how for one in self.world.paper.said for n, how in one.spelled.items()}
+        told = {*lefts, *self.world.paper.named}
+        meant = [how for n, how in spelled.items() if how.startswith(f"{stem}_") and n not in told]
+        return (meant[0], order - 1) if len(meant) == 1 else None
+
+    def _is_twin(self, first: int, second: int) -> bool:
+        # of one shape, with another sign or another letter somewhere
+        one, two = self._side(first), self._side(second)
+        beside = _beside(one, two)
+        changed = [(a, b) for pairs in beside.meant.values() for a, b in pairs if ast.dump(a) != ast.dump(b)]
+        return _weight(one) > 1 and 0 < len(beside.other) + len(changed) < 3
+
     def _as(self, first: int, second: int) -> Node | None:
         tree = self._side(first)
         if _weight(tree) < _HEAVY:

@@ -143,7 +143,7 @@ def nomenclature(text: str) -> dict[str, Named]:
 def _is_moment(text: str, match: re.Match[str]) -> bool:
     # the second moment of area $I$
     before = text[max(0, match.start() - 20) : match.start()]
-    return match[1] == "of" and bool(re.search(r"\b(?:moments?|rate|flow|flux|loss)\s+$", before))
+    return match[1] == "of" and bool(re.search(r"\b(?:moments?|rate|flow|flux|loss|cent(?:er|re)s?)\s+$", before))
 
 
 def _is_called_before(text: str, match: re.Match[str]) -> bool:

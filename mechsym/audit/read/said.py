@@ -52,6 +52,7 @@ _TIDY = (
     (re.compile(r"(?<![A-Za-z\\{])const(?:ant)?\b\.?"), r"\\text{constant}"),
     (re.compile(r"(?<![\\A-Za-z])f\s*\([^()=]*,[^()=]*\)|(?<==)\s*f\s*\([^()=]*\)\s*$"), r"\\text{function}"),
     (re.compile(r"\\[lr]vert(?![A-Za-z])"), "|"),
+    (re.compile(rf"(\\frac\s*\{{\s*d\s*{_SIGN})\s*\([^()=]*\)(?=\s*\}}\s*\{{\s*d)"), r"\1"),  # dN(E) over dE
     # the standard state of chemists; behind a number, or an angle without an index, degrees
     (re.compile(r"_(\w|\{(?:[^{}]|\{[^{}]*\})*\})\s*\^\s*(?:\\circ|\{\s*\\circ\s*\})"), r"_{\1\\text{o}}"),
     (re.compile(r"(?<![A-Za-z\\])([A-Za-z])\s*\^\s*(?:\\circ|\{\s*\\circ\s*\})"), r"\1_{\\text{o}}"),
@@ -313,12 +314,38 @@ def _multiplies_matrices(text: str, spelling: _Spelling) -> bool:
     )
 
 
+_VECTOR = re.compile(r"\\(?:mathbf|boldsymbol|bm|vec)(?![A-Za-z])")
+_CROSSED = re.compile(r"\\times\s*(?!\d)")
+_PUT_IN = re.compile(
+    r"(?i)\b(?:substitut|insert|put)[a-z]* (?:in )?(?:the |these )?(?:numbers|(?:numeric|numerical|given) values)[^.]*$"
+)
+_ARGUMENTS = r"\s*(?:\\left)?\(([^()=]*)\)"
+_OF_A_THING = re.compile(rf"({_SIGN})\s*(?:\\left)?\[([^][+=-]*?)(?:\\right)?\]")
+_OF_ARGUMENTS = re.compile(rf"\s*({_SIGN}){_ARGUMENTS}\s*=(.*)", re.DOTALL)
+
+
+def _is_two_functions(text: str) -> bool:
+    # F(t) = H F(omega, theta): one letter for a signal and for its amplitude
+    match = _OF_ARGUMENTS.match(text)
+    others = re.findall(rf"{re.escape(match[1])}{_ARGUMENTS}", match[3]) if match else []
+    if match and any("," in other and other != match[2] for other in others):
+        return True
+    of_things = {(m[1], m[2].strip()) for m in _OF_A_THING.finditer(text)}  # u[T^2] beside u[T]
+    return len({letter for letter, _ in of_things}) < len(of_things)
+
+
 def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inline: bool) -> Said:
     name = shown.number or shown.label or f"line {shown.line}"
     head = Said(shown=shown, name=name, section=section, before=before, inline=inline)
     try:
         if _multiplies_matrices(shown.text, spelling):
             raise BadInput("it multiplies matrices, whose order counts")
+        if _CROSSED.search(shown.text) and len(_VECTOR.findall(shown.text)) > 1:
+            raise BadInput("it has vectors whose product is one, and order counts")
+        if _PUT_IN.search(before) and re.search(r"\d", shown.text):
+            raise BadInput("it has numbers for letters")
+        if _is_two_functions(shown.text):
+            raise BadInput("it has one letter for two functions, of other arguments")
         if _AT_ZERO.search(shown.text):
             raise BadInput("it has a value at 0, as x(0), which is no product")
         if _COUNTED.search(shown.text):

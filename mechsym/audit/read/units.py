@@ -39,7 +39,7 @@ KINDS = {
 #: Words that change what the next one is measured in
 OTHERS = re.compile(
     "per|unit|specific|by|relative|(?:non)?dimension(?:less|al)|normali[sz]ed|scaled|molar|section|internal|moment|polar"
-    "|linear|flux|current|charge|probability|spectral"
+    "|linear|flux|current|charge|probability|spectral|generali[sz]ed|cent(?:er|re)"
 )
 
 
@@ -66,7 +66,7 @@ def unit_of(text: str) -> str | None:
 
 def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
     """What a letter is measured in by its name; indexed: whether some letter of the text is a diameter d_i."""
-    words = re.findall(r"[a-z]+", re.split(r"\b(?:that|which)\b", meaning.lower().replace("'s", ""))[0])
+    words = re.findall(r"[a-z]+", re.split(r"\b(?:that|which|at)\b", meaning.lower().replace("'s", ""))[0])
     called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
     called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
     step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
