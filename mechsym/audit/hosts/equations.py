@@ -2,38 +2,43 @@
 
 import ast
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import product
 
+from mechsym.audit.hosts.asking import BESIDE, Asking
 from mechsym.audit.hosts.judged import AGREES, UNTOLD, Judged, of_other_left, passed, settled
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import kinds as of_units
-from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved, with_frequency
-from mechsym.audit.judge.forms import has_sense, is_still, known, readings, spelled, steady
+from mechsym.audit.judge.forms import (
+    has_sense,
+    is_one_of_several,
+    is_still,
+    known,
+    readings,
+    spelled,
+    steady,
+)
 from mechsym.audit.judge.lagrangian import Energies
 from mechsym.audit.judge.primes import by_angle, is_slope, primed
 from mechsym.audit.judge.resultants import squares_of_sums
-from mechsym.audit.judge.sampled import alike, free, is_multiple, states, vanishes, where_defined
+from mechsym.audit.judge.sampled import alike, free, is_multiple, states, vanishes
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.twins import Twins
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
-from mechsym.audit.read.spelling import to_latex, to_python
-from mechsym.audit.read.tree import Node, is_operation, letters, negative, value_of
-from mechsym.audit.row import Row, answer
+from mechsym.audit.read.spelling import to_latex
+from mechsym.audit.read.tree import is_operation, letters, negative, value_of
 from mechsym.audit.theory.record import Theory
-from mechsym.audit.theory.tape import minus, plus, retaped
+from mechsym.audit.theory.tape import minus, plus
 from mechsym.audit.verdict import FINDINGS, PASSED
 from mechsym.errors import BadInput
 
-_PUT_BACK = re.compile("repaired by (?:put back|letter)")
-_BESIDE = re.compile(r"repaired by put back: (.+) becomes \1[*/]\w+(?:\*\*\d)?")
 _CASE = re.compile(
     r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
@@ -46,17 +51,15 @@ class Judge:
 
     world: World
     fits: Sequence[fitting.Match]
-    odd: Mapping[str, list[of_units.Odd]]
     agreeing: set[str]
     worded: Worded
     energies: Energies
     twins: Twins
-    searches: int  #: For slips that are left, each of which takes long
-    wrong: dict[str, tuple[str, Node, Node]] = field(default_factory=dict)  #: Letter to its equation, printed and right
+    asking: Asking
 
     def verdict(self, order: int, said: Said) -> Judged:
         """The verdict of an equation: a theory that fits, the text itself, its units."""
-        odd = self.odd.get(of_units.id_of(said), ())
+        odd = self.asking.odd.get(of_units.id_of(said), ())
         met = self._met(order, said)
         if met is not None and not odd:
             return met
@@ -117,14 +120,14 @@ class Judge:
         matched = "the text's energies"
         if self.energies.holds(order, theory, sides):
             return Judged(verdict="exact", matched=matched, error=0.0)
-        for letter, (source, _, right) in self.wrong.items():
+        for letter, (source, _, right) in self.asking.wrong.items():
             if self.energies.holds(order, self.world.theory(order, {letter: right}), sides):
                 return Judged(verdict="exact", matched=matched, error=0.0, note=f"with ({source}) as corrected")
         printed, wanted, beside = self.energies.wanted(order, theory, sides)
         # one slip away from what the energies give; what is cut short is none
         for tree in wanted if not CUT_SHORT.search(said.before) else ():
-            row = self._asked_of(theory, tree, printed, said)
-            if row is not None and (slip := self._finding(row, said, printed, matched)):
+            row = self.asking.compared(theory, tree, printed, said)
+            if row is not None and (slip := self.asking.finding(row, said, printed, matched)):
                 right = read_expression(row["correction"], (), AnyLetter())[0]
                 right = minus(right, beside.operand) if isinstance(beside, ast.UnaryOp) else plus(right, beside)
                 return replace(slip, correction=to_latex(right, spelled(self.world, said)))
@@ -134,8 +137,8 @@ class Judge:
         # by what the letters are called, as in a program
         short = bool(said.claim or CUT_SHORT.search(said.before))
         for k in range(1, len(said.sides)):
-            row = self.worded.outcome(order, k) if self.searches > 0 else None
-            self.searches -= row is not None and row["verdict"] != "agrees"
+            row = self.worded.outcome(order, k) if self.asking.searches > 0 else None
+            self.asking.searches -= row is not None and row["verdict"] != "agrees"
             if row is None or row["verdict"] == "misprint" and short and row["max_rel_error"] < _NEARLY:
                 continue
             if row["verdict"] == "agrees":
@@ -145,14 +148,15 @@ class Judge:
                 return Judged(verdict=verdict, matched=row["claim"], note=row.get("note", ""), error=error)
             right = self.worded.in_own_letters(read_expression(row["correction"], (), AnyLetter())[0], said.sides[k])
             gone = [n for n in letters(said.sides[k]) if n not in letters(right)]
-            if wrong := [n for n in gone if n in self.wrong]:
+            if wrong := [n for n in gone if n in self.asking.wrong]:
                 return self._follows(wrong)
             own = "repaired by letter" not in row["note"] and any(self.worded.is_suspect(n, order) for n in gone)
-            lost = "repaired by put back" in row["note"] and not _BESIDE.search(row["note"])
-            if own or lost and of_units.id_of(said) not in self.odd:
+            lost = "repaired by put back" in row["note"] and not BESIDE.search(row["note"])
+            if own or lost and of_units.id_of(said) not in self.asking.odd:
                 continue  # the slip is one of that letter's own equation; what is left out may be 1 there
             if isinstance(said.sides[0], ast.Name):
-                self.wrong[said.sides[0].id] = (said.name, self.world.plain(said.sides[k]), self.world.plain(right))
+                printed, mended = self.world.plain(said.sides[k]), self.world.plain(right)
+                self.asking.wrong[said.sides[0].id] = (said.name, printed, mended)
             elif is_operation(right, ast.Div) and value_of(right.left) == 1:
                 right = right.right  # what stands on the right of 1/E
             return Judged(
@@ -169,11 +173,11 @@ class Judge:
         slips: dict[int, Judged] = {}
         for place, printed, right, against in self.worded.blamed_on(own.letter):
             meant = isolate(self.world.plain(printed), own.letter, self.world.plain(right))
-            row = None if meant is None else self._asked_of(self.world.bare, meant, own.tree, said)
-            slip = None if row is None else self._finding(row, said, said.sides[1], against)
+            row = None if meant is None else self.asking.compared(self.world.bare, meant, own.tree, said)
+            slip = None if row is None else self.asking.finding(row, said, said.sides[1], against)
             slips |= {} if slip is None else {place: slip}
         if len(slips) < 2 or len({slip.correction for slip in slips.values()}) > 1:
-            self.wrong.pop(own.letter, None)
+            self.asking.wrong.pop(own.letter, None)
             return None
         others = ", ".join(dict.fromkeys(f"({self.world.paper.said[place].name})" for place in slips))
         return replace(slips[min(slips)], matched="the text", note=f"without it {others} is what its words say")
@@ -182,8 +186,8 @@ class Judge:
         # an equation of motion whose frequency stands behind it, and is what its words say
         printed = self.world.plain(said.sides[0])
         for place, wanted in with_frequency(self.world, order):
-            row = self._asked_of(self.world.bare, wanted, printed, said) if self.worded.agrees(place) else None
-            if row is not None and (slip := self._finding(row, said, said.sides[0], "the text")):
+            row = self.asking.compared(self.world.bare, wanted, printed, said) if self.worded.agrees(place) else None
+            if row is not None and (slip := self.asking.finding(row, said, said.sides[0], "the text")):
                 return replace(slip, note=f"({self.world.paper.said[place].name}) is its frequency; {slip.note}")
         return None
 
@@ -206,8 +210,8 @@ class Judge:
                 )
         except (BadInput, KeyError, RecursionError):
             return None
-        row = self._asked_of(theory, wanted, printed, said)
-        return None if row is None else self._finding(settled(row), said, said.sides[1], "the text")
+        row = self.asking.compared(theory, wanted, printed, said)
+        return None if row is None else self.asking.finding(settled(row), said, said.sides[1], "the text")
 
     def _by_what_is_before(self, order: int, said: Said) -> Judged | None:
         slips = []
@@ -220,8 +224,8 @@ class Judge:
                 continue
             slips.append((theory, one))
         for theory, one in slips:
-            row = self._asked_of(theory, one.tree, one.printed, said)
-            slip = self._finding(settled(row), said, said.sides[not one.scaled], "the text") if row else None
+            row = self.asking.compared(theory, one.tree, one.printed, said)
+            slip = self.asking.finding(settled(row), said, said.sides[not one.scaled], "the text") if row else None
             if slip or row and row["verdict"] in PASSED:  # what is cut short is no slip
                 return slip
         return None
@@ -247,11 +251,12 @@ class Judge:
             partners = [fit.met[order, j].quantity for j in range(1, len(said.sides)) if (order, j) in fit.met]
             for quantity in partners or fitting.candidates(fit, said, self.world):
                 for reading in fitting.readings(fit, self.world, used):
-                    row = self._asked(fit.theory, quantity, tree, reading, said)
-                    if row is not None and (slip := self._finding(row, said, side, f"{fit.theory.name}.{quantity}")):
+                    against = f"{fit.theory.name}.{quantity}"
+                    row = self.asking.asked(fit.theory, quantity, tree, reading, said)
+                    if row is not None and (slip := self.asking.finding(row, said, side, against)):
                         return slip
                     if row is not None and row["verdict"] in PASSED:
-                        return passed(row, f"{fit.theory.name}.{quantity}")
+                        return passed(row, against)
         return None
 
     def _by_text(self, order: int, said: Said) -> Judged:
@@ -261,8 +266,10 @@ class Judge:
         others = [k for k in range(1, len(said.sides)) if own is None or k not in (own.side, own.against)]
         if own is None and _CASE.search(said.before.rstrip("$[\\ \n").rpartition("\n\n")[2]):
             first, others = 1, others[1:]  # what an earlier equation says holds elsewhere
-        if not others:
-            return Judged(verdict=DEFINED, note=f"the text's own {own.letter}" if own else "")
+        if not others or is_one_of_several(self.world, said):
+            return Judged(
+                verdict=DEFINED if own or not others else "", note=f"the text's own {own.letter}" if own else ""
+            )
         # a rate of what the text defines is held against the formula, not the other way round
         slopes = [k for k in others if own is not None and is_slope(said.sides[k])]
         said_all = [self._pair(order, said, *((k, first) if k in slopes else (first, k))) for k in others]
@@ -310,20 +317,23 @@ class Judge:
             return believed
         # of a chain the slip may stand in the earlier form
         for wanted, printed, side in ((left, right, k), (right, left, i))[: 1 + (i > 0)]:
-            row = self._asked_of(theory, wanted, printed, said)
+            row = self.asking.compared(theory, wanted, printed, said)
             if row is not None and row["verdict"] in PASSED:
                 return passed(row, "the text")
+            if row is not None and "left out" in row["note"] and isinstance(said.sides[i], ast.Name):
+                continue  # a letter that is given anew, with a term more, is one of another case
             row = settled(row) if row is not None and has_sense(self.world, said) else row
-            if row is not None and (slip := self._finding(row, said, said.sides[side], "the text")):
+            if row is not None and (slip := self.asking.finding(row, said, said.sides[side], "the text")):
                 return slip
         return nothing
 
     def _believed(self, order: int, said: Said, i: int, k: int) -> Judged | None:
         # what follows from an earlier slip as it is printed, or is right without it
-        if not self.wrong:
+        wrong = self.asking.wrong
+        if not wrong:
             return None
-        for names, mended in product([*([w] for w in self.wrong), list(self.wrong)], (False, True)):
-            believed = {w: right if mended else printed for w, (_, printed, right) in self.wrong.items() if w in names}
+        for names, mended in product([*([w] for w in wrong), list(wrong)], (False, True)):
+            believed = {w: right if mended else printed for w, (_, printed, right) in wrong.items() if w in names}
             theory = self.world.theory(order, believed)
             left, right = known(self.world, said.sides[i], theory), known(self.world, said.sides[k], theory)
             for first, second in readings(self.world, left, right, theory):
@@ -332,21 +342,21 @@ class Judge:
                 except (BadInput, KeyError, RecursionError):
                     continue
                 if same and mended:
-                    corrected = ", ".join(f"({self.wrong[w][0]})" for w in names)
+                    corrected = ", ".join(f"({wrong[w][0]})" for w in names)
                     return Judged(verdict="exact", matched="the text", error=0.0, note=f"with {corrected} as corrected")
                 if same:
                     return self._follows(names)
         return None
 
     def _follows(self, names: Sequence[str]) -> Judged:
-        sources = tuple(self.wrong[n][0] for n in names)
+        sources = tuple(self.asking.wrong[n][0] for n in names)
         why = f"follows from {', '.join(f'({s})' for s in sources)} as printed, and is no slip of its own"
         return Judged(verdict=CARRIED, matched="the text", note=why, follows=sources)
 
     def _carried(self, order: int, said: Said, verdict: Judged) -> Judged:
         # right by the text's own letters, one of which is wrong: not so with the right one
         own = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
-        for letter, (source, _, right) in self.wrong.items():
+        for letter, (source, _, right) in self.asking.wrong.items():
             if letter == own or source == said.name:
                 continue
             theory = self.world.theory(order, {letter: right})
@@ -359,42 +369,3 @@ class Judge:
             except (BadInput, KeyError):
                 continue
         return verdict
-
-    def _asked_of(self, theory: Theory, left: Node, right: Node, said: Said) -> Row | None:
-        claimed = "claimed"
-        tape = retaped(theory.tape, {claimed: left}, theory.letters, theory.angle)
-        grown = replace(theory, tape=tape, results=(*theory.results, claimed))
-        return self._asked(where_defined(grown, left), claimed, right, {}, said)
-
-    def _asked(self, theory: Theory, quantity: str, tree: Node, meant: Mapping[str, str], said: Said) -> Row | None:
-        if self.searches <= 0:
-            return None
-        self.searches -= 1
-        asked = Asked(
-            text=to_python(tree), against=f"{theory.name}.{quantity}", given=theory, name=said.name,
-            claim="approx" if said.claim else "", letters={k: v for k, v in meant.items() if k != v},
-        )  # fmt: skip
-        try:
-            return answer(asked, one=True)
-        except (BadInput, KeyError):  # of a broken text a letter that nothing gives a value
-            return None
-
-    def _finding(self, row: Row, said: Said, side: Node, matched: str) -> Judged | None:
-        # one slip explains it, and the correction is right
-        if row["verdict"] != "misprint" or not row["correction"] or ", then by " in row["note"]:
-            return None
-        right = read_expression(row["correction"], (), AnyLetter())[0]
-        if "repaired by left out" in row["note"] and of_units.id_of(said) not in self.odd:
-            if not set(letters(self.world.plain(side))) <= set(letters(right)):
-                return None  # with a letter more it may be of another model
-        beside = _BESIDE.search(row["note"]) and set(letters(right)) <= set(letters(self.world.plain(side)))
-        lost = _PUT_BACK.search(row["note"]) and not has_sense(self.world, said)
-        if lost and of_units.id_of(said) not in self.odd and not beside:
-            return None  # what is left out may be 1 there; with a unit, or beside itself, it cannot
-        left = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
-        if left:
-            self.wrong[left] = (said.name, self.world.plain(side), right)
-        return Judged(
-            verdict="misprint", matched=matched, note=row["note"], error=row["max_rel_error"],
-            correction=to_latex(right, spelled(self.world, said)),
-        )  # fmt: skip

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from mechsym import budget
+from mechsym.audit.hosts.asking import Asking
 from mechsym.audit.hosts.equations import Judge
 from mechsym.audit.hosts.judged import AGREES, Judged
 from mechsym.audit.hosts.paper import CARRIED, EquationPlace, few
@@ -126,9 +127,9 @@ def _rows_of(text: TextFile) -> Iterator[Row]:
     _, fitted = of_units.odd(kinds, paper.said)
     world = World(paper=paper, kinds=kinds)
     judge = Judge(
-        world=world, fits=fitting.fits(world), odd=odd, agreeing=fitted, worded=Worded(world),
+        world=world, fits=fitting.fits(world), agreeing=fitted, worded=Worded(world),
         energies=Energies(world=world, laws=laws(world)), twins=Twins(world),
-        searches=max(_SEARCHES, _EACH * sum(not said.inline for said in paper.said)),
+        asking=Asking(world, odd, searches=max(_SEARCHES, _EACH * sum(not said.inline for said in paper.said))),
     )  # fmt: skip
     for order, said in enumerate(world.paper.said):
         if not said.inline:

@@ -8,7 +8,7 @@ from mechsym.audit.judge.primes import PRIMED, primed, rated, slope_of, stems_of
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
-from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.read.tree import Node, letters, value_of, walk
 from mechsym.audit.theory.record import Theory
 
 
@@ -54,3 +54,15 @@ def has_sense(world: World, said: Said) -> bool:
     """Whether it gives the rate of what the text itself defines, which cannot be counted the other way."""
     stems = stems_of(said.sides[0].id) if isinstance(said.sides[0], ast.Name) else ()
     return any(d.letter in stems for d in world.defined)
+
+
+def has_nothing(tree: Node) -> bool:
+    """Whether something in an expression is taken from itself."""
+    differences = [n for _, n in walk(tree) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Sub)]
+    return any(ast.dump(n.left) == ast.dump(n.right) for n in differences)
+
+
+def is_one_of_several(world: World, said: Said) -> bool:
+    """Whether an equation that is zero stands in one display with others, which hold together."""
+    zero = [one for one in world.paper.said if one.sides and value_of(one.sides[-1]) == 0]
+    return said in zero and not said.inline and sum(one.shown.opens == said.shown.opens for one in zero) > 1

@@ -15,7 +15,7 @@ from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.tree import Node, argument_of, function_of, is_operation, letters, value_of, walk
-from mechsym.audit.read.units import misnamed, usual_unit
+from mechsym.audit.read.units import defined_unit, misnamed, usual_unit
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
 from mechsym.quantities.units import scale
@@ -142,7 +142,7 @@ class Kinds:
             return inner
         if function == "sqrt":
             return tuple(e / 2 for e in inner)
-        if any(inner[:4]):
+        if any(inner[:4]) and function != "log":  # log p + n log V is right in any unit
             raise Clash(f"the argument of {function} has the unit {text(inner)}")
         return PURE
 
@@ -200,13 +200,14 @@ def kinds_of(paper: Text) -> Kinds:
     if "dt" in indexed:
         del kinds.printed["dt"]  # a diameter of something
     for letter, phrase in paper.called.items():
-        if usual := usual_unit(letter, phrase, letter in indexed):
+        is_listed = letter in paper.named and paper.named[letter].meaning == phrase
+        if usual := (defined_unit if is_listed else usual_unit)(letter, phrase, letter in indexed):
             kinds.printed[letter] = of_unit(usual)
         if letter not in paper.named and re.search(r"\b(?:revolutions|turns) (?:per|a) minute\b", phrase):
             kinds.printed[letter] = of_unit("rpm")
             kinds.turns.add(letter)
     for letter, about in paper.named.items():
-        unit = about.unit or usual_unit(letter, about.meaning, letter in indexed)
+        unit = about.unit or defined_unit(letter, about.meaning, letter in indexed)
         if unit:
             kinds.printed[letter] = of_unit(unit)
         if wanted := misnamed(letter, about.meaning, about.unit):
@@ -369,7 +370,11 @@ def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list
     lent = {getattr(one.said.sides[0], "id", "") for one in misfits}
     doubtful = {n for n in lent if kinds.is_lent(n)}  # M_b beside a mass M is a moment
     kept = []
+    bare = [one for one in misfits if one.why.startswith("the argument of")]
+    in_numbers = {n for one in bare for n in letters_of(one.said)} if len(bare) > 1 else set()
     for one in misfits:
+        if one in bare and not in_numbers.isdisjoint(letters_of(one.said)):
+            continue  # a text of several such counts lengths in a unit of its own
         if len(one.said.sides) > 2 and not doubtful.isdisjoint(letters_of(one.said)):
             continue
         if all(_is_only_time(kinds, n) for n in letters_of(one.said)):

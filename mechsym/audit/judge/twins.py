@@ -30,6 +30,7 @@ from mechsym.audit.read.tree import (
 )
 
 _INDEXED = re.compile(r"([A-Za-z]+?)(\d)")
+_ONE_INDEX = re.compile(r"(?P<of>\\?[A-Za-z]+)_\{?\s*(?P<index>\w)\s*\}?")
 _AXES = re.compile(r"(.*?)([xX])(.*)")
 _KIN = (ast.Add, ast.Sub), (ast.Mult, ast.Div)
 _OTHER = {"sin": "cos", "cos": "sin"}
@@ -108,15 +109,17 @@ class Twins:
         before, here = self.world.paper.said[max(order - 1, 0)], self.world.paper.said[order]
         if not all(len(one.sides) == 2 and isinstance(one.sides[0], ast.Name) for one in (before, here)):
             return None
-        letter, how = letters(here.sides[0])[0], here.spelled.get(letters(here.sides[0])[0], "")
-        stem, index, _ = how.partition("_")
+        (letter,), index = letters(here.sides[0]), _ONE_INDEX.fullmatch(here.spelled.get(letters(here.sides[0])[0], ""))
         in_one = letters(before.sides[0]) == (letter,) and before.shown.opens == here.shown.opens
         if not (order and index and in_one and self._is_twin(order - 1, order)):
             return None
         lefts = {one.sides[0].id for one in self.world.paper.said if one.sides and isinstance(one.sides[0], ast.Name)}
-        spelled = {n: how for one in self.world.paper.said for n, how in one.spelled.items()}
         told = {*lefts, *self.world.paper.named}
-        meant = [how for n, how in spelled.items() if how.startswith(f"{stem}_") and n not in told]
+        spelled = {n: how for one in self.world.paper.said for n, how in one.spelled.items() if n not in told}
+        others = [
+            match for how in spelled.values() if (match := _ONE_INDEX.fullmatch(how)) and match["of"] == index["of"]
+        ]
+        meant = [match[0] for match in others if match["index"].isdigit() == index["index"].isdigit()]
         return (meant[0], order - 1) if len(meant) == 1 else None
 
     def _is_twin(self, first: int, second: int) -> bool:

@@ -40,6 +40,7 @@ _WIDE = re.compile(rf"{_SPACE}{{9,}}")  # as good as one, and read in a moment
 _TRAIL = re.compile(rf"(?:{_SPACE}|[.,;])+$")
 _GOES_ON = re.compile(rf"{_SPACE}*{_SIGN}")
 _OPEN = re.compile(rf"{_SIGN}\s*$")
+_IS_ZERO = re.compile(rf"={_SPACE}*0{_SPACE}*[.,;]?{_SPACE}*$")
 _WORDS = re.compile(
     rf"[,;.]?{_SPACE}*(?<!_)(?<!_\{{)\\(?:text|mbox|intertext|textrm|mathrm)\s*\{{\s*"
     r"(?:for|if|where|when|with|and|at|in|per|positive|negative|otherwise|as)\b[^{}]*\}.*$|"
@@ -127,6 +128,8 @@ def _without_programs(text: str) -> str:
 def _joins(last: str, plain: str, same_block: bool) -> bool:
     # a row that begins with a sign goes on; across displays only what an open or leading equals sign asks for
     if same_block:
+        if _IS_ZERO.search(last) and "=" in plain and not re.match(rf"{_SPACE}*=", plain):
+            return False  # nothing is added to 0
         return bool(_GOES_ON.match(plain) or _OPEN.search(last))
     return bool(re.match(rf"{_SPACE}*=", plain) or re.search(r"=\s*$", last))
 

@@ -85,6 +85,8 @@ _COUNTED = re.compile(
     r"(?:in\s+)?((?:revolutions|turns(?!\s+(?:by|about|with|at|on|round|through))|strokes|cycles|cylinders|teeth)"
     r"(?:\s+per\s+[a-z]+)?)"
 )
+_STRESSED = re.compile(r"(?<!\w)\*{1,2}([A-Za-z][A-Za-z -]*[A-Za-z])\*{1,2}(?!\w)")
+_BETWEEN = re.compile(r"\bratio (?:of|between) .* (?:and|to)\b")
 _PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
 _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
@@ -163,6 +165,7 @@ def _is_called_before(text: str, match: re.Match[str]) -> bool:
 def called(text: str) -> dict[str, str]:
     """Letters as they are spelled there, with the words in front of them: the rod force $S$."""
     pairs = []
+    text = _STRESSED.sub(r"\1", text)
     for match in _COUNTED.finditer(text):
         owner = "" if match[3].startswith("cylinders") else match[1] or ""  # the power of $z$ cylinders
         pairs.append((match[2], " ".join([owner, *match[3].split()]).strip()))
@@ -230,7 +233,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
     if acts := _ACTS.search(bare):
         return f"{' '.join(acts[1].split()[-2:])} force", tail
-    if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio":
+    if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio" or _BETWEEN.search(bare):
         return "", tail
     phrase = _ENDS.sub("", chosen[1]).replace("-of-", " of ")
     if phrase.endswith(" one"):  # the tangential force, and the radial one

@@ -17,6 +17,7 @@ from mechsym.audit.read.lagrange import LagrangeEquation, calligraphic, lagrange
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.macros import expanded
 from mechsym.audit.read.nomenclature import OPENED, Named, called, listed, nomenclature, subject
+from mechsym.audit.read.refused import NO_LETTERS, SIGN, matrices_of, refused
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
 from mechsym.audit.read.tree import Node, check, number
@@ -24,13 +25,11 @@ from mechsym.audit.read.tree import name as name_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
-_SIGN = r"(?:\\[A-Za-z]+|[A-Za-z])'*(?:_(?:\w|\{(?:[^{}]|\{[^{}]*\})*\}))?'*"
 _ANGLES = r"\\(?:theta|vartheta|varphi|phi|alpha|psi)"
 _APPLIED = re.compile(
     rf"(?P<of>[A-Za-z}}'])\s*(?:\\left)?\(\s*(?:{_ANGLES}(?:_\{{?\w+\}}?)?|t)\s*(?:\\right)?\)(?!\s*\^)"
 )
-_DEFINED = re.compile(rf"((?:\\Delta ?)?{_SIGN}) ?\( ?({_SIGN}(?: ?, ?{_SIGN})*) ?\)")
-_NO_LETTERS = set("sin cos tan tg cot arcsin arccos arctan exp ln log sinh cosh tanh pi".split())
+_DEFINED = re.compile(rf"((?:\\Delta ?)?{SIGN}) ?\( ?({SIGN}(?: ?, ?{SIGN})*) ?\)")
 # the imaginary unit, and the mean or the transform of what stands in braces
 _NO_PRODUCT = re.compile(
     r"\\(?:text|mathrm|rm)\s*\{?\s*[ij]\s*\}"
@@ -40,7 +39,7 @@ _CLOSED = re.compile(r"(?:\\end\{[a-z]+\*?\}|\$\$|\\\])$")  # where a display en
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{1,200}?)\$(?!\$)")
-_RATIO = re.compile(rf"\bratio,?\s+(?:=\s*)?\$\s*({_SIGN}\s*/\s*{_SIGN})\s*\$$")
+_RATIO = re.compile(rf"\bratio,?\s+(?:=\s*)?\$\s*({SIGN}\s*/\s*{SIGN})\s*\$$")
 _ALONE = re.compile(r"^[ \t]*(\$[^$\n]+\$)[ \t]*[.,;]?[ \t]*$", re.MULTILINE)  # a display
 _INDEXED = re.compile(r"([A-Z])_(\d|\{\d\})\^(\d|\{\d\})")
 _NO_EQUATION = re.compile(r"\\(?:to|rightarrow|longrightarrow|le|leq|ge|geq|ll|gg|neq|in|propto|sim)(?![A-Za-z])|[<>]")
@@ -52,7 +51,7 @@ _TIDY = (
     (re.compile(r"(?<![A-Za-z\\{])const(?:ant)?\b\.?"), r"\\text{constant}"),
     (re.compile(r"(?<![\\A-Za-z])f\s*\([^()=]*,[^()=]*\)|(?<==)\s*f\s*\([^()=]*\)\s*$"), r"\\text{function}"),
     (re.compile(r"\\[lr]vert(?![A-Za-z])"), "|"),
-    (re.compile(rf"(\\frac\s*\{{\s*d\s*{_SIGN})\s*\([^()=]*\)(?=\s*\}}\s*\{{\s*d)"), r"\1"),  # dN(E) over dE
+    (re.compile(rf"(\\frac\s*\{{\s*d\s*{SIGN})\s*\([^()=]*\)(?=\s*\}}\s*\{{\s*d)"), r"\1"),  # dN(E) over dE
     # the standard state of chemists; behind a number, or an angle without an index, degrees
     (re.compile(r"_(\w|\{(?:[^{}]|\{[^{}]*\})*\})\s*\^\s*(?:\\circ|\{\s*\\circ\s*\})"), r"_{\1\\text{o}}"),
     (re.compile(r"(?<![A-Za-z\\])([A-Za-z])\s*\^\s*(?:\\circ|\{\s*\\circ\s*\})"), r"\1_{\\text{o}}"),
@@ -60,7 +59,7 @@ _TIDY = (
     (re.compile(r"_\s*\\(?:text|textrm)\s*(\{[^{}]*\})"), r"_{\\text\1}"),
     (re.compile(r"\s*\\prime(?![A-Za-z])(?<!\^\\prime)(?<!\{\\prime)"), "'"),
     (re.compile(r"\^(\d|\{\d\})\s*_(\w|\{[^{}]*\})"), r"_\2^\1"),
-    (re.compile(rf"(?:\\(?:text|operatorname)\s*\{{\s*inv\s*\}}|\\inv(?![A-Za-z]))\s*({_SIGN})"), r"(\\tan \1 - \1)"),
+    (re.compile(rf"(?:\\(?:text|operatorname)\s*\{{\s*inv\s*\}}|\\inv(?![A-Za-z]))\s*({SIGN})"), r"(\\tan \1 - \1)"),
     (re.compile(r"\\(?:bar|overline)\s*\{\s*([A-Za-z])\s*\}\s*([a-z])(?![A-Za-z_])"), r"\\bar{\\text{\1\2}}"),
 )
 
@@ -162,7 +161,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         words=words,
         indexed=indexed,
         applied=_applied(shown),
-        matrices=_matrices(shown),
+        matrices=matrices_of(shown),
         delta=bool(_ALONE_DELTA.search(text)),
         diameter="d" in ahead,
         twofold=twofold,
@@ -227,7 +226,7 @@ def _words(written: Mapping[str, Named], shown: Sequence[Displayed]) -> list[str
         left = equation.text.partition("=")[0].strip()
         if re.fullmatch(r"[A-Za-z]{2,5}", left) and not set(left) <= singles and left[0] != "d":
             words.add(left)
-    return sorted(words - _NO_LETTERS, key=len, reverse=True)
+    return sorted(words - NO_LETTERS, key=len, reverse=True)
 
 
 def _plain(symbol: str, words: Sequence[str], twofold: Sequence[str]) -> str:
@@ -241,7 +240,7 @@ def _plain(symbol: str, words: Sequence[str], twofold: Sequence[str]) -> str:
 
 def _prepared(text: str, spelling: _Spelling) -> str:
     if spelling.applied is not None:
-        text = spelling.applied.sub(lambda m: m[0] if m["of"].lstrip("\\") in _NO_LETTERS else m["of"], text)
+        text = spelling.applied.sub(lambda m: m[0] if m["of"].lstrip("\\") in NO_LETTERS else m["of"], text)
     text = calligraphic(text) if not _NO_PRODUCT.search(text) else text
     text = "".join(rf"\{_COMMANDS[c]} " if c in _COMMANDS else c for c in text)
     for pattern, instead in _TIDY:
@@ -275,81 +274,21 @@ def _applied(shown: Sequence[Displayed]) -> re.Pattern[str] | None:
     for one in shown:
         left = re.sub(r"\\(?:left|right)\b|\\[,;:! ]", " ", one.text.partition("=")[0])
         match = _DEFINED.fullmatch(" ".join(left.split()))
-        if match is not None and match[1].lstrip("\\") not in _NO_LETTERS:
+        if match is not None and match[1].lstrip("\\") not in NO_LETTERS:
             arguments |= {part.strip() for part in match[2].split(",")}
     if not arguments:
         return None
     any_of = "|".join(re.escape(k) for k in sorted(arguments, key=len, reverse=True))
     within = rf"\s*(?:{any_of})(?:\s*,\s*(?:{any_of}))*\s*"
-    return re.compile(rf"(?P<of>{_SIGN})\s*(?:\\left)?\({within}(?:\\right)?\)(?!\s*\^)")
-
-
-_TURNED = re.compile(
-    rf"({_SIGN}|\)|\])\s*\^\s*(?:\{{\s*)?(?:T(?![A-Za-z_\\])|\\(?:top|intercal|mathsf\s*\{{\s*T\s*\}}))"
-)
-_COUNTED = re.compile(r"[A-Za-z)}]\s*\^\s*(?:\{\s*[01]\s*\}|[01](?![\d./]))")
-_AT_ZERO = re.compile(
-    r"(?<![A-Za-z])(?:[A-Za-z]|\\(?!left|sin|cos|tan|exp|ln|log)[a-z]+(?:\{[A-Za-z]\})?)(?:_\w|_\{[^{}]*\})?\s*(?:\\left)?\(\s*0\s*(?:\\right)?\)"
-)
-_GIVEN = re.compile(rf"({_SIGN})\s*=\s*(?:\\left)?\s*[\[(]?\s*\\begin\{{(?:[bpvB]?matrix|array)\}}")
-_BOLD = re.compile(r"\\(?:mathbf|boldsymbol|bm|textbf)\s*\{?\s*([A-Za-z])\s*\}?")
-
-
-def _matrices(shown: Sequence[Displayed]) -> frozenset[str]:
-    """Letters that some equation turns over, as x^T, or gives row by row."""
-    texts = [_BOLD.sub(r"\1", one.text) for one in shown]
-    turned = {m[1] for text in texts for m in (*_TURNED.finditer(text), *_GIVEN.finditer(text))}
-    return frozenset(k.partition("_")[0] for k in turned if k not in ("e", ")", "]"))
-
-
-def _multiplies_matrices(text: str, spelling: _Spelling) -> bool:
-    # a transpose, or two letters of matrices, whose order counts
-    plain = _BOLD.sub(r"\1", text)
-    turned = [m for m in _TURNED.finditer(plain) if m[1] != "e"]
-    own = [k.partition("_")[0] for k in re.findall(_SIGN, plain)]
-    return (
-        bool(turned)
-        or sum(k in spelling.matrices for k in own) > 1
-        or bool(re.search(r"\\(?:operatorname\s*\{\s*)?(?:tr|det|rank)\b", plain))
-    )
-
-
-_VECTOR = re.compile(r"\\(?:mathbf|boldsymbol|bm|vec)(?![A-Za-z])")
-_CROSSED = re.compile(r"\\times\s*(?!\d)")
-_PUT_IN = re.compile(
-    r"(?i)\b(?:substitut|insert|put)[a-z]* (?:in )?(?:the |these )?(?:numbers|(?:numeric|numerical|given) values)[^.]*$"
-)
-_ARGUMENTS = r"\s*(?:\\left)?\(([^()=]*)\)"
-_OF_A_THING = re.compile(rf"({_SIGN})\s*(?:\\left)?\[([^][+=-]*?)(?:\\right)?\]")
-_OF_ARGUMENTS = re.compile(rf"\s*({_SIGN}){_ARGUMENTS}\s*=(.*)", re.DOTALL)
-
-
-def _is_two_functions(text: str) -> bool:
-    # F(t) = H F(omega, theta): one letter for a signal and for its amplitude
-    match = _OF_ARGUMENTS.match(text)
-    others = re.findall(rf"{re.escape(match[1])}{_ARGUMENTS}", match[3]) if match else []
-    if match and any("," in other and other != match[2] for other in others):
-        return True
-    of_things = {(m[1], m[2].strip()) for m in _OF_A_THING.finditer(text)}  # u[T^2] beside u[T]
-    return len({letter for letter, _ in of_things}) < len(of_things)
+    return re.compile(rf"(?P<of>{SIGN})\s*(?:\\left)?\({within}(?:\\right)?\)(?!\s*\^)")
 
 
 def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inline: bool) -> Said:
     name = shown.number or shown.label or f"line {shown.line}"
     head = Said(shown=shown, name=name, section=section, before=before, inline=inline)
     try:
-        if _multiplies_matrices(shown.text, spelling):
-            raise BadInput("it multiplies matrices, whose order counts")
-        if _CROSSED.search(shown.text) and len(_VECTOR.findall(shown.text)) > 1:
-            raise BadInput("it has vectors whose product is one, and order counts")
-        if _PUT_IN.search(before) and re.search(r"\d", shown.text):
-            raise BadInput("it has numbers for letters")
-        if _is_two_functions(shown.text):
-            raise BadInput("it has one letter for two functions, of other arguments")
-        if _AT_ZERO.search(shown.text):
-            raise BadInput("it has a value at 0, as x(0), which is no product")
-        if _COUNTED.search(shown.text):
-            raise BadInput("raised 0 and 1 are indices, no powers")
+        if reason := refused(shown.text, before, spelling.matrices):
+            raise BadInput(reason)
         if (law := lagrange_equation(shown.text)) is not None:
             sign = f"integral{crc32(shown.text.encode()):08x}"  # one symbol, of which the energies tell
             return replace(head, law=law, sides=(name_of(sign), number(0)), texts=(shown.text, "0"))

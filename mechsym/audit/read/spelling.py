@@ -114,7 +114,7 @@ def undotted(text: str) -> str:
 
 def plain(base: str, subscript: str = "", dots: int = 0) -> str:
     """A letter's plain name from what LaTeX spells out; p_i is not the constant, and l_n no logarithm."""
-    stem, index = ALIASES.get(base, base), re.sub(r"[\W_]", "", subscript)
+    stem, index = ALIASES.get(base, base), re.sub(r"[\W_]", "", re.sub(r"-(?=\d)", "m", subscript))  # y_{i-1}, y_{i+1}
     apart = "_" if index and re.fullmatch(rf"pi|{_CALLS}", stem + index) else ""
     return f"{stem}{apart}{index}{'d' * dots}"
 

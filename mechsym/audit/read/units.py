@@ -39,8 +39,10 @@ KINDS = {
 #: Words that change what the next one is measured in
 OTHERS = re.compile(
     "per|unit|specific|by|relative|(?:non)?dimension(?:less|al)|normali[sz]ed|scaled|molar|section|internal|moment|polar"
-    "|linear|flux|current|charge|probability|spectral|generali[sz]ed|cent(?:er|re)"
+    "|linear|flux|current|charge|probability|spectral|generali[sz]ed|cent(?:er|re)|vector|array"
 )
+
+_RATIO = re.compile(r"\b(?:coefficient|ratio)s? of\b", re.IGNORECASE)
 
 
 def unit_of(text: str) -> str | None:
@@ -66,14 +68,26 @@ def unit_of(text: str) -> str | None:
 
 def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
     """What a letter is measured in by its name; indexed: whether some letter of the text is a diameter d_i."""
-    words = re.findall(r"[a-z]+", re.split(r"\b(?:that|which|at)\b", meaning.lower().replace("'s", ""))[0])
+    words = re.findall(r"[a-z]+", re.split(r"\b(?:that|which)\b", meaning.lower().replace("'s", ""))[0])
     called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
     called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
     step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
-    changed = step or any(OTHERS.fullmatch(word) for word in words)
+    changed = (
+        step
+        or re.search(r"\b(?:coefficient|ratio)s? of\b", meaning.lower())
+        or any(OTHERS.fullmatch(word) for word in words)
+    )
     unit = "" if changed else KINDS.get(called, "")
     # small letters of work and heat are often those of a kilogram
     return "" if unit == "J" and letter[0].islower() else unit
+
+
+def defined_unit(letter: str, meaning: str, indexed: bool = False) -> str:
+    """What a letter is measured in by what a list says that it is: the head of that, where it is of something."""
+    bare = re.split(r"\s(?:at|in|during)\s", meaning)[0]
+    head = re.split(r"\sof\s", bare)[0]
+    words = re.findall(r"[a-z]+", head.lower())
+    return usual_unit(letter, head if words and words[-1] in KINDS else bare, indexed)
 
 
 _OPEN = ("m/s^2", "s^2/m", "-/kg")  # what a name leaves open: a weight, of a kilogram
