@@ -201,6 +201,11 @@ def main() -> None:
     )
     turning = 2 * np.pi / (swing.t_events[0][-1] - swing.t_events[0][-3])
     print(f"WEC-Sim: {np.sqrt(mass / stiffness):.3f} rad/s as written, {turning:.3f} rad/s by its motion")
+    right, left, flat = (10 - 4) / 2 + 1, (10 - 4) / 2 - 1, 4
+    print(f"OpenFAST: {right:.0f}, {left:.0f} and {flat} m of liquid, in all {right + left + flat:.0f} m")
+    flow, volume_of_kg, low, high = 10, 1e-3, 1e5, 10e5
+    pumped = flow * volume_of_kg * (high - low) / 1e3
+    print(f"CBE20255: a pump that takes {-pumped:.0f} kW as written, {pumped:.0f} kW")
     descriptions()
 
 

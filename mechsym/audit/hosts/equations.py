@@ -40,7 +40,7 @@ from mechsym.audit.verdict import FINDINGS, PASSED
 from mechsym.errors import BadInput
 
 _CASE = re.compile(
-    r"\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
+    r"(?:^|[.:]\s)\s*(?:For|In|Under|During)\s[^,.:$]*,|\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
 _NEARLY = 0.1  # what is cut short is off by at the most, of its largest value [-]
 
