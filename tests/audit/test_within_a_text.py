@@ -182,3 +182,17 @@ $$ V_h = \\frac{\\pi D^2}{4} TIMES r $$"""
     two, four = (judged(tmp_path, text.replace("TIMES", times), "text.md")[0] for times in "24")
     assert (two["verdict"], two["matched"]) == ("exact", "cylinder_volume.V_d")
     assert four["verdict"] in ("units agree", "definition")
+
+
+@pytest.mark.parametrize("printed", ["+", "-"])
+def test_a_slip_of_an_energy_is_told_there_and_not_in_what_follows(printed, tmp_path):
+    """Both equations of motion are right, and neither follows from the energy with the other sign."""
+    text = r"""The kinetic energy is $$ T = \frac{1}{2} J_1\dot\varphi_1^2 + \frac{1}{2} J_2\dot\varphi_2^2 $$ and
+$$ U = \frac{1}{2} c(\varphi_1 SIGN \varphi_2)^2 $$ and Lagrange's equations become
+$$ J_1\ddot\varphi_1 + c(\varphi_1 - \varphi_2) = 0 $$
+$$ J_2\ddot\varphi_2 - c(\varphi_1 - \varphi_2) = 0 $$"""
+    rows = judged(tmp_path, text.replace("SIGN", printed), "text.md")
+    assert [row["line"] for row in blamed(rows)] == ([2] if printed == "+" else [])
+    assert [row["verdict"] for row in rows[2:]] == ["exact", "exact"]
+    if printed == "+":
+        assert same(blamed(rows)[0]["correction"], r"\frac{1}{2} c(\varphi_1 - \varphi_2)^2")

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from mechsym.audit.hosts.asking import BESIDE, Asking
+from mechsym.audit.hosts.energy_slip import EnergySlip, energy_slip
 from mechsym.audit.hosts.judged import AGREES, UNTOLD, Judged, of_other_left, passed, settled
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
@@ -56,6 +57,12 @@ class Judge:
     energies: Energies
     twins: Twins
     asking: Asking
+    slip: EnergySlip | None = None  #: Of an energy, where that explains the equations of motion
+
+    def __post_init__(self) -> None:
+        """What a slip of an energy explains is judged by what the energy should be."""
+        self.slip = energy_slip(self.world, self.energies)
+        self.energies = self.slip.energies if self.slip else self.energies
 
     def verdict(self, order: int, said: Said) -> Judged:
         """The verdict of an equation: a theory that fits, the text itself, its units."""
@@ -63,6 +70,10 @@ class Judge:
         met = self._met(order, said)
         if met is not None and not odd:
             return met
+        if self.slip is not None and self.slip.order == order:
+            follow = ", ".join(f"({name})" for name in self.slip.follow)
+            right = to_latex(self.slip.right, spelled(self.world, said))
+            return Judged(verdict="misprint", matched="the text", note=f"without it {follow} follows", correction=right)
         if (of_motion := self._by_energies(order, said)) is not None:
             return of_motion
         if (squares := squares_of_sums(self.world, order, said)) is not None:
@@ -136,6 +147,7 @@ class Judge:
     def _by_words(self, order: int, said: Said) -> Judged | None:
         # by what the letters are called, as in a program
         short = bool(said.claim or CUT_SHORT.search(said.before))
+        agreed: Judged | None = None
         for k in range(1, len(said.sides)):
             row = self.worded.outcome(order, k) if self.asking.searches > 0 else None
             self.asking.searches -= row is not None and row["verdict"] != "agrees"
@@ -145,7 +157,8 @@ class Judge:
                 verdict, error = row.get("passed", "exact"), row.get("max_rel_error", 0.0)
                 if row.get("order") == 1 and not short:
                     continue  # so short it may be another thing of that name
-                return Judged(verdict=verdict, matched=row["claim"], note=row.get("note", ""), error=error)
+                agreed = agreed or Judged(verdict=verdict, matched=row["claim"], note=row.get("note", ""), error=error)
+                continue
             right = self.worded.in_own_letters(read_expression(row["correction"], (), AnyLetter())[0], said.sides[k])
             gone = [n for n in letters(said.sides[k]) if n not in letters(right)]
             if wrong := [n for n in gone if n in self.asking.wrong]:
@@ -163,7 +176,7 @@ class Judge:
                 verdict="misprint", matched=row["claim"], note=row["note"], error=row["max_rel_error"],
                 correction=to_latex(right, spelled(self.world, said)),
             )  # fmt: skip
-        return None
+        return agreed
 
     def _by_later(self, order: int, said: Said) -> Judged | None:
         # a definition with which two later equations miss what their words say by the same slip of this one

@@ -113,7 +113,11 @@ class Worded:
 
     def in_own_letters(self, right: Node, printed: Node) -> Node:
         """A form in which what was put in for letters of an equation stands under these letters again."""
-        known = {ast.dump(d.tree): d.letter for d in reversed(self.world.defined) if d.letter in letters(printed)}
+        values = {d.letter: d.tree for d in reversed(self.world.defined)}
+        known: dict[str, str] = {}
+        for letter in (n for n in letters(printed) if n in values):
+            within = substitute(values[letter], lambda n: values.get(n.id) if isinstance(n, ast.Name) else None)
+            known |= {ast.dump(values[letter]): letter, ast.dump(within): letter}
         for _ in known:
             right = substitute(right, lambda n: name_of(known[ast.dump(n)]) if ast.dump(n) in known else None)
         return right

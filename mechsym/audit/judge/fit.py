@@ -235,6 +235,9 @@ def candidates(fit: Match, said: Said, world: World) -> Sequence[str]:
         return []
     if left in fit.meant:
         return [fit.meant[left]]
+    stem = left.rstrip("d")  # the acceleration of what the theory knows
+    if (rate := fit.meant.get(stem, "") + left.removeprefix(stem)) in fit.theory.results:
+        return [rate]
     about = world.paper.named.get(left)
     around = f"{said.before} {about.meaning if about else ''}".lower()
     taken, kind = set(fit.meant.values()), world.kinds.of(left)

@@ -203,7 +203,9 @@ def kinds_of(paper: Text) -> Kinds:
         is_listed = letter in paper.named and paper.named[letter].meaning == phrase
         if usual := (defined_unit if is_listed else usual_unit)(letter, phrase, letter in indexed):
             kinds.printed[letter] = of_unit(usual)
-        if letter not in paper.named and re.search(r"\b(?:revolutions|turns) (?:per|a) minute\b", phrase):
+        if not (letter in paper.named and paper.named[letter].unit) and re.search(
+            r"\b(?:revolutions|turns) (?:per|a) minute\b", phrase
+        ):
             kinds.printed[letter] = of_unit("rpm")
             kinds.turns.add(letter)
     for letter, about in paper.named.items():

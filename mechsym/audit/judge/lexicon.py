@@ -4,7 +4,7 @@ import ast
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import islice, product
 
 from mechsym.audit.read import tree as trees
@@ -39,7 +39,7 @@ class Fitted:
 def words(text: str) -> tuple[str, ...]:
     """The words of a name or a comment: 'crankRad_1' is crank, rad, 1; a single letter keeps its case."""
     parts = re.findall(r"[A-Za-z]+|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text))
-    return tuple(p if len(p) == 1 else p.lower() for p in parts)
+    return _same(tuple(p if len(p) == 1 else p.lower() for p in parts))
 
 
 @lru_cache(maxsize=20_000)
@@ -111,7 +111,7 @@ class Lexicon:
                 rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
             alone = phrase in (said, turned) and len(whole) > 2 and not _UNIT.search(about)
             several = len(phrase) > 1 and len(whole) > 4
-            if alone or several and (_stands_in(phrase, said) or _stands_in(phrase, turned)):
+            if alone or several and (_stands_in(phrase, said) or _stands_in(phrase, turned) or _is_of(phrase, said)):
                 rank = max(rank, 4)
                 standing.append((phrase, meaning))
             if rank > counts.get(meaning, 0):
@@ -141,6 +141,8 @@ class Lexicon:
 _DERIVATIVE = re.compile(r"d_?(?P<of>\w+?)_?d_?(?P<by>[A-Za-z]+)")
 # (rad/sec) says nothing of a crank rad: what stands in brackets and has short words only
 _UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-z]))*[\])]")
+_BETWEEN = frozenset("of on in at along to from for with by between about".split())
+_SILENT = frozenset("the a an its their".split())
 # a sign spelled out is no word
 _GREEK = set("alpha beta gamma delta theta phi varphi psi omega lambda lam rho mu nu sigma tau epsilon eta".split())
 # what stands beside a name without changing what it is
@@ -157,7 +159,53 @@ def _stands_in(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
 
 
 def _inside(phrase: tuple[str, ...], other: tuple[str, ...]) -> bool:
-    return any(other[i : i + len(phrase)] == phrase for i in range(len(other)))
+    return any(other[i : i + len(phrase)] == phrase for i in range(len(other))) or {*phrase} < {*other}
+
+
+@cache
+def _parts(said: tuple[str, ...]) -> tuple[str, frozenset[str], frozenset[str]]:
+    """What a phrase is of: its head, the words before it, and all words that mean something."""
+    cut = next((i for i, word in enumerate(said) if word in _BETWEEN and i), len(said))
+    before = frozenset(said[: max(cut - 1, 0)]) - _SILENT
+    return said[cut - 1] if said else "", before, frozenset(said) - _SILENT - _BETWEEN
+
+
+def _is_of(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
+    # the force along the connecting rod is the connecting rod force, the inertia force of it is not
+    head, _, content = _parts(phrase)
+    own, before, whole = _parts(said)
+    return head == own and len(content) > 1 and before <= content <= whole
+
+
+#: Words that mean the same, to the one that stands for them
+_SAME = (
+    (("gudgeon", "pin"), ("piston", "pin")),
+    (("wrist", "pin"), ("piston", "pin")),
+    (("con", "rod"), ("connecting", "rod")),
+    (("conrod",), ("connecting", "rod")),
+    (("resultant",), ("resulting",)),
+    (("inclination",), ("angle",)),
+    (("walls",), ("wall",)),
+    (("liner",), ("cylinder", "wall")),
+    (("crankshaft",), ("crank",)),
+    (("brake", "power"), ("effective", "power")),
+    (("brake", "torque"), ("effective", "torque")),
+    (("stroke", "volume"), ("swept", "volume")),
+    (("displaced", "volume"), ("swept", "volume")),
+    (("throw",), ("radius",)),
+    (("oscillating",), ("reciprocating",)),
+    (("irregularity",), ("fluctuation",)),
+    (("isentropic",), ("adiabatic",)),
+    (("rotational", "speed"), ("angular", "speed")),
+)
+
+
+def _same(said: tuple[str, ...]) -> tuple[str, ...]:
+    for words_of, instead in _SAME:
+        for i in range(len(said) - len(words_of), -1, -1):
+            if said[i : i + len(words_of)] == words_of:
+                said = (*said[:i], *instead, *said[i + len(words_of) :])
+    return said
 
 
 def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:

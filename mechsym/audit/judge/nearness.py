@@ -145,7 +145,7 @@ class Near:
     states: Probes
 
 
-_SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi) for power in (1, -1, 0.5, -0.5))
+_SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi, 4 * np.pi**2) for power in (1, -1, 0.5, -0.5))
 
 
 def is_slip(ratio: float | None) -> bool:

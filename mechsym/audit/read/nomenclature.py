@@ -62,11 +62,24 @@ _ACTS = re.compile(
     r"\s+(?:presses|pushes|pulls|acts|resists)(?:\s+[a-z]+){0,3}?\s+with$",
     re.IGNORECASE,
 )
+# verbs between the name of what an equation gives and the equation
+_CLOSING = re.compile(
+    r"\s+(?:(?:may|can|must|is|are) (?:then |also |now )?(?:be )?"
+    r"(?:taken|written|given|expressed|obtained|found|approximated|computed|calculated)(?: as| by| to be| from)?"
+    r"|(?:is|are|becomes) (?:therefore|then|thus|hence|simply|now|accordingly)"
+    r"|is|are|be|becomes|reads|remains|equals|follows(?: as| from)?|amounts to|comes to|results(?: as)?|reduces to)$"
+)
+# the guide is loaded by, the pin carries
+_LOADED = re.compile(
+    rf"\b(?:the|its)\s+({_SHORT})\s+(?:(?:is|are)\s+(?:loaded|pressed)\s+(?:by|with)|carries|bears|transmits)$",
+    re.IGNORECASE,
+)
+_MOVES = re.compile(r"\s(?:runs|lies|moves|turns|rotates|swings|acts|works|flows|stands)$")  # the engine runs with
 _LAST = 6  # words in front of an equation
 # names with an `of` of their own
 _FUSED = re.compile(
-    r"\b(moments?|modulus|coefficient|radius|degree) of "
-    r"(inertia|elasticity|friction|gyration|irregularity|fluctuation)\b"
+    r"\b(moments?|modulus|coefficient|radius|degree|speed|velocity) of "
+    r"(inertia|elasticity|friction|gyration|irregularity|fluctuation|sound|rotation)\b"
 )
 _VERB = re.compile(
     r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns(?!\s+(?:per|a)\b)|makes?|becomes?|means|reads?|that|which)\b"
@@ -85,8 +98,10 @@ _COUNTED = re.compile(
     r"(?:in\s+)?((?:revolutions|turns(?!\s+(?:by|about|with|at|on|round|through))|strokes|cycles|cylinders|teeth)"
     r"(?:\s+per\s+[a-z]+)?)"
 )
+_DAMPER = re.compile(r"\bdamper\b[^.]*$")
 _STRESSED = re.compile(r"(?<!\w)\*{1,2}([A-Za-z][A-Za-z -]*[A-Za-z])\*{1,2}(?!\w)")
 _BETWEEN = re.compile(r"\bratio (?:of|between) .* (?:and|to)\b")
+_IN_TURNS = re.compile(r"\s+in\s+(?:revolutions|turns)\s+(?:per|a)\s+minute\b")
 _PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
 _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
@@ -131,7 +146,9 @@ def nomenclature(text: str) -> dict[str, Named]:
             one = spelled(match[2])
             if not run and match[1] in KINDS and one and len(one) < 20 and one not in names:
                 names[one] = Named(meaning=match[1], unit="", line=number)
-    phrases = [(m[1], m[3], m.start()) for m in _WHERE.finditer(text) if not _is_called_before(text, m)]
+    where = [m for m in _WHERE.finditer(text) if not _is_called_before(text, m)]
+    counted = [_IN_TURNS.match(text, m.end()) for m in where]
+    phrases = [(m[1], m[3] + (c[0] if c else ""), m.start()) for m, c in zip(where, counted, strict=True)]
     phrases += [
         (m[3], m[2], m.start()) for m in _AHEAD.finditer(text) if not OTHERS.fullmatch(m[1]) and not _is_moment(text, m)
     ]
@@ -174,6 +191,11 @@ def called(text: str) -> dict[str, str]:
         if match[1].endswith(" and"):
             continue  # the force and $m$ the mass
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
+        if words.startswith("that of"):  # the reciprocating mass is that of the piston
+            kinds = re.findall(_KINDS, text[max(0, match.start() - 60) : match.end(1)].rpartition("that of")[0])
+            words = words.replace("that", kinds[-1], 1) if kinds else words
+        if words == "coefficient" and _DAMPER.search(text[max(0, match.start() - 60) : match.end(1)]):
+            words = "damping coefficient"
         phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
         if of := _OF_WHAT.match(text, match.end()):  # the coefficient $k$ of fluctuation
             whole = phrase.endswith(("coefficient", "moment", "modulus", "swept volume", "mass flow"))
@@ -193,7 +215,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     """
     words, spoken, sentence = _sentence(before)
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
-    bare = re.sub(r"\s+(?:is|are|be|becomes|follows as)$", "", sentence)
+    bare = _CLOSING.sub("", sentence)
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
     if _GIVEN_WITH.search(spoken):
         bare = re.sub(r"\s+(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*$", "", bare)
@@ -204,13 +226,20 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         return "", tail
     ends = bare != sentence  # with a verb: the torque of the gas is
     first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|by)\b", bare)
+    if first and _MOVES.search(first[1]):
+        first = None
+    consists = re.match(
+        rf"(?:The|Its)\s+({_SHORT})\s+(?:is\s+(?:that|the\s+(?:sum|product|difference))|consists|comprises|contains)\b",
+        bare,
+    )
     beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if ends else None
     headed = re.search(
-        rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
+        rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|at|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
     )
+    relative = re.match(rf"(?:The|An?|and the)\s+({_SHORT})\s+(?:that|which)\b", bare) if ends else None
     last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
     behind = re.search(
-        rf"\b(?:has|gives?|yields?|makes?|takes?|stores?)\s+(?:the|an?)\s+({_SHORT})(?:\s+of\s+(?:the|an?)\s+{_PLAIN})?$",
+        rf"\b(?:has|gives?|yields?|makes?|takes?|stores?|causes?|produces?|exerts?|needs?|requires?)\s+(?:the|an?)\s+({_SHORT})(?:\s+of\s+(?:the|an?)\s+{_PLAIN})?$",
         bare,
     )
     moves = re.search(rf"\b(?:the|its)\s+({_SHORT})\s+(?:rises|falls|drops|grows)\b", bare, re.IGNORECASE)
@@ -223,6 +252,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     verb = _VERB.search(bare)
     chosen = (
         behind
+        or relative
+        or consists
         or moves
         or onto
         or (first if not verb else None)
@@ -231,6 +262,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         or (last if ends or not verb else None)
     )
     letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
+    if loaded := _LOADED.search(bare):
+        return f"force on the {loaded[1]}", tail
     if acts := _ACTS.search(bare):
         return f"{' '.join(acts[1].split()[-2:])} force", tail
     if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio" or _BETWEEN.search(bare):

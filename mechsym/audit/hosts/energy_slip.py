@@ -1,0 +1,75 @@
+"""A slip of an energy, which shows in every equation of motion of a text: told where one change makes them follow."""
+
+import ast
+from collections.abc import Sequence
+from dataclasses import replace
+
+from mechsym.audit.judge.forms import known
+from mechsym.audit.judge.lagrangian import Energies, laws
+from mechsym.audit.judge.motion import energies_of
+from mechsym.audit.judge.primes import by_angle
+from mechsym.audit.judge.world import World
+from mechsym.audit.read.tree import Node, is_operation, letters
+from mechsym.audit.repair.edits import apply
+from mechsym.audit.repair.rules import Words, listed_edits
+from mechsym.errors import BadInput
+from mechsym.quantities import record
+
+_MOST = 120  # changes that are tried, each of which asks all equations of motion again
+
+
+@record
+class EnergySlip:
+    """An energy as it should be, and what it says then."""
+
+    order: int  #: Place of its equation in the text [-]
+    right: Node
+    follow: Sequence[str]  #: Names of the equations of motion that follow from it
+    energies: Energies
+
+
+def energy_slip(world: World, energies: Energies) -> EnergySlip | None:
+    """The one energy whose slip explains why no equation of motion follows from what is printed; None otherwise."""
+    motions = [order for order in range(len(world.paper.said)) if _is_told(world, energies, order)]
+    if len(motions) < 2 or any(_holds(world, energies, order) for order in motions):
+        return None
+    best: EnergySlip | None = None
+    for defined in world.defined:
+        said = world.paper.said[defined.order]
+        if defined.letter not in energies_of(world.paper) or not defined.side or len(said.sides) != 2:
+            continue
+        for edit in listed_edits(said.sides[1], Words())[:_MOST]:
+            right = apply(said.sides[1], edit)
+            if {*letters(right)} != {*letters(said.sides[1])}:
+                continue
+            every = [*world.paper.said]
+            every[defined.order] = replace(said, sides=(said.sides[0], right))
+            other = World(paper=replace(world.paper, said=every), kinds=world.kinds)
+            then = Energies(world=other, laws=laws(other))
+            follow = [world.paper.said[order].name for order in motions if _holds(other, then, order)]
+            # two slips explain as much where one equation is left: told then only if it is the sign of a difference
+            enough = len(follow) == len(motions) or edit.kind == "sign" and is_operation(edit.new, ast.Sub)
+            if enough and len(follow) > len(best.follow if best else ()):
+                best = EnergySlip(order=defined.order, right=right, follow=follow, energies=then)
+    return best
+
+
+def _is_told(world: World, energies: Energies, order: int) -> bool:
+    said = world.paper.said[order]
+    if said.inline or said.law is not None or len(said.sides) != 2:
+        return False
+    return energies.tells(order, world.theory(order), _sides(world, order)) and any(
+        k.endswith("dd") for side in said.sides for k in letters(side)
+    )
+
+
+def _holds(world: World, energies: Energies, order: int) -> bool:
+    try:
+        return energies.holds(order, world.theory(order), _sides(world, order))
+    except (BadInput, KeyError, RecursionError):
+        return False
+
+
+def _sides(world: World, order: int) -> list[Node]:
+    theory = world.theory(order)
+    return [by_angle(known(world, side, theory), theory) for side in world.paper.said[order].sides]
