@@ -105,3 +105,14 @@ def test_a_list_measures_a_letter_by_the_head_of_what_it_is(listed, unit):
     of_it = kinds_of(read_text_whole(f"- **q**: {listed}\n\n$$ y = q $$")).of("q")
     wanted = {None: None, "Pa": (1, -1, -2), "1/s": (0, 0, -1), "N": (1, 1, -2)}[unit]
     assert (of_it and of_it[:3]) == wanted
+
+
+def test_empty_brackets_are_of_nothing():
+    assert _why("y[] = a b[]") != ""
+
+
+def test_a_rate_without_a_slope_stops_no_text(tmp_path):
+    text = r"""Lagrange's equations of $$ T = \frac{1}{2} J\dot\varphi^2 $$ and $$ U = \frac{1}{2} c\varphi^2 $$ give
+$$ J\ddot\varphi + c\varphi = 0 $$ $$ \frac{d^2\theta_A}{dt^2} + \ddot{u}_{t+\Delta t} = \frac{d T}{d n} $$"""
+    rows = judged(tmp_path, text, "text.md")
+    assert [row["verdict"] for row in rows][2] == "exact" and len(rows) == 4

@@ -30,13 +30,16 @@ class EnergySlip:
 
 def energy_slip(world: World, energies: Energies) -> EnergySlip | None:
     """The one energy whose slip explains why no equation of motion follows from what is printed; None otherwise."""
+    names = energies_of(world.paper)
+    if not energies.laws or not names:
+        return None
     motions = [order for order in range(len(world.paper.said)) if _is_told(world, energies, order)]
     if len(motions) < 2 or any(_holds(world, energies, order) for order in motions):
         return None
     best: EnergySlip | None = None
     for defined in world.defined:
         said = world.paper.said[defined.order]
-        if defined.letter not in energies_of(world.paper) or not defined.side or len(said.sides) != 2:
+        if defined.letter not in names or not defined.side or len(said.sides) != 2:
             continue
         for edit in listed_edits(said.sides[1], Words())[:_MOST]:
             right = apply(said.sides[1], edit)
@@ -56,11 +59,13 @@ def energy_slip(world: World, energies: Energies) -> EnergySlip | None:
 
 def _is_told(world: World, energies: Energies, order: int) -> bool:
     said = world.paper.said[order]
-    if said.inline or said.law is not None or len(said.sides) != 2:
+    moves = any(k.endswith("dd") for side in said.sides for k in letters(side))
+    if said.inline or said.law is not None or len(said.sides) != 2 or not moves:
         return False
-    return energies.tells(order, world.theory(order), _sides(world, order)) and any(
-        k.endswith("dd") for side in said.sides for k in letters(side)
-    )
+    try:
+        return energies.tells(order, world.theory(order), _sides(world, order))
+    except (BadInput, KeyError, RecursionError):
+        return False
 
 
 def _holds(world: World, energies: Energies, order: int) -> bool:

@@ -225,7 +225,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if not alone:
         return "", tail
     ends = bare != sentence  # with a verb: the torque of the gas is
-    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|by)\b", bare)
+    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|by|along)\b", bare)
     if first and _MOVES.search(first[1]):
         first = None
     consists = re.match(

@@ -94,5 +94,5 @@ def _is_two_functions(text: str) -> bool:
         if re.search(rf"(?<![A-Za-z\\{{]){letter}(?![A-Za-z_'^]|{_OPEN})", match[3]):
             return True
     applied = [m for m in _OF_A_THING.finditer(text) if m[1].lstrip("\\") not in NO_LETTERS]
-    of_things = {(m[1], (m[2] or m[3]).strip()) for m in applied}
+    of_things = {(m[1], (m[2] or m[3] or "").strip()) for m in applied}
     return len({letter for letter, _ in of_things}) < len(of_things)
