@@ -196,3 +196,22 @@ $$ J_2\ddot\varphi_2 - c(\varphi_1 - \varphi_2) = 0 $$"""
     assert [row["verdict"] for row in rows[2:]] == ["exact", "exact"]
     if printed == "+":
         assert same(blamed(rows)[0]["correction"], r"\frac{1}{2} c(\varphi_1 - \varphi_2)^2")
+
+
+def test_what_turns_uniformly_has_no_acceleration(tmp_path):
+    text = r"""The shaft of the moment of inertia $J$ obeys
+$$ J\dot\omega + c\omega^2 = M_s - M_r $$
+It turns uniformly if the torque of the spring is
+$$ M_s = M_r + c\omega^2 $$"""
+    assert is_told(tmp_path, text, text.replace("M_r +", "M_r -"), 4)
+
+
+def test_a_sum_of_forces_is_a_force(tmp_path):
+    text = r"""| $F$ | gas force | N |
+|---|---|---|
+| $I$ | inertia force | N |
+| $\psi$ | angle of the connecting rod | rad |
+
+The side force of the piston is
+$$ N = (F + I)\tan\psi $$"""
+    assert is_told(tmp_path, text, text.replace("tan", "sin"), 7)

@@ -210,7 +210,8 @@ class Judge:
         if follows is None or CUT_SHORT.search(said.before):
             return None
         theory, (tree, place) = self.world.theory(order), follows
-        wanted, printed = known(self.world, tree, theory), known(self.world, said.sides[1], theory)
+        both = known(self.world, tree, theory), known(self.world, said.sides[1], theory)
+        wanted, printed = next(readings(self.world, *both, theory))
         source = self.world.paper.said[place].name
         try:
             at = states(steady(self.world, theory, said))

@@ -106,7 +106,7 @@ def _explains(repair: Repair, near: Near, tree: Node, own: Mapping[str, str], be
     steps = _NO_SLIP - ({"put back"} if whole else set())
     plain = {m for other in beside for m in other.fitted.meanings.values()}
     counted = [own.get(_counted_otherwise(edit.new, tree), "pi") for edit in repair.edits]
-    counted = [m for m in counted if not _is_exponent(near, m)]
+    counted = [m for m in counted if not _is_no_count(near, m)]
     grown = sum(1 for _ in trees.walk(repair.tree)) - sum(1 for _ in trees.walk(tree))
     if grown > _GROWS and any(edit.kind == "put back" for edit in repair.edits):
         return False
@@ -116,10 +116,12 @@ def _explains(repair: Repair, near: Near, tree: Node, own: Mapping[str, str], be
     return not _is_idle(repair.tree, replace(near.form, letters={**others, **near.form.letters}), near.states)
 
 
-def _is_exponent(near: Near, meaning: str) -> bool:
-    # the ratio of specific heats is no count, which somebody might begin with another number
-    letter = near.fitted.theory.letters.get(meaning)
-    return letter is not None and letter.unit == "-" and letter.domain is not None and letter.domain[1] <= 2
+def _is_no_count(near: Near, meaning: str) -> bool:
+    # a ratio, of specific heats or of compression, is nothing that somebody begins with another number
+    theory = near.fitted.theory
+    letter = theory.letters.get(meaning)
+    exponent = letter is not None and letter.unit == "-" and letter.domain is not None and letter.domain[1] <= 2
+    return exponent or any("ratio" in said for said in theory.words.get(meaning, ()))
 
 
 def _is_idle(tree: Node, form: Formula, states: Probes) -> bool:

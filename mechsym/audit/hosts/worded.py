@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cache
 
 from mechsym.audit.hosts.neighbours import Neighbours
+from mechsym.audit.judge.kinds import kind_in, of_unit
 from mechsym.audit.judge.lexicon import Lexicon
 from mechsym.audit.judge.sampled import vanishes
 from mechsym.audit.judge.world import World
@@ -20,6 +21,7 @@ from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Theory
 
+_SUM = "forcesum"  # letter for a sum of forces
 # slider cranks are counted from the other dead centre in every theory
 _FROM_BOTTOM = re.compile(r"\b(?:counted|measured|taken)\s+from\s+(?:the\s+|its\s+)?(?:bottom|outer|lower)\s+dead")
 
@@ -37,6 +39,7 @@ class Worded:
     claims: dict[tuple[int, int], Claim] = field(default_factory=dict)  #: By place of the equation and its side
     neighbours: Neighbours | None = None
     outcomes: dict[tuple[int, int], Row | None] = field(default_factory=dict)
+    sums: dict[tuple[int, int], Node] = field(default_factory=dict)  #: Of forces, which stand in a claim as one
 
     def __post_init__(self) -> None:
         """Every side of a letter's equation is a claim, the letter's name in the text its comment."""
@@ -64,10 +67,10 @@ class Worded:
                     and not any(function_of(n) == "sum" for _, n in walk(side))
                 ):
                     others = {name: tree for name, tree in values.items() if name not in (left, *called)}
-                    tree = binary(ast.Div, number(1), side) if over else side
+                    tree = self._with_one_force(order, k, binary(ast.Div, number(1), side) if over else side)
                     self.claims[order, k] = Claim(
                         scope="", name=left, tree=tree, line=said.shown.line, about=about, case=0, values=others,
-                        abouts=called, ruled_out=_ruled_out(said.before, paper.prose),
+                        abouts=called | {_SUM: "resulting force"}, ruled_out=_ruled_out(said.before, paper.prose),
                         parameters=tuple(called),
                         written={name: tree for name, tree in values.items() if name != left},
                     )  # fmt: skip
@@ -75,6 +78,16 @@ class Worded:
         names |= {word for name in names for word in called.get(name, "").split()}
         touched = [v for v in _vocabularies() if v.touches(names) and not self._contradicts(v.theory)]
         self.neighbours = Neighbours([*self.claims.values()], touched, si=True)
+
+    def _with_one_force(self, order: int, side: int, tree: Node) -> Node:
+        # (F - m a) sin psi: what a theory calls a force may be a sum of several
+        factors = [product.left for _, product in walk(tree) if is_operation(product, ast.Mult, ast.Div)]
+        sums = [n for n in factors if is_operation(n, ast.Add, ast.Sub)]
+        summed = next((n for n in sums if kind_in(self.world.kinds, n) == of_unit("N")), None)
+        if summed is None:
+            return tree
+        self.sums[order, side] = summed
+        return substitute(tree, lambda n: name_of(_SUM) if n is summed else None)
 
     def _contradicts(self, theory: Theory) -> bool:
         # of another mechanism: by a word, or by its stroke of four throws, where that of the theory is two
@@ -97,7 +110,11 @@ class Worded:
         if (order, side) not in self.outcomes:
             claim = self.claims.get((order, side))
             row = self.neighbours.outcome(claim) if claim is not None and self.neighbours is not None else None
-            self.outcomes[order, side] = row if row is not None and row["verdict"] in ("agrees", "misprint") else None
+            row = row if row is not None and row["verdict"] in ("agrees", "misprint") else None
+            if row is not None and (order, side) in self.sums:
+                written = f"({to_python(self.sums[order, side])})"
+                row |= {key: row[key].replace(_SUM, written) for key in ("correction", "note") if row.get(key)}
+            self.outcomes[order, side] = row
         return self.outcomes[order, side]
 
     def agrees(self, order: int) -> bool:

@@ -24,6 +24,7 @@ from mechsym.audit.read.tree import (
     negative,
     number,
     renamed,
+    substitute,
 )
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, slope_by, times
@@ -34,6 +35,7 @@ _SOLVED = re.compile(
     r"|leads? to)\b",
     re.IGNORECASE,
 )
+_STEADY = re.compile(r"\buniform(?:ly)?\b|\b(?:constant|steady) (?:angular )?(?:speed|velocity)\b", re.IGNORECASE)
 _DERIVED = re.compile(r"\b(?:differentiat\w+|(?:time )?derivatives?|derived by time)\b", re.IGNORECASE)
 _REDUCED = re.compile(r"\breduc(?:ed|tion|ing)\b|\b(?:equivalent|effective) (?:moment of )?inertia\b", re.IGNORECASE)
 _PUSHES = re.compile(r"\b(?:piston|gas|plunger|yoke|slider|crosshead)\b")
@@ -53,9 +55,20 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
         return None
     source, letter = world.paper.said[place], said.sides[0].id
     between = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))
-    if len(between) < 2 or not _SOLVED.search(between[-1]) or source.section != said.section or source.claim:
+    steady = len(between) > 1 and _STEADY.search(between[-1]) is not None
+    if (
+        len(between) < 2
+        or not (steady or _SOLVED.search(between[-1]))
+        or source.section != said.section
+        or source.claim
+    ):
         return None
     sides = [world.plain(side) for side in source.sides]
+    if steady:  # nothing is accelerated that turns
+        rates = {f"{world.angle}dd", *(f"{k}d" for k in (*SPEEDS, *world.aliases))}
+        sides = [
+            substitute(s, lambda n: number(0) if isinstance(n, ast.Name) and n.id in rates else None) for s in sides
+        ]
     inside = [letter in letters(side) for side in sides]
     if len(sides) != 2 or sum(inside) != 1 or isinstance(sides[inside.index(True)], ast.Name):
         return None

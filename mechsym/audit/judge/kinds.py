@@ -25,10 +25,10 @@ PURE: Kind = (Fraction(0),) * 6
 _LENGTH: Kind = (Fraction(0), Fraction(1), *PURE[2:])
 _SIXTY, _THOUSAND = 4, 5
 _SCALED = {"kW": 3, "kN": 3, "kPa": 3, "kJ": 3, "MPa": 6, "MW": 6, "MJ": 6}
-_CONVERTS = {Fraction(30), Fraction(60), Fraction(120)}
+_CONVERTS = {Fraction(15), Fraction(30), Fraction(60), Fraction(120)}
 #: Whole numbers that formulas have of themselves; any other may carry a unit
 _PLAIN = {
-    *map(Fraction, (*range(1, 13), 16, 24, 30, 32, 48, 60, 64, 96, 120, 128, 180, 360)),
+    *map(Fraction, (*range(1, 13), 15, 16, 24, 30, 32, 48, 60, 64, 96, 120, 128, 180, 360)),
     Fraction(1, 2),
     Fraction(1, 4),
 }
@@ -41,6 +41,7 @@ _STEMS = "|".join([*sorted(SYMBOLS, key=len, reverse=True), "[A-Za-z]"])
 _RATE = re.compile(rf"((?:{_STEMS})\w*?)(dd?)")
 _STEP = re.compile(rf"(?:Delta|delta|d)((?:{'|'.join(sorted(SYMBOLS, key=len, reverse=True))}|[A-Zxyzms])\w*)")
 _MARKED = re.compile(r"(\w+?)(?:bar|hat|tilde|star)")
+_TURNS_A_MINUTE = re.compile(r"\b(?:revolutions|turns) (?:per|a) minute\b")
 _INDEX = re.compile(rf"({_STEMS})(\w+)")
 
 
@@ -203,9 +204,8 @@ def kinds_of(paper: Text) -> Kinds:
         is_listed = letter in paper.named and paper.named[letter].meaning == phrase
         if usual := (defined_unit if is_listed else usual_unit)(letter, phrase, letter in indexed):
             kinds.printed[letter] = of_unit(usual)
-        if not (letter in paper.named and paper.named[letter].unit) and re.search(
-            r"\b(?:revolutions|turns) (?:per|a) minute\b", phrase
-        ):
+        measured = letter in paper.named and paper.named[letter].unit
+        if not measured and _TURNS_A_MINUTE.search(phrase):
             kinds.printed[letter] = of_unit("rpm")
             kinds.turns.add(letter)
     for letter, about in paper.named.items():
@@ -257,10 +257,9 @@ def infer(kinds: Kinds, said: Said) -> None:
     letter = left.right if over and isinstance(left, ast.BinOp) else left
     if not isinstance(letter, ast.Name) or letter.id in kinds.inferred or letter.id in kinds.printed:
         return
-    at_a_point = (
-        "(" in said.shown.text.partition("=")[0] and value_of(said.sides[-1]) is not None
-    )  # x(t_f) = 1 may be 1 m
-    known = [k for side in said.sides[1:] if not at_a_point and (k := _kind(kinds, side)) is not None]
+    # x(t_f) = 1 may be 1 m
+    at_a_point = "(" in said.shown.text.partition("=")[0] and value_of(said.sides[-1]) is not None
+    known = [k for side in said.sides[1:] if not at_a_point and (k := kind_in(kinds, side)) is not None]
     like = kinds.of(letter.id)  # n_p as n, but for what takes it from a minute to a second
     if like is not None and (like[4:] == PURE[4:] or not known or known[0][:4] != like[:4]):
         return
@@ -269,7 +268,8 @@ def infer(kinds: Kinds, said: Said) -> None:
         kinds.inferred[letter.id] = (*(sign * e for e in known[0][:4]), Fraction(0), Fraction(0))
 
 
-def _kind(kinds: Kinds, tree: Node) -> Kind | None:
+def kind_in(kinds: Kinds, tree: Node) -> Kind | None:
+    """The kind of an expression; None where it has none, or a letter of it is not known."""
     try:
         return kinds.kind(tree)
     except (_Unknown, Clash):

@@ -114,8 +114,8 @@ class Twins:
         if not (order and index and in_one and self._is_twin(order - 1, order)):
             return None
         lefts = {one.sides[0].id for one in self.world.paper.said if one.sides and isinstance(one.sides[0], ast.Name)}
-        told = {*lefts, *self.world.paper.named}
-        spelled = {n: how for one in self.world.paper.said for n, how in one.spelled.items() if n not in told}
+        named = {*lefts, *self.world.paper.named}
+        spelled = {n: how for one in self.world.paper.said for n, how in one.spelled.items() if n not in named}
         others = [
             match for how in spelled.values() if (match := _ONE_INDEX.fullmatch(how)) and match["of"] == index["of"]
         ]
