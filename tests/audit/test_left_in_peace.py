@@ -116,3 +116,8 @@ def test_a_rate_without_a_slope_stops_no_text(tmp_path):
 $$ J\ddot\varphi + c\varphi = 0 $$ $$ \frac{d^2\theta_A}{dt^2} + \ddot{u}_{t+\Delta t} = \frac{d T}{d n} $$"""
     rows = judged(tmp_path, text, "text.md")
     assert [row["verdict"] for row in rows][2] == "exact" and len(rows) == 4
+
+
+def test_a_unit_in_brackets_is_no_letter():
+    text = "- $r$ – crank radius (m)\n- $m$ – mass of one piston (kg)\n\n$$ F = m r $$"
+    assert {k: v.unit for k, v in read_text_whole(text).named.items()} == {"r": "m", "m": "kg"}

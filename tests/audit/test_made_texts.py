@@ -165,6 +165,7 @@ def test_words_in_front_of_letters_name_them():
         ("The engine runs with the degree of irregularity\n$$", "degree of irregularity"),
         ("and the torque at the output shaft is\n$$", "torque"),
         ("For long rods the piston acceleration may be taken as\n$$", "piston acceleration"),
+        ("and the kinetic energy of the flywheel at the mean angular velocity $w$ amounts to\n$$", "kinetic energy"),
         ("The force along the rod is therefore\n$$", "force"),
         ("The energy of the gas per unit volume is\n$$", ""),
         ("The ratio of the force to the area is\n$$", ""),

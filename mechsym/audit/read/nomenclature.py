@@ -74,6 +74,8 @@ _LOADED = re.compile(
     rf"\b(?:the|its)\s+({_SHORT})\s+(?:(?:is|are)\s+(?:loaded|pressed)\s+(?:by|with)|carries|bears|transmits)$",
     re.IGNORECASE,
 )
+# the energy of the flywheel at the mean speed
+_AT_LAST = re.compile(r"(\bof\s+(?:the|an?|its)\s+[a-z-]+)\s+(?:at|with|for|under)\s+(?:the|an?)\s+[a-z -]+$")
 _MOVES = re.compile(r"\s(?:runs|lies|moves|turns|rotates|swings|acts|works|flows|stands)$")  # the engine runs with
 _LAST = 6  # words in front of an equation
 # names with an `of` of their own
@@ -142,7 +144,7 @@ def nomenclature(text: str) -> dict[str, Named]:
                 one = spelled(one.partition("=")[0])
                 if one and one not in names and (known or not unit.strip()):
                     names[one] = Named(meaning=meaning.strip(), unit=known or "", line=number)
-        for match in _PROSE.finditer(row):
+        for match in _PROSE.finditer(row) if not listed else ():  # what stands in brackets there is a unit
             one = spelled(match[2])
             if not run and match[1] in KINDS and one and len(one) < 20 and one not in names:
                 names[one] = Named(meaning=match[1], unit="", line=number)
@@ -219,7 +221,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
     if _GIVEN_WITH.search(spoken):
         bare = re.sub(r"\s+(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*$", "", bare)
-    bare = _FUSED.sub(r"\1-of-\2", bare)
+    bare = _AT_LAST.sub(r"\1", _FUSED.sub(r"\1-of-\2", bare))
     tail = " ".join(bare.split()[-_LAST:]).replace("-of-", " of ")
     tail = _FOR.sub("", tail)
     if not alone:
