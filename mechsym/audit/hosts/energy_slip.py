@@ -11,11 +11,12 @@ from mechsym.audit.judge.primes import by_angle
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.tree import Node, is_operation, letters
 from mechsym.audit.repair.edits import apply
-from mechsym.audit.repair.rules import Words, listed_edits
+from mechsym.audit.repair.rules import BITS, Words, listed_edits
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
-_MOST = 120  # changes that are tried, each of which asks all equations of motion again
+_MOST = 3600  # changes that are tried, likely ones first, times the equations that each has read anew
+_MOTIONS = 8  # equations of motion that are asked
 
 
 @record
@@ -34,6 +35,7 @@ def energy_slip(world: World, energies: Energies) -> EnergySlip | None:
     if not energies.laws or not names:
         return None
     motions = [order for order in range(len(world.paper.said)) if _is_told(world, energies, order)]
+    motions = motions[:_MOTIONS]
     if len(motions) < 2 or any(_holds(world, energies, order) for order in motions):
         return None
     best: EnergySlip | None = None
@@ -41,7 +43,8 @@ def energy_slip(world: World, energies: Energies) -> EnergySlip | None:
         said = world.paper.said[defined.order]
         if defined.letter not in names or not defined.side or len(said.sides) != 2:
             continue
-        for edit in listed_edits(said.sides[1], Words())[:_MOST]:
+        edits = sorted(listed_edits(said.sides[1], Words()), key=lambda edit: BITS.get(edit.kind, 0))
+        for edit in edits[: _MOST // len(world.paper.said)]:
             right = apply(said.sides[1], edit)
             if {*letters(right)} != {*letters(said.sides[1])}:
                 continue
