@@ -143,6 +143,23 @@ def paper_roll() -> tuple[float, float]:
     return length, (most**2 - constant) / (2 * k)
 
 
+def texts() -> None:
+    """What errors of texts cost."""
+    length, rolled = paper_roll()
+    print(f"ModSimPy: {rolled:.1f} m of paper as written, {length:.1f} m")
+    mass, stiffness = 4.0e7, 1.44e7
+    swing = solve_ivp(
+        lambda t, y: (y[1], -stiffness / mass * y[0]), (0, 40), (1, 0), rtol=1e-10, events=lambda t, y: y[1]
+    )
+    turning = 2 * np.pi / (swing.t_events[0][-1] - swing.t_events[0][-3])
+    print(f"WEC-Sim: {np.sqrt(mass / stiffness):.3f} rad/s as written, {turning:.3f} rad/s by its motion")
+    right, left, flat = (10 - 4) / 2 + 1, (10 - 4) / 2 - 1, 4
+    print(f"OpenFAST: {right:.0f}, {left:.0f} and {flat} m of liquid, in all {right + left + flat:.0f} m")
+    flow, volume_of_kg, low, high = 10, 1e-3, 1e5, 10e5
+    pumped = flow * volume_of_kg * (high - low) / 1e3
+    print(f"CBE20255: a pump that takes {-pumped:.0f} kW as written, {pumped:.0f} kW")
+
+
 def main() -> None:
     """Print the numbers in the order of the page."""
     for target in (25, 35):
@@ -193,19 +210,7 @@ def main() -> None:
     print(
         f"Coding_Project: a rod of {rods.min():.3f} to {rods.max():.3f} as written; at rest for {still:.0%} of a turn"
     )
-    length, rolled = paper_roll()
-    print(f"ModSimPy: {rolled:.1f} m of paper as written, {length:.1f} m")
-    mass, stiffness = 4.0e7, 1.44e7
-    swing = solve_ivp(
-        lambda t, y: (y[1], -stiffness / mass * y[0]), (0, 40), (1, 0), rtol=1e-10, events=lambda t, y: y[1]
-    )
-    turning = 2 * np.pi / (swing.t_events[0][-1] - swing.t_events[0][-3])
-    print(f"WEC-Sim: {np.sqrt(mass / stiffness):.3f} rad/s as written, {turning:.3f} rad/s by its motion")
-    right, left, flat = (10 - 4) / 2 + 1, (10 - 4) / 2 - 1, 4
-    print(f"OpenFAST: {right:.0f}, {left:.0f} and {flat} m of liquid, in all {right + left + flat:.0f} m")
-    flow, volume_of_kg, low, high = 10, 1e-3, 1e5, 10e5
-    pumped = flow * volume_of_kg * (high - low) / 1e3
-    print(f"CBE20255: a pump that takes {-pumped:.0f} kW as written, {pumped:.0f} kW")
+    texts()
     descriptions()
 
 

@@ -51,7 +51,10 @@ def energy_slip(world: World, energies: Energies) -> EnergySlip | None:
             every = [*world.paper.said]
             every[defined.order] = replace(said, sides=(said.sides[0], right))
             other = World(paper=replace(world.paper, said=every), kinds=world.kinds)
-            then = Energies(world=other, laws=laws(other))
+            try:
+                then = Energies(world=other, laws=laws(other))
+            except (BadInput, KeyError, RecursionError):
+                continue
             follow = [world.paper.said[order].name for order in motions if _holds(other, then, order)]
             # two slips explain as much where one equation is left: told then only if it is the sign of a difference
             enough = len(follow) == len(motions) or edit.kind == "sign" and is_operation(edit.new, ast.Sub)

@@ -3,7 +3,7 @@
 import ast
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 
 from mechsym.audit.hosts.asking import BESIDE, Asking
@@ -41,7 +41,8 @@ from mechsym.audit.verdict import FINDINGS, PASSED
 from mechsym.errors import BadInput
 
 _CASE = re.compile(
-    r"(?:^|[.:]\s)\s*(?:For|In|Under|During)\s[^,.:$]*,|\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
+    r"(?:^|[.:]\s)\s*(?:For|In|Under|During)\s[^,.:$]*,"  # for method B, it is
+    r"|\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
 _NEARLY = 0.1  # what is cut short is off by at the most, of its largest value [-]
 
@@ -57,7 +58,7 @@ class Judge:
     energies: Energies
     twins: Twins
     asking: Asking
-    slip: EnergySlip | None = None  #: Of an energy, where that explains the equations of motion
+    slip: EnergySlip | None = field(init=False)  #: Of an energy, where that explains the equations of motion
 
     def __post_init__(self) -> None:
         """What a slip of an energy explains is judged by what the energy should be."""
@@ -281,9 +282,8 @@ class Judge:
         if own is None and _CASE.search(said.before.rstrip("$[\\ \n").rpartition("\n\n")[2]):
             first, others = 1, others[1:]  # what an earlier equation says holds elsewhere
         if not others or is_one_of_several(self.world, said):
-            return Judged(
-                verdict=DEFINED if own or not others else "", note=f"the text's own {own.letter}" if own else ""
-            )
+            nothing = own is None and bool(others)  # of one of several that hold together
+            return Judged(verdict="" if nothing else DEFINED, note=f"the text's own {own.letter}" if own else "")
         # a rate of what the text defines is held against the formula, not the other way round
         slopes = [k for k in others if own is not None and is_slope(said.sides[k])]
         said_all = [self._pair(order, said, *((k, first) if k in slopes else (first, k))) for k in others]

@@ -209,15 +209,8 @@ def _is_told(near: Near, beside: Sequence[Near]) -> bool:
         return near.away <= _NEAR and many > 2 and (strong > 1 or alike)
     if fitted.rank > _BY_A_SIGN and strong and many > 1 and near.away <= _TWICE:
         return True
-    if (
-        many == strong
-        and (many > 1 or fitted.rank > _BY_A_SIGN)
-        or many > 4
-        and strong > 1
-        or near.away <= _NEAR
-        and many > 2
-        and strong > 0
-    ):
+    worded = many == strong and (many > 1 or fitted.rank > _BY_A_SIGN)  # all of it
+    if worded or many > 4 and strong > 1 or near.away <= _NEAR and many > 2 and strong > 0:
         return True
     if beside:
         return many > 1 or fitted.rank > 2

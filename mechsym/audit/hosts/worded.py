@@ -113,7 +113,7 @@ class Worded:
             row = row if row is not None and row["verdict"] in ("agrees", "misprint") else None
             if row is not None and (order, side) in self.sums:
                 written = f"({to_python(self.sums[order, side])})"
-                row |= {key: row[key].replace(_SUM, written) for key in ("correction", "note") if row.get(key)}
+                row = row | {key: row[key].replace(_SUM, written) for key in ("correction", "note") if row.get(key)}
             self.outcomes[order, side] = row
         return self.outcomes[order, side]
 

@@ -236,7 +236,8 @@ def candidates(fit: Match, said: Said, world: World) -> Sequence[str]:
     if left in fit.meant:
         return [fit.meant[left]]
     stem = left.rstrip("d")  # the acceleration of what the theory knows
-    if (rate := fit.meant.get(stem, "") + left.removeprefix(stem)) in fit.theory.results:
+    rate = fit.meant.get(stem, "") + left.removeprefix(stem)
+    if stem in world.dotted and rate in fit.theory.results:
         return [rate]
     about = world.paper.named.get(left)
     around = f"{said.before} {about.meaning if about else ''}".lower()

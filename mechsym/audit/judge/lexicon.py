@@ -13,6 +13,7 @@ from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import RESERVED, Formula, read_expression
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.tree import Node, letters
+from mechsym.audit.read.units import PREPOSITIONS
 from mechsym.audit.theory.record import Theory, known
 from mechsym.quantities import record
 
@@ -141,7 +142,6 @@ class Lexicon:
 _DERIVATIVE = re.compile(r"d_?(?P<of>\w+?)_?d_?(?P<by>[A-Za-z]+)")
 # (rad/sec) says nothing of a crank rad: what stands in brackets and has short words only
 _UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-z]))*[\])]")
-_BETWEEN = frozenset("of on in at along to from for with by between about".split())
 _SILENT = frozenset("the a an its their".split())
 # a sign spelled out is no word
 _GREEK = set("alpha beta gamma delta theta phi varphi psi omega lambda lam rho mu nu sigma tau epsilon eta".split())
@@ -165,9 +165,9 @@ def _inside(phrase: tuple[str, ...], other: tuple[str, ...]) -> bool:
 @cache
 def _parts(said: tuple[str, ...]) -> tuple[str, frozenset[str], frozenset[str]]:
     """What a phrase is of: its head, the words before it, and all words that mean something."""
-    cut = next((i for i, word in enumerate(said) if word in _BETWEEN and i), len(said))
+    cut = next((i for i, word in enumerate(said) if word in PREPOSITIONS and i), len(said))
     before = frozenset(said[: max(cut - 1, 0)]) - _SILENT
-    return said[cut - 1] if said else "", before, frozenset(said) - _SILENT - _BETWEEN
+    return said[cut - 1] if said else "", before, frozenset(said) - _SILENT - {*PREPOSITIONS}
 
 
 def _is_of(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:

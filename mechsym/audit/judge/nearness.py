@@ -145,6 +145,7 @@ class Near:
     states: Probes
 
 
+# 4 pi^2 where a conversion is upside down
 _SLIPS = tuple(k**power for k in (2.0, 3.0, 4.0, np.pi, 2 * np.pi, 4 * np.pi**2) for power in (1, -1, 0.5, -0.5))
 
 

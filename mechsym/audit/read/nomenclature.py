@@ -102,7 +102,7 @@ _COUNTED = re.compile(
 )
 _DAMPER = re.compile(r"\bdamper\b[^.]*$")
 _STRESSED = re.compile(r"(?<!\w)\*{1,2}([A-Za-z][A-Za-z -]*[A-Za-z])\*{1,2}(?!\w)")
-_BETWEEN = re.compile(r"\bratio (?:of|between) .* (?:and|to)\b")
+_RATIO_OF_TWO = re.compile(r"\bratio (?:of|between) .* (?:and|to)\b")
 _IN_TURNS = re.compile(r"\s+in\s+(?:revolutions|turns)\s+(?:per|a)\s+minute\b")
 _PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
@@ -268,7 +268,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         return f"force on the {loaded[1]}", tail
     if acts := _ACTS.search(bare):
         return f"{' '.join(acts[1].split()[-2:])} force", tail
-    if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio" or _BETWEEN.search(bare):
+    if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio" or _RATIO_OF_TWO.search(bare):
         return "", tail
     phrase = _ENDS.sub("", chosen[1]).replace("-of-", " of ")
     if phrase.endswith(" one"):  # the tangential force, and the radial one

@@ -42,6 +42,9 @@ OTHERS = re.compile(
     "|linear|flux|current|charge|probability|spectral|generali[sz]ed|cent(?:er|re)|vector|array"
 )
 
+#: Words between what something is and what it is of
+PREPOSITIONS = tuple("of at in by for on along from due to with under over between about".split())
+_PREPOSITION = re.compile(rf"\b(?:{'|'.join(PREPOSITIONS)}|and|or)\b|[,;($/]")
 _RATIO = re.compile(r"\b(?:coefficient|ratio)s? of\b", re.IGNORECASE)
 
 
@@ -72,22 +75,24 @@ def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
     called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
     called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
     step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
-    changed = (
-        step
-        or re.search(r"\b(?:coefficient|ratio)s? of\b", meaning.lower())
-        or any(OTHERS.fullmatch(word) for word in words)
-    )
+    changed = step or _RATIO.search(meaning) or any(OTHERS.fullmatch(word) for word in words)
     unit = "" if changed else KINDS.get(called, "")
     # small letters of work and heat are often those of a kilogram
     return "" if unit == "J" and letter[0].islower() else unit
 
 
+def head_of(meaning: str) -> str:
+    """What something is, without what it is of: the pressure of the pressure at the end."""
+    return _PREPOSITION.split(meaning.lower())[0]
+
+
 def defined_unit(letter: str, meaning: str, indexed: bool = False) -> str:
     """What a letter is measured in by what a list says that it is: the head of that, where it is of something."""
-    bare = re.split(r"\s(?:at|in|during)\s", meaning)[0]
-    head = re.split(r"\sof\s", bare)[0]
-    words = re.findall(r"[a-z]+", head.lower())
-    return usual_unit(letter, head if words and words[-1] in KINDS else bare, indexed)
+    head = head_of(meaning)
+    words = re.findall(r"[a-z]+", head)
+    # the amplitude of a force is one
+    known = words and words[-1] in KINDS
+    return usual_unit(letter, head if known else re.split(r"\s(?:at|in|during)\s", meaning)[0], indexed)
 
 
 _OPEN = ("m/s^2", "s^2/m", "-/kg")  # what a name leaves open: a weight, of a kilogram
@@ -101,7 +106,6 @@ _OPEN_OF = {
     "kg": ("-/m", "-/m^2", "-/s"),
     "m^3": ("-/m", "-/s"),
 }
-_PREPOSITION = re.compile(r"\b(?:of|at|in|by|for|on|from|due|to|with|under|over|between|and|or)\b|[,;($/]")
 #: Names with an `of`, and of pure numbers: what they are measured in, the first where the table says anything else
 _FIXED = (
     (re.compile(r"\bmoments? of inertia\b"), ("kg*m^2", "m^4")),
@@ -113,7 +117,7 @@ _FIXED = (
 def misnamed(letter: str, meaning: str, unit: str) -> str:
     """The unit of what is never measured in the one that the table has; empty where it is, or may be."""
     meaning, printed = meaning.lower(), tuple(dimension(unit or "-"))
-    head = _PREPOSITION.split(meaning)[0]
+    head = head_of(meaning)
     units = next((units for pattern, units in _FIXED if pattern.search(meaning)), ())
     if not units:
         usual = usual_unit(letter, head)
