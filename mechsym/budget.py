@@ -27,6 +27,8 @@ def choose(text: str) -> None:
     for part in filter(None, (p.strip() for p in text.split(","))):
         if memory := _SIZE.fullmatch(part):
             size = float(memory[1]) * _BYTES[memory[2]]
+        elif part.replace(".", "", 1).isdecimal():
+            raise BadInput(f"--budget {text!r}: {part} of what? write --budget '{part} min' or '{part} GB'")
         else:
             seconds = parse(part, "s", "--budget")
     if not (seconds > 0 and size > 0):

@@ -31,7 +31,7 @@ LIMIT = 60  # time of a row by the clock [s]
 EXAMPLES = TESTS.parent / "examples"
 OWN = (EXAMPLES / "mechanisms", EXAMPLES / "space", TESTS / "plausible" / "own")
 NAMES = ("hand", "peers", "trackers", "office", "laws", "shop")
-NAMES += ("field", "yard", "depot", "hall", "annex", "garage", "wharf", "quay", "pier")
+NAMES += ("field", "yard", "depot", "hall", "annex", "garage", "wharf", "quay", "pier", "jetty")
 LISTS = {name: tomllib.loads((TESTS / "plausible" / f"{name}.toml").read_text()) for name in NAMES}
 
 
@@ -63,6 +63,7 @@ def told(row, folder):
         return [("verdict", result["verdict"])] if bad else []
     doubts = [(d["code"], d["quantity"]) for d in result.get("doubts", ())]
     doubts += [("problem", one["key"]) for one in result.get("problems", ())]
+    doubts += [("failed", one["reason"]) for one in result.get("failed", ())]
     return doubts + [tuple(line.split()[1:3]) for line in done.stderr.splitlines() if line.startswith("doubt:")]
 
 

@@ -33,6 +33,7 @@ _OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its join
 _MIDDLE = 0.25  # how far the centre of a bar is from the middle of its joints, by its length [-]
 _SWINGS = 8.0  # inertia of what swings about its joint by mass and the longest link squared [-]
 _CARRIES = 5.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+_SLENDER = 1000.0  # a longer shaft, by its diameter, is a thread [-]
 _DEEP = 3.0  # how far a link goes along its axis, by the longest link [-]
 _BURSTS = 300.0  # speed of the radius of gyration at which discs of steel burst [m/s]
 _BEHIND_GEARS = 1e4  # inertia of a load by that of its motor, seen through the gear [-]
@@ -145,7 +146,9 @@ def _thin(of: str, mass: float, inertia: float, high: float | None = None) -> It
     """
     if mass > 0 and inertia > 0:
         what = f"length of a steel shaft with the mass and the inertia of {of}"
-        yield from proportion("shaft_length", what, mass**2 / (2 * math.pi * _STEEL * inertia), high)
+        length = mass**2 / (2 * math.pi * _STEEL * inertia)
+        thread = _SLENDER * math.sqrt(4 * mass / (math.pi * _STEEL * length))
+        yield from proportion("shaft_length", what, length, high or thread)
 
 
 def _turning(listing: "Listing", letters: Mapping[str, float], torque: float, longer: float) -> Iterator[Doubt]:

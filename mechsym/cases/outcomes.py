@@ -21,8 +21,8 @@ from mechsym.mechanisms import own
 from mechsym.mechanisms.plan import plan_of, roles_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.plausible import PROPORTIONS, Doubt, inputs, moving_mass, piston_speed, proportion, proportions, results
-from mechsym.quantities.units import Pure, RadPerSecond, Second
-from mechsym.simulate.result import RunNumbers
+from mechsym.quantities.units import Pure
+from mechsym.simulate.result import Result, RunNumbers
 
 if TYPE_CHECKING:
     from mechsym.forces.driven import DrivenForces
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 # what commands tell of the gas, the key of its limit, and the unit it is told in [SI]
 _LIMITED = (("p_max_mpa", "peak_pressure", 1e6), ("p_max_bar", "peak_pressure", 1e5),
             ("t_max_k", "peak_temperature", 1.0), ("knock", "knock", 1.0))  # fmt: skip
+_LAST = 10  # of all results, the last tenth
 PISTON_SPEED = next(kind.highest for kind in PROPORTIONS if kind.code == "piston_speed")  # what is refused [m/s]
 
 
@@ -135,21 +136,20 @@ def _borne(case: Case, mechanism: Mechanism, phi: np.ndarray) -> tuple[Doubt, ..
     return by_force(listing, asdict(case.need("parameters")), max(borne, default=0.0))
 
 
-def of_run(
-    case: Case, gas: Gas | None, length: Second, fastest: RadPerSecond = 0.0, run: RunNumbers | None = None
-) -> tuple[Doubt, ...]:
-    """Doubts of a run in time. gas: that drives it; length: of the run; fastest: highest speed of the crank."""
+def of_run(case: Case, gas: Gas | None, result: Result, run: RunNumbers) -> tuple[Doubt, ...]:
+    """Doubts of a run in time, and of the gas that drives it. run: the numbers of the result."""
     wanted, doubts = case.sections.get("simulation"), of_gas(case, gas)
     sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
     if sizes is not None:
         # refused before a run, doubted as the outcome of one
-        speed = min(abs(fastest), PISTON_SPEED * math.pi / sizes.stroke)
+        speed = min(abs(run.speed_max), PISTON_SPEED * math.pi / sizes.stroke)
         doubts += piston_speed("highest mean piston speed of the run", sizes.stroke, speed, fired(case.sections))
-    elif run is not None:
+    else:
         listing = plan_of(case.mechanism).listing(None)
         links = by_links(listing, asdict(case.need("parameters")), {}, _fastest(run))
         doubts += tuple(doubt for doubt in links if doubt.code == "point_speed")
-    doubts += _motion(case, run) if run is not None else ()
+    doubts += _motion(case, result, run)
+    length = float(result.t[-1] - result.t[0])
     if wanted is None or wanted.window is None or not length > 0:
         return doubts
     return doubts + proportion("window", "simulation.window / length of the run", wanted.window / length)
@@ -160,7 +160,7 @@ def _fastest(run: RunNumbers) -> dict[str, float]:
     return {q: max(abs(speed["min"]), abs(speed["max"])) for q, speed in run.speeds.items()}
 
 
-def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
+def _motion(case: Case, result: Result, run: RunNumbers) -> tuple[Doubt, ...]:
     """Speeds of what slides, sense of rotation, whether the drive drives, and turns between two results."""
     wanted, work = case.sections.get("simulation"), run.energy.work
     doubts: tuple[Doubt, ...] = ()
@@ -184,7 +184,9 @@ def _motion(case: Case, run: RunNumbers) -> tuple[Doubt, ...]:
         first = asdict(case.sections["start"]) if "start" in case.sections else {}
         start = getattr(wanted, "speed_start", None) or first.get(f"{shaft}d")
         if start and start > 0 and mean >= 0 and work.get("drive", 0.0) > 0:
-            doubts += proportion("stall", "mean speed at the end of the run / at its start", mean / start)
+            last = result.columns[f"{shaft}d"][-max(1, len(result.t) // _LAST) :]
+            what = "highest speed in the last results of the run / speed at its start"
+            doubts += proportion("stall", what, float(np.max(last)) / start)
     return doubts + (proportion("drive_work", "work of [drive] in the run", work["drive"]) if "drive" in work else ())
 
 

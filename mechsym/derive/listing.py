@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import NotRequired, TypedDict, cast
 
-from sympy import Eq, Expr, Function, Integer, Mul, Symbol, cos, latex, mathml, sin
+from sympy import Eq, Expr, Function, Integer, Mul, Symbol, atan, atan2, cos, latex, mathml, sin, tan
 
 from mechsym.derive.declare import Body, Declaration, Element
 from mechsym.derive.emit import groups
@@ -138,7 +138,7 @@ def _short(m: Declaration, formulas: Sequence[Expr]) -> list[str]:
         return []
     flat, moves = [m.tape.flat(formula) for formula in formulas], {*m.q} - {*m.dependent_list}
     letters = {s for one in flat for s in one.free_symbols}
-    plain = all(isinstance(f, (sin, cos)) for one in flat for f in one.atoms(Function))
+    plain = all(isinstance(f, (sin, cos, tan, atan, atan2)) for one in flat for f in one.atoms(Function))
     return [str(one) for one in flat] if plain and letters & moves and letters <= moves | {*m.parameter_list} else []
 
 

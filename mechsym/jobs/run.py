@@ -170,7 +170,7 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
         )
     lines += _lifted(case, result)
     result, outputs = outputs_of(case, result)
-    doubted = of_run(case, gas(case), float(result.t[-1] - result.t[0]), numbers.speed_max, numbers)
+    doubted = of_run(case, gas(case), result, numbers)
     doubted += tuple(of_start(case, mechanism_of(case), result.columns))
     return FinishedRun(
         case=case.name, backend=settings.backend, tolerance=settings.tolerance, result=result, summary=numbers,

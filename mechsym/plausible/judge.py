@@ -81,6 +81,7 @@ _LARGEST = {
     "m": 100.0, "kg": 1e6, "kg*m": 1e6, "kg*m^2": 1e8, "rad": 1e5, "rad/s": 1e4, "m/s": 1e4, "N": 1e9, "N*m": 1e9,
     "N/m": 1e12, "N*m/rad": 1e12, "N*s/m": 1e10, "N*m*s/rad": 1e10, "m/s^2": 1e5,
 }  # fmt: skip
+_DEGREES = "a number without a unit is in radians: are degrees meant, '90 deg'?"
 _BY_CODE = {kind.code: kind for kind in PROPORTIONS}
 
 
@@ -148,15 +149,18 @@ def letters(values: Mapping[str, tuple[float, str]]) -> tuple[Doubt, ...]:
 
     values: by letter, the value and its SI unit [SI].
 
-    >>> [d.quantity for d in letters({"phid": (1e12, "rad/s"), "phi": (1.0, "rad")})]
-    ['phid']
+    >>> [d.quantity for d in letters({"phid": (1e12, "rad/s"), "phi": (1.0, "rad"), "phase": (45.0, "rad")})]
+    ['phid', 'phase']
     """
-    why = _BY_CODE["magnitude"].why
-    return tuple(
-        Doubt(code="magnitude", quantity=name, value=value, usual=f"at most {_LARGEST[unit]:g} {unit}", why=why)
-        for name, (value, unit) in values.items()
-        if abs(value) > _LARGEST.get(unit, math.inf)
-    )
+    why, doubts = _BY_CODE["magnitude"].why, []
+    for name, (value, unit) in values.items():
+        if abs(value) > _LARGEST.get(unit, math.inf):
+            usual = f"at most {_LARGEST[unit]:g} {unit}"
+            doubts.append(Doubt(code="magnitude", quantity=name, value=value, usual=usual, why=why))
+        elif unit == "rad" and abs(value) > math.pi and value == round(value):  # no angle of degrees is a whole number
+            usual = "at most half a turn, where it is a whole number of radians"
+            doubts.append(Doubt(code="angle", quantity=name, value=value, usual=usual, why=_DEGREES))
+    return tuple(doubts)
 
 
 def results(report: object) -> tuple[Doubt, ...]:
