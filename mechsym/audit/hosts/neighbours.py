@@ -8,6 +8,7 @@ would have is none.
 import ast
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from difflib import SequenceMatcher
 from functools import cache
 from itertools import islice
@@ -81,7 +82,7 @@ class Neighbours:
         beside.sort(key=lambda b: _unlikely(*b))
         worse, misprints = None, []
         for near, others in islice(((n, o) for n, o in beside if n.away and _is_told(n, o)), _ASKED):
-            row = slip(near, others, self._of_angle(near))
+            row = slip(replace(near, settled=self._is_settled(near)), others, self._of_angle(near))
             if row is not None and row["verdict"] == "wrong":
                 worse = worse or _wrong(row, near, others)
             elif row is not None and row["verdict"] == "misprint":
@@ -147,6 +148,16 @@ class Neighbours:
                     yield Near(away=away, fitted=fitted, form=form, quantity=quantity, states=states)
                 if not met and len(fitted.meanings) > 1:
                     yield Near(away=1.0, fitted=fitted, form=form, quantity="", states=states)
+
+    def _is_settled(self, near: Near) -> bool:
+        # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is
+        own = near.fitted.claim
+        return any(
+            other.fitted.theory is near.fitted.theory
+            and other.quantity == near.quantity
+            and (other.fitted.claim.name, other.fitted.claim.line) == (own.name, own.line)
+            for other in self.witnesses
+        )
 
     def _beside(self, near: Near) -> list[Near]:
         # other quantities of the theory that other formulas are, and no letter means something else in them

@@ -39,6 +39,7 @@ def asked_once(
     twice: bool = False,
     beside: Sequence[Near] = (),
     of_angle: Sequence[Near] = (),
+    settled: bool = False,
 ) -> tuple[Row, Repair | None]:
     """The row of a formula, of one slip at most, with its repair; twice: the same one may stand in both halves.
 
@@ -47,7 +48,7 @@ def asked_once(
     against = f"{theory.name}.{quantity}"
     try:
         question = _question(text, theory, quantity, own, rest)
-        verdict = decide(question, one=not twice)
+        verdict = decide(question, settled=settled, one=not twice)
         if twice and verdict.repairs and len({edit.kind for edit in verdict.repairs[0].edits}) > 1:
             verdict = decide(question, one=True)
         if verdict.verdict == "untestable" and _is_told_otherwise(verdict.note, own, beside):
@@ -204,7 +205,8 @@ def _slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row |
     for turned in (False, True) if against else (False,):
         tree = _negative(form.tree) if turned else form.tree
         rest = at_rest(fitted.theory, form)
-        row, repair = asked_once(to_python(tree), fitted.theory, quantity, own, rest, twice, beside, of_angle)
+        text = to_python(tree)
+        row, repair = asked_once(text, fitted.theory, quantity, own, rest, twice, beside, of_angle, near.settled)
         if row["verdict"] in PASSED:
             # it passes as what: exact, a truncation, by a convention
             return row | {"verdict": "agrees", "passed": row["verdict"]}

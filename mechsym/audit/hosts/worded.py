@@ -49,7 +49,8 @@ class Worded:
         plain = {k for k, words in paper.called.items() if words == "angle"}
         vague = {k for k in plain if k in values or self.world.angle in plain - {k}}
         called = {k: words for k, words in paper.called.items() if k not in vague}
-        called |= dict.fromkeys(self.world.kinds.turns, "revolutions per minute")
+        turning = {n for n in self.world.used if n.rstrip("0123456789") in self.world.kinds.turns and n not in called}
+        called |= dict.fromkeys((*self.world.kinds.turns, *sorted(turning)), "revolutions per minute")
         for order, said in enumerate(paper.said):
             if not said.sides or said.claim or said.inline:
                 continue

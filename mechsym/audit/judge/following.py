@@ -1,6 +1,7 @@
 """What an equation has to be by those before it and the words between: solved for a letter, derived, reduced."""
 
 import ast
+import math
 import re
 from collections.abc import Iterator
 
@@ -9,6 +10,8 @@ from mechsym.audit.judge.motion import ANGLES, KINETIC
 from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.world import World
+from mechsym.audit.read.algebra import FLOATS, evaluate
+from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.nomenclature import OPENED
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
@@ -28,6 +31,7 @@ from mechsym.audit.read.tree import (
 )
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, slope_by, times
+from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 _SOLVED = re.compile(
@@ -43,6 +47,9 @@ _ELSEWHERE = re.compile(r"\b(?:second|third|other|ahead|behind|degrees|leads?|la
 _TORQUE = re.compile(r"\btorque\b|\bmoment\b(?! of)", re.IGNORECASE)
 CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
 _SPEED, _WAYS = re.compile(r"\b(?:speeds?|velocit(?:y|ies))\b", re.IGNORECASE), "xyzsh"
+_MEAN = re.compile(r"\b(?:mean|average)\b", re.IGNORECASE)
+_BOUNDS = re.compile(r"\\int_(\{[^{}]*\}|\w|\\[a-z]+)\^(\{[^{}]*\}|\w|\\[a-z]+)")
+_ROUNDING = 1e-9  # [-]
 _BEFORE = 6  # equations in front of one that it may be the derivative of
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
 
@@ -105,8 +112,29 @@ def expected(world: World, order: int) -> Iterator[Expected]:
             yield from _by_virtual_work(world, order, said)
         if function_of(said.sides[1]) == "sqrt" and left.startswith(SPEEDS):
             yield from _natural(world, order, said)
+        if _MEAN.search(words) and not re.fullmatch("[aA]_?0", left):  # Fourier's a_0 is twice the mean
+            yield from _averaged(said)
         if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
             yield from _reduced(world, order, said)
+
+
+def _averaged(said: Said) -> Iterator[Expected]:
+    """The mean over what is integrated; what is nothing elsewhere may be divided by the whole period."""
+    printed = said.sides[1]
+    integrals = [n for n in letters(printed) if n.startswith("integral")]
+    bounds = _BOUNDS.match(said.spelled.get(integrals[0], "")) if len(integrals) == 1 else None
+    if bounds is None:
+        return
+    try:
+        low, high = (read_latex(text.strip("{}"), whole=True)[0] for text in bounds.groups())
+    except BadInput:
+        return
+    tree = over(name(integrals[0]), minus(high, low))
+    if {*letters(printed)} - {"pi"} == {*letters(tree)} - {"pi"}:
+        values = {"pi": math.pi} | {n: 1.3 + 0.4 * k for k, n in enumerate(letters(tree)) if n != "pi"}
+        one, other = (float(evaluate(part, values, FLOATS)) for part in (printed, tree))
+        if one / other > 1 - _ROUNDING:
+            yield Expected(tree=tree, printed=printed, note="a mean is the integral by the length that it goes over")
 
 
 def _by_virtual_work(world: World, order: int, said: Said) -> Iterator[Expected]:

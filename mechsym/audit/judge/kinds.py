@@ -15,7 +15,7 @@ from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.tree import Node, argument_of, function_of, is_operation, letters, value_of, walk
-from mechsym.audit.read.units import defined_unit, misnamed, usual_unit
+from mechsym.audit.read.units import defined_unit, misnamed, of_turns, usual_unit
 from mechsym.errors import BadInput
 from mechsym.quantities import dimension, record
 from mechsym.quantities.units import scale
@@ -41,7 +41,6 @@ _STEMS = "|".join([*sorted(SYMBOLS, key=len, reverse=True), "[A-Za-z]"])
 _RATE = re.compile(rf"((?:{_STEMS})\w*?)(dd?)")
 _STEP = re.compile(rf"(?:Delta|delta|d)((?:{'|'.join(sorted(SYMBOLS, key=len, reverse=True))}|[A-Zxyzms])\w*)")
 _MARKED = re.compile(r"(\w+?)(?:bar|hat|tilde|star)")
-_TURNS_A_MINUTE = re.compile(r"\b(?:revolutions|turns) (?:per|a) minute\b")
 _INDEX = re.compile(rf"({_STEMS})(\w+)")
 
 
@@ -72,6 +71,7 @@ class Kinds:
     scaled: set[str] = field(default_factory=set)  #: Letters that the table measures in no unit of the SI
     dotted: frozenset[str] = frozenset()  #: Letters with a dot: Ed is no E with an index
     misnamed: dict[str, str] = field(default_factory=dict)  #: Letters that the table has in no unit of theirs, to it
+    spoken: frozenset[str] = frozenset()  #: Letters of which sentences tell, and no table
     turns: set[str] = field(default_factory=set)  #: Letters in revolutions a minute that formulas take as a number
 
     def of(self, letter: str) -> Kind | None:
@@ -110,12 +110,14 @@ class Kinds:
         return kind if like <= {kind[:4]} else None
 
     def is_lent(self, letter: str) -> bool:
-        """Whether a letter with a letter for an index has its kind from the one without it."""
+        """Whether a letter with an index has its kind from the one without it; a number for an index is lent less."""
         within = _MARKED.fullmatch(letter)
         if letter in self.printed or letter in self.inferred or _RATE.fullmatch(letter) or slope_in(letter):
             return False
         base = _INDEX.fullmatch(within[1] if within else letter)
-        return base is not None and not base[2][0].isdigit() and self.of(letter) is not None
+        if base is None or base[2][0].isdigit() and base[1] not in self.spoken:
+            return False
+        return self.of(letter) is not None
 
     def kind(self, tree: Node) -> Kind:
         """Kind of an expression. Raises Clash, and _Unknown where a letter is unknown or a number may have a unit."""
@@ -196,7 +198,8 @@ def of_unit(unit: str) -> Kind:
 def kinds_of(paper: Text) -> Kinds:
     """What the nomenclature, units behind equations, and definitions tell."""
     dotted = frozenset(k for said in paper.said for k, v in said.spelled.items() if v.startswith(("\\dot", "\\ddot")))
-    kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")}, dotted=dotted)
+    spoken = frozenset(paper.called) - frozenset(paper.named)
+    kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")}, dotted=dotted, spoken=spoken)
     indexed = {k for said in paper.said for k, v in said.spelled.items() if v.startswith("d_")}
     if "dt" in indexed:
         del kinds.printed["dt"]  # a diameter of something
@@ -205,9 +208,9 @@ def kinds_of(paper: Text) -> Kinds:
         if usual := (defined_unit if is_listed else usual_unit)(letter, phrase, letter in indexed):
             kinds.printed[letter] = of_unit(usual)
         measured = letter in paper.named and paper.named[letter].unit
-        if not measured and _TURNS_A_MINUTE.search(phrase):
-            kinds.printed[letter] = of_unit("rpm")
-            kinds.turns.add(letter)
+        if not measured and (unit := of_turns(phrase)):
+            kinds.printed[letter] = of_unit(unit)
+            kinds.turns |= {letter} if unit == "rpm" else set()
     for letter, about in paper.named.items():
         unit = about.unit or defined_unit(letter, about.meaning, letter in indexed)
         if unit:

@@ -13,9 +13,9 @@ from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import RESERVED, Formula, read_expression
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.tree import Node, letters
-from mechsym.audit.read.units import PREPOSITIONS
+from mechsym.audit.read.units import PREPOSITIONS, of_turns
 from mechsym.audit.theory.record import Theory, known
-from mechsym.quantities import record
+from mechsym.quantities import dimension, record
 
 # what the angle that turns, and its rates, are called in programs
 ANGLES = ("theta", "phi", "th", "theta deg", "crank angle", "ca", "cad", "crankangle", "angle", "varphi")
@@ -101,9 +101,12 @@ class Lexicon:
         own, said = _word_list(name), _word_list(_UNIT.sub(" ", about))
         tail = _word_list(name.rpartition(OF)[2])
         turned = _turned(said)
+        turns = of_turns(about)
         counts: dict[str, int] = {}
         standing: list[tuple[tuple[str, ...], str]] = []
         for phrase, meaning in self.phrases:
+            if turns and self._is_measured_otherwise(meaning, turns):
+                continue
             rank, whole = 0, _joined(phrase)
             if whole in (_joined(own), _joined(tail)):
                 rank = 1 if whole in _GREEK else min(len(whole), 3)
@@ -124,6 +127,11 @@ class Lexicon:
         if slope := self._slope(name.rpartition(OF)[2]):
             counts[slope] = 3
         return sorted(((r, m) for m, r in counts.items()), reverse=True)
+
+    def _is_measured_otherwise(self, meaning: str, unit: str) -> bool:
+        # n_1 of revolutions per minute is no number of teeth
+        letter = self.theory.letters.get(meaning)
+        return letter is not None and dimension(letter.unit) != dimension(unit)
 
     def _slope(self, name: str) -> str:
         # dV_dtheta: the slope of what V is, by the angle

@@ -143,6 +143,7 @@ class Near:
     form: Formula
     quantity: str  #: Empty where it is near to none
     states: Probes
+    settled: bool = False  #: Whether another form of its equation tells how its author counts
 
 
 # 4 pi^2 where a conversion is upside down

@@ -77,6 +77,7 @@ _LOADED = re.compile(
 # the energy of the flywheel at the mean speed
 _AT_LAST = re.compile(r"(\bof\s+(?:the|an?|its)\s+[a-z-]+)\s+(?:at|with|for|under)\s+(?:the|an?)\s+[a-z -]+$")
 _MOVES = re.compile(r"\s(?:runs|lies|moves|turns|rotates|swings|acts|works|flows|stands)$")  # the engine runs with
+_AT_DEAD_CENTRE = re.compile(r"\bat (?:the )?(top|bottom) dead cent(?:re|er)\b", re.IGNORECASE)
 _LAST = 6  # words in front of an equation
 # names with an `of` of their own
 _FUSED = re.compile(
@@ -217,6 +218,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     """
     words, spoken, sentence = _sentence(before)
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
+    sentence = re.sub(r"(?:^|\s*,\s+)that is\s*,\s+", " ", sentence)
     bare = _CLOSING.sub("", sentence)
     bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
     if _GIVEN_WITH.search(spoken):
@@ -227,7 +229,9 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if not alone:
         return "", tail
     ends = bare != sentence  # with a verb: the torque of the gas is
-    first = re.match(rf"(?:The|Its|A|and the|and its)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|by|along)\b", bare)
+    first = re.match(
+        rf"(?:The|Its|A|and the|and its|[A-Z][a-z]+'s)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|by|along)\b", bare
+    )
     if first and _MOVES.search(first[1]):
         first = None
     consists = re.match(
@@ -238,7 +242,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     headed = re.search(
         rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|at|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
     )
-    relative = re.match(rf"(?:The|An?|and the)\s+({_SHORT})\s+(?:that|which)\b", bare) if ends else None
+    # The heat that leaves is, and the angle that was turned by then
+    relative = re.match(rf"(?:{'The|An?|' * ends}and the)\s+({_SHORT})\s+(?:that|which)\b", bare)
     last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
     behind = re.search(
         rf"\b(?:has|gives?|yields?|makes?|takes?|stores?|causes?|produces?|exerts?|needs?|requires?)\s+(?:the|an?)\s+({_SHORT})(?:\s+of\s+(?:the|an?)\s+{_PLAIN})?$",
@@ -271,6 +276,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio" or _RATIO_OF_TWO.search(bare):
         return "", tail
     phrase = _ENDS.sub("", chosen[1]).replace("-of-", " of ")
+    if place := _AT_DEAD_CENTRE.search(bare):
+        return f"{phrase} at {place[1].lower()} dead centre", tail
     if phrase.endswith(" one"):  # the tangential force, and the radial one
         kinds = [word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in KINDS]
         phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""

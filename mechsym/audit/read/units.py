@@ -81,6 +81,15 @@ def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
     return "" if unit == "J" and letter[0].islower() else unit
 
 
+_TURNS = re.compile(r"\b(?:revolutions|turns) (?:per|a) (minute|second)\b")
+
+
+def of_turns(meaning: str) -> str:
+    """The unit of what counts turns in a minute or a second; empty for all else."""
+    counted = _TURNS.search(meaning)
+    return {"minute": "rpm", "second": "-/s"}[counted[1]] if counted else ""
+
+
 def head_of(meaning: str) -> str:
     """What something is, without what it is of: the pressure of the pressure at the end."""
     return _PREPOSITION.split(meaning.lower())[0]

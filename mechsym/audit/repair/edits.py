@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import reduce
 from math import gcd
 
-from mechsym.audit.read.tree import Node, Path, binary, children, is_operation, number, replace, value_of, walk
+from mechsym.audit.read.tree import Node, Path, binary, children, is_operation, name, number, replace, value_of, walk
 from mechsym.quantities import record
 
 
@@ -168,4 +168,40 @@ def _tidy(node: Node, printed: set[int]) -> Node:
         return number(left * right, decimal=True)
     if is_operation(node, ast.Div) and left is not None and right and left.denominator == right.denominator == 1:
         return node if gcd(int(left), int(right)) == 1 else number(left / right)
-    return node
+    if is_operation(node, ast.Div) and left is not None and left.denominator > 1:  # (1/2)/pi
+        return binary(ast.Div, number(left.numerator), _led_by(number(left.denominator), node.right))
+    return _with_one_pi(node)
+
+
+def _with_one_pi(node: ast.BinOp) -> Node:
+    # pi*omega/(2*pi**2): what was multiplied in stands on the other side already
+    above, below = ([split_power(factor) for factor in factors(node, side)] for side in (True, False))
+    powers = [sum(power for base, power in side if _is_pi(base)) for side in (above, below)]
+    if not all(powers):
+        return node
+    sides = []
+    for side, more in ((above, powers[0] - powers[1]), (below, powers[1] - powers[0])):
+        every = [(base, power) for base, power in side if not _is_pi(base) and value_of(base) != 1]
+        every += [(name("pi"), more)] if more > 0 else []
+        raised = [base if power == 1 else binary(ast.Pow, base, number(power)) for base, power in every]
+        sides.append(reduce(lambda one, other: binary(ast.Mult, one, other), raised or [number(1)]))
+    return sides[0] if value_of(sides[1]) == 1 else binary(ast.Div, *sides)
+
+
+def _is_pi(node: Node) -> bool:
+    return isinstance(node, ast.Name) and node.id == "pi"
+
+
+def factors(node: Node, above: bool) -> Iterator[Node]:
+    """Factors of a product that stand above the stroke, or below it."""
+    if is_operation(node, ast.Mult, ast.Div):
+        yield from factors(node.left, above)
+        yield from factors(node.right, above == isinstance(node.op, ast.Mult))
+    elif above:
+        yield node
+
+
+def split_power(node: Node) -> tuple[Node, int]:
+    """Base and power of a factor, the power 1 where it is no whole number."""
+    power = value_of(node.right) if is_operation(node, ast.Pow) else None
+    return (node.left, int(power)) if power is not None and power.denominator == 1 else (node, 1)

@@ -29,7 +29,7 @@ from mechsym.audit.read.tree import (
     value_of,
     walk,
 )
-from mechsym.audit.repair.edits import Edit, Spot, chained, is_exponent, is_product, is_term, places, scaled
+from mechsym.audit.repair.edits import Edit, Spot, chained, factors, is_exponent, is_product, is_term, places, scaled
 from mechsym.audit.theory.record import dependencies, related
 from mechsym.quantities import record
 
@@ -301,16 +301,10 @@ def _cancels(nodes: Mapping[Path, Node], path: Path, used: Words) -> bool:
     while top and is_operation(nodes[top[:-1]], ast.Mult, ast.Div):
         above ^= top[-1] == "right" and is_operation(nodes[top[:-1]], ast.Div)
         top = top[:-1]
-    factors = {a: {ast.dump(f) for f in _factors(nodes[top], a)} for a in (True, False)}
-    return any(ast.dump(word) in factors[(exponent < 0) == above] for word, exponent in used)
-
-
-def _factors(node: Node, above: bool) -> Iterator[Node]:
-    if is_operation(node, ast.Mult, ast.Div):
-        yield from _factors(node.left, above)
-        yield from _factors(node.right, above == isinstance(node.op, ast.Mult))
-    elif above:
-        yield node.left if is_operation(node, ast.Pow) else node
+    bases = {
+        a: {ast.dump(f.left if is_operation(f, ast.Pow) else f) for f in factors(nodes[top], a)} for a in (True, False)
+    }
+    return any(ast.dump(word) in bases[(exponent < 0) == above] for word, exponent in used)
 
 
 def _times(node: Node, factor: Fraction, used: Words) -> Node:
