@@ -70,7 +70,9 @@ class Judge:
         odd = self.asking.odd.get(of_units.id_of(said), ())
         met = self._met(order, said)
         if met is not None and not odd:
-            return met
+            # with other letters it may be right; by the text's own it is not
+            own = self._by_text(order, said)
+            return own if own.verdict == "misprint" else met
         if self.slip is not None and self.slip.order == order:
             follow = ", ".join(f"({name})" for name in self.slip.follow)
             right = to_latex(self.slip.right, spelled(self.world, said))

@@ -82,6 +82,8 @@ class Neighbours:
         beside.sort(key=lambda b: _unlikely(*b))
         worse, misprints = None, []
         for near, others in islice(((n, o) for n, o in beside if n.away and _is_told(n, o)), _ASKED):
+            if _is_right_undefined(near):
+                return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"}
             row = slip(replace(near, settled=self._is_settled(near)), others, self._of_angle(near))
             if row is not None and row["verdict"] == "wrong":
                 worse = worse or _wrong(row, near, others)
@@ -172,6 +174,23 @@ class Neighbours:
             and other.fitted.claim is not near.fitted.claim
             and all(meant.get(base(k), m) == m for k, m in other.fitted.meanings.items())
         ]
+
+
+def _is_right_undefined(near: Near) -> bool:
+    # F_H/(b d) where F_H = F_P/2 is half of another force: a force all the same
+    fitted = near.fitted
+    defined = [k for k in trees.letters(fitted.claim.tree) if k != "pi" and k not in fitted.meanings]
+    if len(defined) != 1 or defined[0] not in fitted.claim.values:
+        return False
+    meant = {k: m for k, m in fitted.meanings.items() if k in trees.letters(fitted.claim.tree)}
+    for letter in trees.letters(fitted.claim.values[defined[0]]):
+        meaning = fitted.meanings.get(letter, "")
+        if meaning and meaning not in meant.values():
+            plain = replace(fitted, tree=fitted.claim.tree, meanings={**meant, defined[0]: meaning})
+            met = compared(formula(plain), near.states, near.quantity)
+            if met is not None and of_sign(met.ratio):
+                return True
+    return False
 
 
 def _is_rate_of_its_own(near: Near) -> bool:

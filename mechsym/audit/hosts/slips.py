@@ -73,7 +73,7 @@ def _question(text: str, theory: Theory, quantity: str, own: Mapping[str, str], 
 
 def _is_told_otherwise(note: str, own: Mapping[str, str], beside: Sequence[Near]) -> bool:
     # a radius for a diameter, say, of a letter that has its plain meaning in a formula that agrees
-    letter = re.match(rf"{RIGHT_WITH} (\w+) as ", note)
+    letter = re.search(rf"{RIGHT_WITH} (\w+) as ", note)
     plain = {m for near in beside for m in near.fitted.meanings.values()}
     return letter is not None and own.get(letter[1]) in plain
 

@@ -72,6 +72,7 @@ class Worded:
                     self.claims[order, k] = Claim(
                         scope="", name=left, tree=tree, line=said.shown.line, about=about, case=0, values=others,
                         abouts=called | {_SUM: "resulting force"}, ruled_out=_ruled_out(said.before, paper.prose),
+                        whole=said.about if said.about.startswith(about) else "",
                         parameters=tuple(called),
                         written={name: tree for name, tree in values.items() if name != left},
                     )  # fmt: skip

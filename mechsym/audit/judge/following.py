@@ -46,6 +46,7 @@ _PUSHES = re.compile(r"\b(?:piston|gas|plunger|yoke|slider|crosshead)\b")
 _ELSEWHERE = re.compile(r"\b(?:second|third|other|ahead|behind|degrees|leads?|lags?)\b|°|\\circ")  # at another angle
 _TORQUE = re.compile(r"\btorque\b|\bmoment\b(?! of)", re.IGNORECASE)
 CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
+_ITS_SPEED = re.compile(r"\bits\s+(?:velocity|speed)\b", re.IGNORECASE)
 _SPEED, _WAYS = re.compile(r"\b(?:speeds?|velocit(?:y|ies))\b", re.IGNORECASE), "xyzsh"
 _MEAN = re.compile(r"\b(?:mean|average)\b", re.IGNORECASE)
 _BOUNDS = re.compile(r"\\int_(\{[^{}]*\}|\w|\\[a-z]+)\^(\{[^{}]*\}|\w|\\[a-z]+)")
@@ -71,6 +72,8 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
     ):
         return None
     sides = [world.plain(side) for side in source.sides]
+    if len(sides) > 2 and letter not in letters(sides[0]):  # of a chain the form that has the letter
+        sides = [sides[0], *(side for side in sides[1:] if letter in letters(side))]
     if steady:  # nothing is accelerated that turns
         rates = {f"{world.angle}dd", *(f"{k}d" for k in (*SPEEDS, *world.aliases))}
         sides = [
@@ -112,10 +115,23 @@ def expected(world: World, order: int) -> Iterator[Expected]:
             yield from _by_virtual_work(world, order, said)
         if function_of(said.sides[1]) == "sqrt" and left.startswith(SPEEDS):
             yield from _natural(world, order, said)
+        yield from _turned(world, said, left)
         if _MEAN.search(words) and not re.fullmatch("[aA]_?0", left):  # Fourier's a_0 is twice the mean
             yield from _averaged(said)
         if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
             yield from _reduced(world, order, said)
+
+
+def _turned(world: World, said: Said, left: str) -> Iterator[Expected]:
+    r"""Of what hangs on an angle that turns evenly: R^{..} = omega^2 R'', whatever R is."""
+    for stem, dots in ((left.removesuffix("dd"), 2), (left.removesuffix("d"), 1)):
+        printed, slope = world.plain(said.sides[1]), stem + "prime" * dots
+        used = letters(printed)
+        rates = [n for n in used if n in SPEEDS or n == f"{world.angle}d"]
+        if stem != left and {*used} == {slope, *rates} and len(rates) == 1:
+            rate = name(rates[0])
+            tree = times(rate if dots == 1 else times(rate, rate), name(slope))
+            yield Expected(tree=tree, printed=printed, note=f"by the slope of {stem} at an even speed")
 
 
 def _averaged(said: Said) -> Iterator[Expected]:
@@ -152,11 +168,12 @@ def _by_virtual_work(world: World, order: int, said: Said) -> Iterator[Expected]
 
 
 def _speed_of_its_way(world: World, order: int, said: Said, left: str) -> Iterator[Expected]:
-    # v_i is the rate of x_i: of the one way with the same index that the text has
+    # v_i is the rate of x_i, of the one way with the same index that the text has; so is v, where it is its velocity
     index = left[1:]
     before = (d for d in world.defined if d.order < order and d.letter[1:] == index and d.letter[0] in _WAYS)
     ways = [d.letter for d in before if world.turns(d.letter) and not world.paper.said[d.order].claim]
-    if index and len(set(ways)) == 1 and left[0] in "vcuw" and world.angle:
+    told = index or _ITS_SPEED.search(_DISPLAY.split(OPENED.sub("", said.before.rstrip()))[-1])
+    if told and len(set(ways)) == 1 and left[0] in "vcuw" and world.angle:
         rate = times(name(Slope(ways[0], world.angle).name), name(f"{world.angle}d"))
         for tree in (rate, negative(rate)):
             yield Expected(tree=tree, printed=world.plain(said.sides[1]), note=f"the rate of {ways[0]}", whole=True)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from mechsym.audit.judge.primes import PRIMED, primed, rated, slope_of, stems_of
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
-from mechsym.audit.read.slopes import Slope
+from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.tree import Node, letters, value_of, walk
 from mechsym.audit.theory.record import Theory
 
@@ -45,6 +45,9 @@ def spelled(world: World, said: Said) -> dict[str, str]:
 
 def is_still(world: World, letter: str) -> bool:
     """Whether it is a rate of what the text says elsewhere without time or angle: there it was a state of rest."""
+    slope = slope_in(letter)
+    if slope and slope.by not in ("t", world.angle):
+        return False
     stems = [] if letter in world.paper.named else stems_of(letter)
     given = {d.letter for d in world.defined}
     return letter not in given and any(stem in given and not world.turns(stem) for stem in stems)

@@ -314,9 +314,10 @@ def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
     names = [claim.scope] if claim.name == "return" else [claim.name, *[claim.scope] * claim.last]
     best, called = 0, dict[str, None]()
     for name in names:
-        ranked = [(r, m) for r, m in vocabulary.meanings(name, claim.about) if m in vocabulary.theory.tape]
-        called |= dict.fromkeys(m for r, m in ranked if r == ranked[0][0])
-        best = max(best, ranked[0][0] if ranked else 0)
+        for about in dict.fromkeys((claim.about, claim.whole or claim.about)):
+            ranked = [(r, m) for r, m in vocabulary.meanings(name, about) if m in vocabulary.theory.tape]
+            called |= dict.fromkeys(m for r, m in ranked if r == ranked[0][0])
+            best = max(best, ranked[0][0] if ranked else 0)
     return best, list(called)
 
 

@@ -12,13 +12,16 @@ PRIMED = re.compile(r"(\w+?)prime(prime)?")
 
 
 def primed(tree: Node, by: str, theory: Theory) -> Node:
-    """A prime under the name of a derivative; by: that name with a gap for the letter, as `d{}_dphi` or `{}_d`."""
+    """One prime or two under the name of a derivative; by: that of the first, as `d{}_dphi` or `{}_d`."""
+    slope = slope_in(by.format("x"))
+    names = {1: by, 2: Slope("{}", slope.by, 2).name if slope else f"{by}d"}
 
     def changed(node: Node) -> Node | None:
-        if isinstance(node, ast.Name) and node.id.endswith("prime") and node.id not in theory.tape:
-            stem = node.id.removesuffix("prime")
-            return name(by.format(stem)) if stem in theory.results and by.format(stem) in theory.tape else None
-        return None
+        match = PRIMES.fullmatch(node.id) if isinstance(node, ast.Name) and node.id not in theory.tape else None
+        if match is None or match[1] not in theory.results:
+            return None
+        known = names.get(match[2].count("prime"), "").format(match[1])
+        return name(known) if known in theory.tape else None
 
     return substitute(tree, changed)
 

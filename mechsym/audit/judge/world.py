@@ -290,7 +290,9 @@ class World:
         latest: dict[str, int] = {}
         here = self.paper.said[order].section
         for index, one in enumerate(self.defined):
-            behind = one.letter not in latest and (one.order < 0 or self.paper.said[one.order].section == here)
+            source = self.paper.said[one.order] if one.order >= 0 else None
+            given = source is None or source.section == here and not _equates(source)
+            behind = one.letter not in latest and given
             if one.order <= order or behind:
                 latest[one.letter] = index
         key = tuple(sorted(latest.values()))
@@ -398,3 +400,8 @@ def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:
 
     for letter in tape:
         yield from put(letter, frozenset())
+
+
+def _equates(said: Said) -> bool:
+    # of m_1 = m_2 = m within a sentence nothing in front of it follows
+    return said.inline and all(isinstance(side, ast.Name) for side in said.sides)

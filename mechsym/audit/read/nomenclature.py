@@ -28,6 +28,13 @@ _BOLD = re.compile(
     r"^\s*[-*+]\s*(?:\*\*|[`$])([^*`$\n]{1,24}?)(?:\*\*|[`$])\s*[=:–—-]\s*"
     r"([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*$"
 )
+_ITEM = re.compile(  # of a list of descriptions
+    r"^\s*\\item\s*\[([^\[\]\n]{1,24})\]\s*([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*[.,;]?\s*$"
+)
+# crank radius $r$ (m), crank angle $\varphi$ of the first crank (rad)
+_UNIT_BEHIND = re.compile(
+    r"\b([a-z][a-z\s-]{2,60}?)\s+\$([^$\n=]{1,40})\$(?:\s+of\s+(?:the\s+)?[a-z ]{3,40})?\s*\(([^()\n]{1,20})\)"
+)
 # $D$ bore (m), $S$ stroke (m): one behind the other in a sentence
 _RUN_IN = re.compile(r"\$([^$\n]{1,40})\$\s+([a-z][A-Za-z\s-]{2,60}?)(?:\s*\(([^()\n]{1,20})\))?(?=\s*[,.;])")
 _FEWEST = 4  # letters of such a list
@@ -77,6 +84,7 @@ _LOADED = re.compile(
 # the energy of the flywheel at the mean speed
 _AT_LAST = re.compile(r"(\bof\s+(?:the|an?|its)\s+[a-z-]+)\s+(?:at|with|for|under)\s+(?:the|an?)\s+[a-z -]+$")
 _MOVES = re.compile(r"\s(?:runs|lies|moves|turns|rotates|swings|acts|works|flows|stands)$")  # the engine runs with
+_BESIDE = re.compile(r"\s(?:with|at|for|in|by|from|to|between|under)\s")  # what a quantity is of ends there
 _AT_DEAD_CENTRE = re.compile(r"\bat (?:the )?(top|bottom) dead cent(?:re|er)\b", re.IGNORECASE)
 _LAST = 6  # words in front of an equation
 # names with an `of` of their own
@@ -108,6 +116,7 @@ _IN_TURNS = re.compile(r"\s+in\s+(?:revolutions|turns)\s+(?:per|a)\s+minute\b")
 _PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
 _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
+_AT_FIRST = re.compile(r"(?:In|For|At|Under|During|On|From|By|With)\s")
 _ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
 _MEASURED = re.compile(  # a spring of stiffness $k$
     r"^((?!moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
@@ -127,6 +136,10 @@ _CELLS = re.compile(r"(?<!\\)&|\||\t")
 def nomenclature(text: str) -> dict[str, Named]:
     """Letters as they are spelled there, with what they are called and measured in."""
     names: dict[str, Named] = {}
+    units = [m for m in _UNIT_BEHIND.finditer(text) if unit_of(m[3])]
+    for match in units if len(units) >= _FEWEST else ():
+        line, phrase = text.count("\n", 0, match.start()) + 1, " ".join(_BEGINS.split(match[1])[-1].split())
+        names.setdefault(spelled(match[2]), Named(meaning=phrase, unit=unit_of(match[3]) or "", line=line))
     run = [m for m in _RUN_IN.finditer(text) if not m[3] or unit_of(m[3])]
     run = run if sum(bool(m[3]) for m in run) >= _FEWEST else []
     for match in run:
@@ -138,7 +151,11 @@ def nomenclature(text: str) -> dict[str, Named]:
             continue
         listed = [*_cells(row), *((m[1], m[2], m[3]) for m in _LISTED.finditer(row))]
         listed += [(m[2], m[1], m[3]) for m in _BACKWARDS.finditer(row)]
-        listed += [(m[1], m[2], m[3] if m[3] and unit_of(m[3]) else "") for m in _BOLD.finditer(row)]
+        listed += [
+            (m[1], m[2], m[3] if m[3] and unit_of(m[3]) else "")
+            for pattern in (_BOLD, _ITEM)
+            for m in pattern.finditer(row)
+        ]
         for symbol, meaning, unit in listed:
             known = unit_of(unit) if unit else None
             for one in re.split(r",\s*(?![^{]*\})", symbol.strip("$ ")):
@@ -153,7 +170,9 @@ def nomenclature(text: str) -> dict[str, Named]:
     counted = [_IN_TURNS.match(text, m.end()) for m in where]
     phrases = [(m[1], m[3] + (c[0] if c else ""), m.start()) for m, c in zip(where, counted, strict=True)]
     phrases += [
-        (m[3], m[2], m.start()) for m in _AHEAD.finditer(text) if not OTHERS.fullmatch(m[1]) and not _is_moment(text, m)
+        (m[3], whole if (whole := f"{m[1]} {m[2]}") in KINDS else m[2], m.start())
+        for m in _AHEAD.finditer(text)
+        if not OTHERS.fullmatch(m[1]) and not _is_moment(text, m)
     ]
     for symbol, meaning, start in phrases:
         one = spelled(symbol.partition("=")[0])
@@ -191,8 +210,8 @@ def called(text: str) -> dict[str, str]:
         pairs.append((match[2], " ".join([owner, *match[3].split()]).strip()))
     pairs += [(match[1], "revolutions per minute") for match in _PER_MINUTE.finditer(text)]
     for match in _CALLED.finditer(text):
-        if match[1].endswith(" and"):
-            continue  # the force and $m$ the mass
+        if match[1].endswith(" and") or _AT_FIRST.match(match[1]):
+            continue  # the force and $m$ the mass; in steady running $M_e = M_p$
         words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
         if words.startswith("that of"):  # the reciprocating mass is that of the piston
             kinds = re.findall(_KINDS, text[max(0, match.start() - 60) : match.end(1)].rpartition("that of")[0])
@@ -212,7 +231,7 @@ def called(text: str) -> dict[str, str]:
 
 
 def subject(before: str, alone: bool) -> tuple[str, str]:
-    """What the sentence in front of an equation says that it gives, and its last words: `The stress of a bar is`.
+    """What the sentence in front of an equation says that it gives, and of what, or its last words.
 
     before: the text up to the equation. alone: whether it gives one thing.
     """
@@ -281,7 +300,9 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if phrase.endswith(" one"):  # the tangential force, and the radial one
         kinds = [word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in KINDS]
         phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
-    return phrase, phrase or tail
+    whole = _BESIDE.split(re.sub(r"^(?:the|its|an?|and the|and its)\s+", "", bare, flags=re.IGNORECASE))[0]
+    whole = whole.replace("-of-", " of ")
+    return phrase, whole if chosen is first and whole.startswith(phrase) else phrase or tail
 
 
 def _sentence(before: str) -> tuple[str, str, str]:
@@ -315,6 +336,8 @@ def _cells(row: str) -> Iterator[tuple[str, str, str]]:
     for start in range(0, len(cells) - 1, 3):
         group = cells[start : start + 3]
         symbol = group[0]
+        if len(group) == 3 and unit_of(group[1]) and re.search(r"[A-Za-z]{3}", group[2]):  # symbol, unit, meaning
+            group = [symbol, group[2], group[1]]
         wordy = len(group) > 1 and re.search(r"[A-Za-z]{3}", group[1]) and not _FORMULA.search(group[1])
         if (
             symbol

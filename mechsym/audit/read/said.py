@@ -205,9 +205,14 @@ def _inline(text: str) -> Iterator[Displayed]:
     alone = {m.start(1) for m in _ALONE.finditer(text)}
     for match in islice(_INLINE.finditer(text), MOST):
         inside, data = match[1], re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|$)|\\text|\\mathrm", match[1])
-        if inside.count("=") == 1 and match.start() not in alone and not data:
+        if not inside.count("=") or match.start() in alone or data:
+            continue
+        *firsts, last = (part.strip() for part in inside.split("="))
+        if len(firsts) > 1 and not all(re.fullmatch(SIGN, part) for part in (*firsts, last)):
+            continue  # but for m_1 = m_2 = m
+        for first in firsts:
             line = bisect_right(breaks, match.start()) + 1
-            yield Displayed(number="", label="", text=inside.strip(), line=line, begins=match.start())
+            yield Displayed(number="", label="", text=f"{first} = {last}", line=line, begins=match.start())
 
 
 def _tabled(written: Mapping[str, Named], lines: Sequence[int]) -> Iterator[Displayed]:
@@ -248,7 +253,7 @@ def _prepared(text: str, spelling: _Spelling) -> str:
     for letter in spelling.twofold:
         text = re.sub(rf"\\var{letter}(?![A-Za-z])", rf"\\Var{letter} ", text)
     if spelling.delta:
-        text = re.sub(r"\\delta(?=\s*(?:\\[a-z]|[A-Za-z]))", r"{\\delta}", text)
+        text = re.sub(r"\\delta(?=\s*(?:\\[,;:! ]\s*)?\\?[A-Za-z])", r"{\\delta}", text)
     if spelling.diameter and "int" not in text:  # pi d b is no differential, which stands above another one
         text = re.sub(r"(?<=[A-Za-z0-9}] )d(?= +[A-Za-z](?![A-Za-z]))", "{d}", text)
         text = re.sub(r"(\\frac\{(?!\s*d)[^{}]*\}\s*\{\s*)d(?= +[A-Za-z](?![A-Za-z]))", r"\1{d}", text)

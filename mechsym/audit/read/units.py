@@ -31,8 +31,8 @@ KINDS = {
     "power": "W", "torque": "N*m", "force": "N", "pressure": "Pa", "work": "J", "energy": "J", "heat": "J",
     "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
     "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
-    "width": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m", "stress": "Pa",
-    "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
+    "width": "m", "distance": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m",
+    "stress": "Pa", "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
     "angular acceleration": "rad/s^2", "piston speed": "m/s", "shear modulus": "Pa", "young modulus": "Pa",
     "elasticity": "Pa", "density": "kg/m^3", "power density": "", "energy density": "", "frequency": "Hz",
 }  # fmt: skip
@@ -45,7 +45,7 @@ OTHERS = re.compile(
 #: Words between what something is and what it is of
 PREPOSITIONS = tuple("of at in by for on along from due to with under over between about".split())
 _PREPOSITION = re.compile(rf"\b(?:{'|'.join(PREPOSITIONS)}|and|or)\b|[,;($/]")
-_RATIO = re.compile(r"\b(?:coefficient|ratio)s? of\b", re.IGNORECASE)
+_RATIO = re.compile(r"\b(?:coefficient|ratio|share|fraction|percentage)s? of\b", re.IGNORECASE)
 
 
 def unit_of(text: str) -> str | None:

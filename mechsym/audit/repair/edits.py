@@ -6,7 +6,21 @@ from fractions import Fraction
 from functools import reduce
 from math import gcd
 
-from mechsym.audit.read.tree import Node, Path, binary, children, is_operation, name, number, replace, value_of, walk
+from mechsym.audit.read.tree import (
+    Node,
+    Path,
+    binary,
+    call,
+    children,
+    function_of,
+    is_operation,
+    name,
+    negative,
+    number,
+    replace,
+    value_of,
+    walk,
+)
 from mechsym.quantities import record
 
 
@@ -140,26 +154,18 @@ def _tidy(node: Node, printed: set[int]) -> Node:
         below = _tidy(child, printed)
         if below is not child:
             node = replace(node, (step,), below)
+    if (function := function_of(node)) in ("sin", "cos", "tan") and isinstance(node, ast.Call):
+        inner = node.args[0]  # the sine of -x
+        if isinstance(inner, ast.UnaryOp):
+            plain = call(function, inner.operand)
+            return plain if function == "cos" else negative(plain)
+    if is_operation(node, ast.Mult) and isinstance(node.right, ast.UnaryOp):
+        return _negated(binary(ast.Mult, node.left, node.right.operand))
     if not isinstance(node, ast.BinOp):
         return node
     left, right = value_of(node.left), value_of(node.right)
     if is_operation(node, ast.Add, ast.Sub):
-        # x + 0, (x - 1) + 1
-        last, added_up = value_of(node.right), isinstance(node.op, ast.Add)
-        if last is None:
-            return node.right if added_up and value_of(node.left) == 0 else node
-        added = last if added_up else -last
-        base = node.left
-        if is_operation(base, ast.Add, ast.Sub):
-            inner = value_of(base.right)
-            if inner is not None:
-                added += inner if isinstance(base.op, ast.Add) else -inner
-                base = base.left
-        elif (whole := value_of(base)) is not None:
-            return number(whole + added)
-        if not added:
-            return base
-        return binary(ast.Add if added > 0 else ast.Sub, base, number(abs(added)))
+        return _added_up(node)
     if right == 1 and is_operation(node, ast.Mult, ast.Div, ast.Pow):
         return node.left
     if left == 1 and is_operation(node, ast.Mult):
@@ -168,9 +174,35 @@ def _tidy(node: Node, printed: set[int]) -> Node:
         return number(left * right, decimal=True)
     if is_operation(node, ast.Div) and left is not None and right and left.denominator == right.denominator == 1:
         return node if gcd(int(left), int(right)) == 1 else number(left / right)
-    if is_operation(node, ast.Div) and left is not None and left.denominator > 1:  # (1/2)/pi
-        return binary(ast.Div, number(left.numerator), _led_by(number(left.denominator), node.right))
+    if is_operation(node, ast.Div) and is_operation(node.left, ast.Div):  # (1/2)/pi, (a/b)/2
+        one, other = (node.right, node.left.right) if right is not None else (node.left.right, node.right)
+        return binary(ast.Div, node.left.left, _led_by(one, other))
     return _with_one_pi(node)
+
+
+def _added_up(node: ast.BinOp) -> Node:
+    # x + 0, (x - 1) + 1
+    last, plus = value_of(node.right), isinstance(node.op, ast.Add)
+    if last is None:
+        return node.right if plus and value_of(node.left) == 0 else node
+    added, base = last if plus else -last, node.left
+    if is_operation(base, ast.Add, ast.Sub):
+        inner = value_of(base.right)
+        if inner is not None:
+            added += inner if isinstance(base.op, ast.Add) else -inner
+            base = base.left
+    elif (whole := value_of(base)) is not None:
+        return number(whole + added)
+    if not added:
+        return base
+    return binary(ast.Add if added > 0 else ast.Sub, base, number(abs(added)))
+
+
+def _negated(node: Node) -> Node:
+    # -a b, not -(a b)
+    if is_operation(node, ast.Mult, ast.Div):
+        return binary(type(node.op), _negated(node.left), node.right)
+    return negative(node)
 
 
 def _with_one_pi(node: ast.BinOp) -> Node:
@@ -203,5 +235,8 @@ def factors(node: Node, above: bool) -> Iterator[Node]:
 
 def split_power(node: Node) -> tuple[Node, int]:
     """Base and power of a factor, the power 1 where it is no whole number."""
-    power = value_of(node.right) if is_operation(node, ast.Pow) else None
-    return (node.left, int(power)) if power is not None and power.denominator == 1 else (node, 1)
+    if is_operation(node, ast.Pow):
+        power = value_of(node.right)
+        if power is not None and power.denominator == 1:
+            return node.left, int(power)
+    return node, 1

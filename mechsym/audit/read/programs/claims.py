@@ -40,6 +40,7 @@ class Claim:
     written: Mapping[str, Node] = field(default_factory=dict)  #: What names are that no word of a theory tells
     abouts: Mapping[str, str] = field(default_factory=dict)
     parameters: Sequence[str] = ()
+    whole: str = ""  #: The same with all that it is of
     ruled_out: str = ""  #: What names of quantities have that its words speak against: `two_stroke`
     last: bool = False  #: Of a function that gives nothing back by `return`: what it ends with
 
