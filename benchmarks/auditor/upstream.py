@@ -158,6 +158,15 @@ def texts() -> None:
     flow, volume_of_kg, low, high = 10, 1e-3, 1e5, 10e5
     pumped = flow * volume_of_kg * (high - low) / 1e3
     print(f"CBE20255: a pump that takes {-pumped:.0f} kW as written, {pumped:.0f} kW")
+    strength, turn = 5, np.linspace(0, 2 * np.pi, 3601)
+    x, y = np.cos(turn), np.sin(turn)
+    around = [
+        -np.trapezoid(speed * (-y) * np.gradient(x, turn) + speed * x * np.gradient(y, turn), turn)
+        for speed in (strength / (2 * np.pi), -strength / (2 * np.pi))
+    ]
+    print("AeroPython: a circulation of {:.2f} as written, {:.2f}".format(*around))
+    before, after = (1 + 1.4 * mach**2 for mach in (0.2, 0.4))
+    print(f"gas-dynamics-notes: {before / after:.3f} as written, {100 * before / after:.1f} kPa")
 
 
 def main() -> None:

@@ -5,6 +5,7 @@ from audited import blamed, judged
 
 from mechsym.audit.judge.kinds import kinds_of
 from mechsym.audit.read.said import read_text_whole
+from mechsym.audit.read.tree import letters
 
 
 def _why(formula):
@@ -69,6 +70,7 @@ def test_what_is_beside_it_is_read(formula):
         r"Of the power $P$ at the frequency $f$ $$ \log P = \log K - 2\log f $$",
         r"Take $$ \ddot{x} = -\dot{x}^2 + \sin(x) $$",
         r"With the velocity $v$ $$ \dot{x} = v $$ $$ \dot{v} = 0.001 u - 0.0025\cos(3 x) $$",
+        "- $F_E$: external force acting onto the mass\n\n" r"With the forces $F_S$ and $F_I$ $$ F_S + F_I = F_E $$",
         r"The final time is $t_f$: $$ \frac{dx}{dt} = -x + u $$ $$ x(t_f) = 1 $$",
     ],
 )  # fmt: skip
@@ -105,6 +107,22 @@ def test_a_list_measures_a_letter_by_the_head_of_what_it_is(listed, unit):
     of_it = kinds_of(read_text_whole(f"- **q**: {listed}\n\n$$ y = q $$")).of("q")
     wanted = {None: None, "Pa": (1, -1, -2), "1/s": (0, 0, -1), "N": (1, 1, -2)}[unit]
     assert (of_it and of_it[:3]) == wanted
+
+
+@pytest.mark.parametrize("text", [r"Y(e^{j \Omega}) = X(e^{j \Omega}) \cdot H(e^{j \Omega})", "h(t - c) = h^*(-t + c)"])
+def test_a_function_of_a_time_or_of_an_exponential_is_no_product(text):
+    assert _why(text) != ""
+
+
+def test_the_square_of_what_is_a_function_elsewhere_is_no_product():
+    text = r"$$ D(x) = D_i + (D_e - D_i) \frac{x}{L} $$ $$ A(x) = \frac{\pi}{4} D(x)^2 $$"
+    *_, area = read_text_whole(text).said
+    assert set(letters(area.sides[1])) == {"pi", "D"}
+
+
+def test_the_displacement_of_a_mass_is_measured_in_no_kilograms():
+    text = "The displacement of the mass over time $y(t)$, as in $y(t) = 1$ $$ F = k y $$"
+    assert kinds_of(read_text_whole(text)).of("y") is None
 
 
 def test_empty_brackets_are_of_nothing():

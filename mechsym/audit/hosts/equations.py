@@ -34,7 +34,7 @@ from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import to_latex
-from mechsym.audit.read.tree import is_operation, letters, negative, value_of
+from mechsym.audit.read.tree import function_of, is_operation, letters, negative, value_of
 from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import minus, plus
 from mechsym.audit.verdict import FINDINGS, PASSED
@@ -173,6 +173,8 @@ class Judge:
             if isinstance(said.sides[0], ast.Name):
                 printed, mended = self.world.plain(said.sides[k]), self.world.plain(right)
                 self.asking.wrong[said.sides[0].id] = (said.name, printed, mended)
+            elif isinstance(right, ast.Call) and function_of(right) == f"a{function_of(said.sides[0])}":
+                right = right.args[0]  # of tan(x) what stands on its right
             elif is_operation(right, ast.Div) and value_of(right.left) == 1:
                 right = right.right  # what stands on the right of 1/E
             return Judged(

@@ -15,7 +15,19 @@ from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.programs.claims import Claim
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.spelling import to_python
-from mechsym.audit.read.tree import Node, binary, function_of, is_operation, letters, number, substitute, value_of, walk
+from mechsym.audit.read.tree import (
+    Node,
+    argument_of,
+    binary,
+    call,
+    function_of,
+    is_operation,
+    letters,
+    number,
+    substitute,
+    value_of,
+    walk,
+)
 from mechsym.audit.read.tree import name as name_of
 from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
@@ -57,6 +69,8 @@ class Worded:
             letter, over = said.sides[0], False
             if is_operation(letter, ast.Div) and value_of(letter.left) == 1:  # 1/E = 1/E_1 + ..
                 letter, over = letter.right, True
+            angle = argument_of(letter, "sin", "cos", "tan")
+            function, letter = (f"a{function_of(letter)}", angle) if angle is not None else ("", letter)
             if not isinstance(letter, ast.Name):
                 continue
             left = letter.id
@@ -68,7 +82,8 @@ class Worded:
                     and not any(function_of(n) == "sum" for _, n in walk(side))
                 ):
                     others = {name: tree for name, tree in values.items() if name not in (left, *called)}
-                    tree = self._with_one_force(order, k, binary(ast.Div, number(1), side) if over else side)
+                    whole = call(function, side) if function else binary(ast.Div, number(1), side) if over else side
+                    tree = self._with_one_force(order, k, whole)
                     self.claims[order, k] = Claim(
                         scope="", name=left, tree=tree, line=said.shown.line, about=about, case=0, values=others,
                         abouts=called | {_SUM: "resulting force"}, ruled_out=_ruled_out(said.before, paper.prose),

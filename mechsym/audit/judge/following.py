@@ -13,6 +13,7 @@ from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.nomenclature import OPENED
+from mechsym.audit.read.refused import SIGN
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import SPEEDS
@@ -48,6 +49,9 @@ _TORQUE = re.compile(r"\btorque\b|\bmoment\b(?! of)", re.IGNORECASE)
 CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
 _ITS_SPEED = re.compile(r"\bits\s+(?:velocity|speed)\b", re.IGNORECASE)
 _SPEED, _WAYS = re.compile(r"\b(?:speeds?|velocit(?:y|ies))\b", re.IGNORECASE), "xyzsh"
+_AT_A_VALUE = re.compile(
+    rf"\b(?:At|For|With|Where)\s+\$({SIGN})\s*=\s*([^$=]+)\$\s+(?:this|that|it)\s+(?:is|becomes|gives)\s*$"
+)
 _MEAN = re.compile(r"\b(?:mean|average)\b", re.IGNORECASE)
 _BOUNDS = re.compile(r"\\int_(\{[^{}]*\}|\w|\\[a-z]+)\^(\{[^{}]*\}|\w|\\[a-z]+)")
 _ROUNDING = 1e-9  # [-]
@@ -100,7 +104,9 @@ class Expected:
 def expected(world: World, order: int) -> Iterator[Expected]:
     """What an equation may have to say by those before it: a derivative, an inertia, a torque or a frequency."""
     said = world.paper.said[order]
-    words = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))[-1]
+    between = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))
+    # the velocities are v_1 = .. and v_2 = ..
+    words = between[-2] if len(between) > 1 and between[-1].strip() == "and" else between[-1]
     if len(said.sides) == 2 and not said.claim and not CUT_SHORT.search(words):
         if (tree := mended(world, order)) is not None:
             note = "what acts on a neighbour comes back with the same coefficient"
@@ -116,6 +122,8 @@ def expected(world: World, order: int) -> Iterator[Expected]:
         if function_of(said.sides[1]) == "sqrt" and left.startswith(SPEEDS):
             yield from _natural(world, order, said)
         yield from _turned(world, said, left)
+        if at := _AT_A_VALUE.search(words):
+            yield from _at_value(world, order, said, *at.groups())
         if _MEAN.search(words) and not re.fullmatch("[aA]_?0", left):  # Fourier's a_0 is twice the mean
             yield from _averaged(said)
         if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
@@ -132,6 +140,23 @@ def _turned(world: World, said: Said, left: str) -> Iterator[Expected]:
             rate = name(rates[0])
             tree = times(rate if dots == 1 else times(rate, rate), name(slope))
             yield Expected(tree=tree, printed=printed, note=f"by the slope of {stem} at an even speed")
+
+
+def _at_value(world: World, order: int, said: Said, letter: str, value: str) -> Iterator[Expected]:
+    """The equation before it, of the same letter, where another letter has a value."""
+    place = next((k for k in range(order - 1, -1, -1) if not world.paper.said[k].inline), None)
+    source = world.paper.said[place] if place is not None else said
+    if (
+        len(source.sides) == 2
+        and source.section == said.section
+        and ast.dump(source.sides[0]) == ast.dump(said.sides[0])
+    ):
+        try:
+            at, there = (read_latex(text, whole=True)[0] for text in (letter, value))
+        except BadInput:
+            return
+        tree = substitute(source.sides[1], lambda n: there if ast.dump(n) == ast.dump(at) else None)
+        yield Expected(tree=world.plain(tree), printed=world.plain(said.sides[1]), note=f"by ({source.name}) there")
 
 
 def _averaged(said: Said) -> Iterator[Expected]:

@@ -40,7 +40,8 @@ def spelled(world: World, said: Said) -> dict[str, str]:
     everywhere = {k: v for one in world.paper.said for k, v in one.spelled.items()}
     named = {slope_of(k, world.angle): v for k, v in everywhere.items() if PRIMED.fullmatch(k)}
     written = everywhere | named | dict(said.spelled)
-    return written | {rate: written[k] for k, rate in world.aliases.items() if k in said.spelled}
+    known = {k: rate for k, rate in world.aliases.items() if k in written}
+    return written | {rate: written[k] for k, rate in known.items() if k in said.spelled or rate not in written}
 
 
 def is_still(world: World, letter: str) -> bool:

@@ -203,6 +203,8 @@ _SAME = (
     (("crank", "throw"), ("crank", "radius")),
     (("oscillating",), ("reciprocating",)),
     (("irregularity",), ("fluctuation",)),
+    (("non", "uniformity"), ("fluctuation",)),
+    (("unevenness",), ("fluctuation",)),
     (("isentropic",), ("adiabatic",)),
     (("rotational", "speed"), ("angular", "speed")),
 )

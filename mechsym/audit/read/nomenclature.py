@@ -36,7 +36,10 @@ _UNIT_BEHIND = re.compile(
     r"\b([a-z][a-z\s-]{2,60}?)\s+\$([^$\n=]{1,40})\$(?:\s+of\s+(?:the\s+)?[a-z ]{3,40})?\s*\(([^()\n]{1,20})\)"
 )
 # $D$ bore (m), $S$ stroke (m): one behind the other in a sentence
-_RUN_IN = re.compile(r"\$([^$\n]{1,40})\$\s+([a-z][A-Za-z\s-]{2,60}?)(?:\s*\(([^()\n]{1,20})\))?(?=\s*[,.;])")
+_RUN_IN = re.compile(
+    r"[$`]([^$`\n]{1,40})[$`]\s+([a-z][A-Za-z\s-]{2,60}?)(?:\s*[(\[]([^()\[\]\n]{1,20})[)\]](?=\s*(?:[,.;]|$))|(?=\s*[,.;]))",
+    re.MULTILINE,
+)
 _FEWEST = 4  # letters of such a list
 _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
@@ -81,6 +84,8 @@ _LOADED = re.compile(
     rf"\b(?:the|its)\s+({_SHORT})\s+(?:(?:is|are)\s+(?:loaded|pressed)\s+(?:by|with)|carries|bears|transmits)$",
     re.IGNORECASE,
 )
+_SWINGS = re.compile(r"\b(?:swings?|vibrates?|oscillates?)\b[^.;]*\bwith$")
+_BORNE = re.compile(r"^and\s+the\s+([a-z]+(?:\s[a-z]+)?)\s+the\s+force$")  # the guide carries .., and the rod the force
 # the energy of the flywheel at the mean speed
 _AT_LAST = re.compile(r"(\bof\s+(?:the|an?|its)\s+[a-z-]+)\s+(?:at|with|for|under)\s+(?:the|an?)\s+[a-z -]+$")
 _MOVES = re.compile(r"\s(?:runs|lies|moves|turns|rotates|swings|acts|works|flows|stands)$")  # the engine runs with
@@ -90,7 +95,7 @@ _LAST = 6  # words in front of an equation
 # names with an `of` of their own
 _FUSED = re.compile(
     r"\b(moments?|modulus|coefficient|radius|degree|speed|velocity) of "
-    r"(inertia|elasticity|friction|gyration|irregularity|fluctuation|sound|rotation)\b"
+    r"(inertia|elasticity|friction|gyration|irregularity|non-uniformity|unevenness|fluctuation|sound|rotation)\b"
 )
 _VERB = re.compile(
     r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns(?!\s+(?:per|a)\b)|makes?|becomes?|means|reads?|that|which)\b"
@@ -123,7 +128,7 @@ _MEASURED = re.compile(  # a spring of stiffness $k$
     r"((?:[a-z]+ )?stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|"
     r"volume|exponent)$"
 )
-_BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|and|with|by|has|is)\s+", re.IGNORECASE)
+_BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|whose|and|with|by|has|is)\s+", re.IGNORECASE)
 # what goes on to a display, as `the volume of both is`
 _AHEAD_OF = re.compile(
     r"(?:\s+(?:of|in|for|with|at|on|between)\b[^.;:$]{0,60}?)?(?:\s+(?:is|are|becomes))?\s*(?:\$\$|\\\[|\\begin)"
@@ -172,7 +177,7 @@ def nomenclature(text: str) -> dict[str, Named]:
     phrases += [
         (m[3], whole if (whole := f"{m[1]} {m[2]}") in KINDS else m[2], m.start())
         for m in _AHEAD.finditer(text)
-        if not OTHERS.fullmatch(m[1]) and not _is_moment(text, m)
+        if not OTHERS.fullmatch(m[1]) and m[1] != "over" and not _is_moment(text, m)
     ]
     for symbol, meaning, start in phrases:
         one = spelled(symbol.partition("=")[0])
@@ -239,7 +244,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     sentence = re.sub(r"(?:^|\s*,\s+)that is\s*,\s+", " ", sentence)
     bare = _CLOSING.sub("", sentence)
-    bare = re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare)  # the radial force, at a pressure angle
+    bare = _CLOSING.sub("", re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare))  # the force, at an angle
     if _GIVEN_WITH.search(spoken):
         bare = re.sub(r"\s+(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*$", "", bare)
     bare = _AT_LAST.sub(r"\1", _FUSED.sub(r"\1-of-\2", bare))
@@ -288,7 +293,11 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         or (last if ends or not verb else None)
     )
     letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
-    if loaded := _LOADED.search(bare):
+    if _SWINGS.search(bare):
+        return "natural frequency", tail
+    if borne := _BORNE.search(bare):
+        return f"force on the {borne[1]}", tail
+    if (loaded := _LOADED.search(bare)) and " and " not in loaded[1]:
         return f"force on the {loaded[1]}", tail
     if acts := _ACTS.search(bare):
         return f"{' '.join(acts[1].split()[-2:])} force", tail
@@ -338,6 +347,10 @@ def _cells(row: str) -> Iterator[tuple[str, str, str]]:
         symbol = group[0]
         if len(group) == 3 and unit_of(group[1]) and re.search(r"[A-Za-z]{3}", group[2]):  # symbol, unit, meaning
             group = [symbol, group[2], group[1]]
+        elif (
+            re.fullmatch(r"\$[^$]+\$", group[1] if len(group) > 1 else "") and "$" not in symbol
+        ):  # meaning, symbol, unit
+            symbol, group = group[1], [group[1], symbol, *group[2:]]
         wordy = len(group) > 1 and re.search(r"[A-Za-z]{3}", group[1]) and not _FORMULA.search(group[1])
         if (
             symbol

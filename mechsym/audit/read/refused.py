@@ -47,6 +47,14 @@ _REASONS = (
         rf"{_OPEN}\s*0\s*{_CLOSE}",
         "it has a value at 0, as x(0), which is no product",
     ),
+    (
+        rf"(?<![A-Za-z\\])[A-Za-z](?:_\w|_\{{[^{{}}]*\}})?{_OPEN}\s*e\s*\^\s*\{{[^{{}}]*\}}\s*{_CLOSE}",
+        "it has a function of an exponential, as X(e^..), which is no product",
+    ),
+    (
+        rf"^\s*{SIGN}{_OPEN}\s*-?\s*t\s*[+-]\s*{SIGN}\s*{_CLOSE}\s*=",
+        "it has a value at another time, as h(t - c), which is no product",
+    ),
     (rf"{SIGN}{_OPEN}\s*t\s*[+-]\s*\d\s*{_CLOSE}", "it has a value at another step, as x(t+1), which is no product"),
     (r"[A-Za-z)}]\s*\^\s*(?:\{\s*[01]\s*\}|[01](?![\d./]))", "raised 0 and 1 are indices, no powers"),
 )

@@ -20,7 +20,7 @@ from mechsym.audit.read.nomenclature import OPENED, Named, called, listed, nomen
 from mechsym.audit.read.refused import NO_LETTERS, SIGN, matrices_of, refused
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
-from mechsym.audit.read.tree import Node, check, number
+from mechsym.audit.read.tree import Node, argument_of, check, number
 from mechsym.audit.read.tree import name as name_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -178,6 +178,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         before = text[max(0, words_end - 240) : words_end]
         one = _read(equation, spelling, section, before, inline)
         left = one.sides[0] if one.sides and not inline else None
+        left = left and (argument_of(left, "sin", "cos", "tan") or left)
         if isinstance(left, ast.Name):
             phrase, last = spoken.of(opens, before)
             one = replace(one, about=last)
@@ -204,7 +205,7 @@ def _inline(text: str) -> Iterator[Displayed]:
     breaks = [m.start() for m in re.finditer("\n", text)]
     alone = {m.start(1) for m in _ALONE.finditer(text)}
     for match in islice(_INLINE.finditer(text), MOST):
-        inside, data = match[1], re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|$)|\\text|\\mathrm", match[1])
+        inside, data = match[1], re.search(r"=\s*-?\d[\d.,]*\s*(?:\\|\^|$)|\\text|\\mathrm", match[1])
         if not inside.count("=") or match.start() in alone or data:
             continue
         *firsts, last = (part.strip() for part in inside.split("="))
@@ -245,7 +246,7 @@ def _plain(symbol: str, words: Sequence[str], twofold: Sequence[str]) -> str:
 
 def _prepared(text: str, spelling: _Spelling) -> str:
     if spelling.applied is not None:
-        text = spelling.applied.sub(lambda m: m[0] if m["of"].lstrip("\\") in NO_LETTERS else m["of"], text)
+        text = spelling.applied.sub(_letter_alone, text)
     text = calligraphic(text) if not _NO_PRODUCT.search(text) else text
     text = "".join(rf"\{_COMMANDS[c]} " if c in _COMMANDS else c for c in text)
     for pattern, instead in _TIDY:
@@ -267,6 +268,11 @@ def _prepared(text: str, spelling: _Spelling) -> str:
     return unapplied(text, _APPLIED)
 
 
+def _letter_alone(match: re.Match[str]) -> str:
+    letter = match["own"] or match["of"]
+    return match[0] if letter.lstrip("\\") in NO_LETTERS else letter
+
+
 _TWOFOLD = ("theta", "phi", "rho", "epsilon")
 _VARIANT = re.compile(r"\\V(ar[a-z]+)")
 _ALONE_DELTA = re.compile(r"\\delta\s*[=$,)}^]")
@@ -274,18 +280,25 @@ _COMMANDS = {sign: "lambda" if name == "lam" else name for name, sign in SYMBOLS
 
 
 def _applied(shown: Sequence[Displayed]) -> re.Pattern[str] | None:
-    r"""A letter with arguments that some equation defines a letter with: t(R) beside t_p(R) = .. is no product."""
-    arguments = set()
+    r"""A letter with arguments that some equation defines a letter with: t(R) beside t_p(R) = .. is no product.
+
+    Nor is D(x)^2 beside D(x) = ..; of another letter it may be.
+    """
+    own, arguments = set(), set()
     for one in shown:
         left = re.sub(r"\\(?:left|right)\b|\\[,;:! ]", " ", one.text.partition("=")[0])
         match = _DEFINED.fullmatch(" ".join(left.split()))
         if match is not None and match[1].lstrip("\\") not in NO_LETTERS:
+            own.add(match[1])
             arguments |= {part.strip() for part in match[2].split(",")}
     if not arguments:
         return None
-    any_of = "|".join(re.escape(k) for k in sorted(arguments, key=len, reverse=True))
+    letters_own, any_of = (
+        "|".join(re.escape(k) for k in sorted(k, key=lambda k: (-len(k), k))) for k in (own, arguments)
+    )
     within = rf"\s*(?:{any_of})(?:\s*,\s*(?:{any_of}))*\s*"
-    return re.compile(rf"(?P<of>{SIGN})\s*(?:\\left)?\({within}(?:\\right)?\)(?!\s*\^)")
+    letter = rf"(?:(?<![A-Za-z\\])(?P<own>{letters_own})|(?P<of>{SIGN}))"
+    return re.compile(rf"{letter}\s*(?:\\left)?\({within}(?:\\right)?\)(?(own)|(?!\s*\^))")
 
 
 def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inline: bool) -> Said:

@@ -43,9 +43,13 @@ OTHERS = re.compile(
 )
 
 #: Words between what something is and what it is of
-PREPOSITIONS = tuple("of at in by for on along from due to with under over between about".split())
+PREPOSITIONS = tuple("of at in by for on along from due to with under over between about onto into upon".split())
 _PREPOSITION = re.compile(rf"\b(?:{'|'.join(PREPOSITIONS)}|and|or)\b|[,;($/]")
-_RATIO = re.compile(r"\b(?:coefficient|ratio|share|fraction|percentage)s? of\b", re.IGNORECASE)
+_DONE = re.compile(r"\s+(?:acting|exerted|applied|added|transmitted|delivered|absorbed|required|needed|lost)\s*$")
+_RATIO = re.compile(
+    r"\b(?:coefficient|ratio|share|fraction|percentage|displacement|position|deflection|motion|coordinate)s? of\b",
+    re.IGNORECASE,
+)
 
 
 def unit_of(text: str) -> str | None:
@@ -91,8 +95,8 @@ def of_turns(meaning: str) -> str:
 
 
 def head_of(meaning: str) -> str:
-    """What something is, without what it is of: the pressure of the pressure at the end."""
-    return _PREPOSITION.split(meaning.lower())[0]
+    """What something is, without what it is of or does: the force of the force acting on the mass."""
+    return _DONE.sub("", _PREPOSITION.split(meaning.lower())[0])
 
 
 def defined_unit(letter: str, meaning: str, indexed: bool = False) -> str:
