@@ -221,10 +221,12 @@ def _met(fitted: Fitted, form: Formula, states: Probes, si: bool) -> Iterator[tu
                 yield away, quantity
 
 
-def _unlikely(near: Near, beside: Sequence[Near]) -> tuple[bool, bool, int, float]:
-    # what is called so, stands beside others that agree, and needs nothing to be none comes first
-    rest = at_rest(near.fitted.theory, near.form)
-    return not near.fitted.quantities, not beside, len(rest), near.away
+def _unlikely(near: Near, beside: Sequence[Near]) -> tuple[bool, bool, int, bool, float]:
+    # what is called so, stands beside others that agree, needs nothing to be none, and has the same letters comes first
+    rest, other = at_rest(near.fitted.theory, near.form), True
+    if near.quantity:
+        other = not of_same_letters(near.fitted.theory, near.form, near.quantity)
+    return not near.fitted.quantities, not beside, len(rest), other, near.away
 
 
 def _is_told(near: Near, beside: Sequence[Near]) -> bool:

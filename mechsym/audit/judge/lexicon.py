@@ -126,7 +126,10 @@ class Lexicon:
                 counts.pop(meaning, None)
         if slope := self._slope(name.rpartition(OF)[2]):
             counts[slope] = 3
-        return sorted(((r, m) for m, r in counts.items()), reverse=True)
+        free = self.theory.letters  # a mass is the letter m before it is what follows from a density
+        return sorted(
+            ((r, m) for m, r in counts.items()), key=lambda told: (told[0], told[1] in free, told[1]), reverse=True
+        )
 
     def _is_measured_otherwise(self, meaning: str, unit: str) -> bool:
         # n_1 of revolutions per minute is no number of teeth

@@ -1,7 +1,7 @@
 r"""What a text calls its letters and its equations: tables, lists, and the words in front of them and behind."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.units import KINDS, OTHERS, unit_of
@@ -28,8 +28,9 @@ _BOLD = re.compile(
     r"^\s*[-*+]\s*(?:\*\*|[`$])([^*`$\n]{1,24}?)(?:\*\*|[`$])\s*[=:–—-]\s*"
     r"([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*$"
 )
-_ITEM = re.compile(  # of a list of descriptions
-    r"^\s*\\item\s*\[([^\[\]\n]{1,24})\]\s*([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*[.,;]?\s*$"
+_ITEM = re.compile(  # of a list of descriptions, or of points
+    r"^\s*\\item\s*(?:\[([^\[\]\n]{1,24})\]|\$([^$\n]{1,24})\$\s*[:=,–—-])\s*([A-Za-z][^()\[\]\n]{2,60}?)"
+    r"\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*[.,;]?\s*$"
 )
 # crank radius $r$ (m), crank angle $\varphi$ of the first crank (rad)
 _UNIT_BEHIND = re.compile(
@@ -84,6 +85,7 @@ _LOADED = re.compile(
     rf"\b(?:the|its)\s+({_SHORT})\s+(?:(?:is|are)\s+(?:loaded|pressed)\s+(?:by|with)|carries|bears|transmits)$",
     re.IGNORECASE,
 )
+_STRAINED = re.compile(r"\b(bent|twisted)\s+(?:by|with)\s+the\s+(?:shear\s+)?stress$")
 _SWINGS = re.compile(r"\b(?:swings?|vibrates?|oscillates?)\b[^.;]*\bwith$")
 _BORNE = re.compile(r"^and\s+the\s+([a-z]+(?:\s[a-z]+)?)\s+the\s+force$")  # the guide carries .., and the rod the force
 # the energy of the flywheel at the mean speed
@@ -146,7 +148,7 @@ def nomenclature(text: str) -> dict[str, Named]:
         line, phrase = text.count("\n", 0, match.start()) + 1, " ".join(_BEGINS.split(match[1])[-1].split())
         names.setdefault(spelled(match[2]), Named(meaning=phrase, unit=unit_of(match[3]) or "", line=line))
     run = [m for m in _RUN_IN.finditer(text) if not m[3] or unit_of(m[3])]
-    run = run if sum(bool(m[3]) for m in run) >= _FEWEST else []
+    run = run if sum(bool(m[3]) for m in run) >= _FEWEST else _in_a_row(run, text)
     for match in run:
         line = text.count("\n", 0, match.start()) + 1
         unit = (unit_of(match[3]) if match[3] else "") or ""
@@ -156,11 +158,8 @@ def nomenclature(text: str) -> dict[str, Named]:
             continue
         listed = [*_cells(row), *((m[1], m[2], m[3]) for m in _LISTED.finditer(row))]
         listed += [(m[2], m[1], m[3]) for m in _BACKWARDS.finditer(row)]
-        listed += [
-            (m[1], m[2], m[3] if m[3] and unit_of(m[3]) else "")
-            for pattern in (_BOLD, _ITEM)
-            for m in pattern.finditer(row)
-        ]
+        listed += [(m[1], m[2], m[3] if m[3] and unit_of(m[3]) else "") for m in _BOLD.finditer(row)]
+        listed += [(m[1] or m[2], m[3], m[4] if m[4] and unit_of(m[4]) else "") for m in _ITEM.finditer(row)]
         for symbol, meaning, unit in listed:
             known = unit_of(unit) if unit else None
             for one in re.split(r",\s*(?![^{]*\})", symbol.strip("$ ")):
@@ -184,6 +183,15 @@ def nomenclature(text: str) -> dict[str, Named]:
         if one and one not in names:
             names[one] = Named(meaning=" ".join(meaning.split()), unit="", line=text.count("\n", 0, start) + 1)
     return names
+
+
+def _in_a_row(run: Sequence[re.Match[str]], text: str) -> list[re.Match[str]]:
+    # $r$ radius of the crank, $l$ length of the rod, .. one behind the other
+    rows: list[list[re.Match[str]]] = [[]]
+    for match in (m for m in run if not _BEGINS.match(m[2])):  # what has an article is read where it is said
+        behind = rows[-1] and re.fullmatch(r"\s*[,;]\s*", text[rows[-1][-1].end() : match.start()])
+        rows[-1].append(match) if behind else rows.append([match])
+    return [match for row in rows if len(row) >= _FEWEST for match in row]
 
 
 def _is_moment(text: str, match: re.Match[str]) -> bool:
@@ -244,7 +252,9 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     sentence = re.sub(r"(?:^|\s*,\s+)that is\s*,\s+", " ", sentence)
     bare = _CLOSING.sub("", sentence)
-    bare = _CLOSING.sub("", re.sub(r"\s*,\s+(?:at|with|for|in|by)\s+[^,]*$", "", bare))  # the force, at an angle
+    bare = _CLOSING.sub(
+        "", re.sub(r"\s*,\s+(?:at|with|without|for|in|by)\s+[^,]*$", "", bare)
+    )  # the force, at an angle
     if _GIVEN_WITH.search(spoken):
         bare = re.sub(r"\s+(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*$", "", bare)
     bare = _AT_LAST.sub(r"\1", _FUSED.sub(r"\1-of-\2", bare))
@@ -293,6 +303,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         or (last if ends or not verb else None)
     )
     letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
+    if strained := _STRAINED.search(bare):
+        return {"bent": "bending stress", "twisted": "torsional stress"}[strained[1]], tail
     if _SWINGS.search(bare):
         return "natural frequency", tail
     if borne := _BORNE.search(bare):
