@@ -185,8 +185,8 @@ def _motion(case: Case, result: Result, run: RunNumbers) -> tuple[Doubt, ...]:
         start = getattr(wanted, "speed_start", None) or first.get(f"{shaft}d")
         if start and start > 0 and mean >= 0 and work.get("drive", 0.0) > 0:
             last = result.columns[f"{shaft}d"][-max(1, len(result.t) // _LAST) :]
-            what = "highest speed in the last results of the run / speed at its start"
-            doubts += proportion("stall", what, float(np.max(last)) / start)
+            what = "mean speed of the last results of the run / speed at its start"
+            doubts += proportion("stall", what, float(np.mean(last)) / start) if np.isfinite(last).all() else ()
     return doubts + (proportion("drive_work", "work of [drive] in the run", work["drive"]) if "drive" in work else ())
 
 

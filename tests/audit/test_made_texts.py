@@ -15,8 +15,9 @@ from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.macros import expanded
 from mechsym.audit.read.mathml import formula as formula_of_page
 from mechsym.audit.read.matrices import entrywise
-from mechsym.audit.read.nomenclature import called, listed, nomenclature, subject
+from mechsym.audit.read.nomenclature import called, nomenclature
 from mechsym.audit.read.said import read_text_whole
+from mechsym.audit.read.subject import listed, subject
 from mechsym.errors import BadInput
 
 TEXTS = Path(__file__).parent / "texts"

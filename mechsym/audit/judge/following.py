@@ -12,11 +12,11 @@ from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.latex import read_latex
-from mechsym.audit.read.nomenclature import OPENED
 from mechsym.audit.read.refused import SIGN
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import SPEEDS
+from mechsym.audit.read.subject import OPENED
 from mechsym.audit.read.tree import (
     Node,
     argument_of,
@@ -145,18 +145,17 @@ def _turned(world: World, said: Said, left: str) -> Iterator[Expected]:
 def _at_value(world: World, order: int, said: Said, letter: str, value: str) -> Iterator[Expected]:
     """The equation before it, of the same letter, where another letter has a value."""
     place = next((k for k in range(order - 1, -1, -1) if not world.paper.said[k].inline), None)
-    source = world.paper.said[place] if place is not None else said
-    if (
-        len(source.sides) == 2
-        and source.section == said.section
-        and ast.dump(source.sides[0]) == ast.dump(said.sides[0])
-    ):
-        try:
-            at, there = (read_latex(text, whole=True)[0] for text in (letter, value))
-        except BadInput:
-            return
-        tree = substitute(source.sides[1], lambda n: there if ast.dump(n) == ast.dump(at) else None)
-        yield Expected(tree=world.plain(tree), printed=world.plain(said.sides[1]), note=f"by ({source.name}) there")
+    source = None if place is None else world.paper.said[place]
+    if source is None or len(source.sides) != 2 or source.section != said.section:
+        return
+    if ast.dump(source.sides[0]) != ast.dump(said.sides[0]):
+        return
+    try:
+        at, there = (read_latex(text, whole=True)[0] for text in (letter, value))
+    except BadInput:
+        return
+    tree = substitute(source.sides[1], lambda n: there if ast.dump(n) == ast.dump(at) else None)
+    yield Expected(tree=world.plain(tree), printed=world.plain(said.sides[1]), note=f"by ({source.name}) there")
 
 
 def _averaged(said: Said) -> Iterator[Expected]:
@@ -174,7 +173,7 @@ def _averaged(said: Said) -> Iterator[Expected]:
     if {*letters(printed)} - {"pi"} == {*letters(tree)} - {"pi"}:
         values = {"pi": math.pi} | {n: 1.3 + 0.4 * k for k, n in enumerate(letters(tree)) if n != "pi"}
         one, other = (float(evaluate(part, values, FLOATS)) for part in (printed, tree))
-        if one / other > 1 - _ROUNDING:
+        if other and one / other > 1 - _ROUNDING:
             yield Expected(tree=tree, printed=printed, note="a mean is the integral by the length that it goes over")
 
 

@@ -287,13 +287,11 @@ class World:
 
     def theory(self, order: int, believed: Mapping[str, Node] | None = None) -> Theory:
         """The definitions that hold at an equation; `believed`: what letters are taken to be instead."""
-        latest: dict[str, int] = {}
-        here = self.paper.said[order].section
+        latest, here = dict[str, int](), self.paper.said[order].section
         for index, one in enumerate(self.defined):
-            source = self.paper.said[one.order] if one.order >= 0 else None
-            given = source is None or source.section == here and not _equates(source)
-            behind = one.letter not in latest and given
-            if one.order <= order or behind:
+            source = self.paper.said[one.order]
+            holds = one.order < 0 or source.section == here and not source.equates
+            if one.order <= order or holds and one.letter not in latest:
                 latest[one.letter] = index
         key = tuple(sorted(latest.values()))
         if believed is None and key in self.theories:
@@ -400,8 +398,3 @@ def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:
 
     for letter in tape:
         yield from put(letter, frozenset())
-
-
-def _equates(said: Said) -> bool:
-    # of m_1 = m_2 = m within a sentence nothing in front of it follows
-    return said.inline and all(isinstance(side, ast.Name) for side in said.sides)

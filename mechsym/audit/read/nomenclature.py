@@ -62,55 +62,7 @@ _CALLED = re.compile(
     r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)(?!\s+per\b)",
     re.IGNORECASE | re.MULTILINE,
 )
-_SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
-_PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
-_FOR = re.compile(r"^(?:For|With|In|At|From|By)\b.*\bthe\s+")  # for the unevenness the speeds
-# the torque is with the volume $V$ of both: a letter stands behind the last of what it is with
-_GIVEN_WITH = re.compile(r"\s(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*\$[^$]+\$(?:\s+of\s+[a-z ]+)?\s*$")
-# the gas presses with a force
-_ACTS = re.compile(
-    rf"\b(?:the|its|an?)\s+({_SHORT}?)(?:\s+pressure)?(?:\s+(?:of|at|on|in|above)\b[^.]*?)?"
-    r"\s+(?:presses|pushes|pulls|acts|resists)(?:\s+[a-z]+){0,3}?\s+with$",
-    re.IGNORECASE,
-)
-# verbs between the name of what an equation gives and the equation
-_CLOSING = re.compile(
-    r"\s+(?:(?:may|can|must|is|are) (?:then |also |now )?(?:be )?"
-    r"(?:taken|written|given|expressed|obtained|found|approximated|computed|calculated)(?: as| by| to be| from)?"
-    r"|(?:is|are|becomes) (?:therefore|then|thus|hence|simply|now|accordingly)"
-    r"|is|are|be|becomes|reads|remains|equals|follows(?: as| from)?|amounts to|comes to|results(?: as)?|reduces to)$"
-)
-# the guide is loaded by, the pin carries
-_LOADED = re.compile(
-    rf"\b(?:the|its)\s+({_SHORT})\s+(?:(?:is|are)\s+(?:loaded|pressed)\s+(?:by|with)|carries|bears|transmits)$",
-    re.IGNORECASE,
-)
-_STRAINED = re.compile(r"\b(bent|twisted)\s+(?:by|with)\s+the\s+(?:shear\s+)?stress$")
-_SWINGS = re.compile(r"\b(?:swings?|vibrates?|oscillates?)\b[^.;]*\bwith$")
-_BORNE = re.compile(r"^and\s+the\s+([a-z]+(?:\s[a-z]+)?)\s+the\s+force$")  # the guide carries .., and the rod the force
-# the energy of the flywheel at the mean speed
-_AT_LAST = re.compile(r"(\bof\s+(?:the|an?|its)\s+[a-z-]+)\s+(?:at|with|for|under)\s+(?:the|an?)\s+[a-z -]+$")
-_MOVES = re.compile(r"\s(?:runs|lies|moves|turns|rotates|swings|acts|works|flows|stands)$")  # the engine runs with
-_BESIDE = re.compile(r"\s(?:with|at|for|in|by|from|to|between|under)\s")  # what a quantity is of ends there
-_AT_DEAD_CENTRE = re.compile(r"\bat (?:the )?(top|bottom) dead cent(?:re|er)\b", re.IGNORECASE)
-_LAST = 6  # words in front of an equation
-# names with an `of` of their own
-_FUSED = re.compile(
-    r"\b(moments?|modulus|coefficient|radius|degree|speed|velocity) of "
-    r"(inertia|elasticity|friction|gyration|irregularity|non-uniformity|unevenness|fluctuation|sound|rotation)\b"
-)
-_VERB = re.compile(
-    r"\b(?:is|are|was|were|can|may|must|will|has|have|gives?|follows?|yields?|stores?|carries|carry|turns(?!\s+(?:per|a)\b)|makes?|becomes?|means|reads?|that|which)\b"
-)
-# a shaft of the diameter $d$ has: the diameter is said of its own letter
-_LETTER_LAST = re.compile(r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I)
 _OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?((?:all\s+)?[a-z]+(?:\s+of\s+[a-z]+)?)")
-_PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
-#: Where a display begins, at the end of what stands in front of it
-OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
-# what is no word of a sentence; where it began itself
-_UNWORDED = re.compile(r"\$[^$]*\$|\\[A-Za-z]+\*?(?:\[[^\]]*\])?(?:\{[^{}]*\})?|\\.|[{}~]")
-_SENTENCE = re.compile(r"\\end\{[a-z*]+\}|\$\$|\\\]|[.:;!?](?=\s)|\n\s*\n")
 _COUNTED = re.compile(
     r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
     r"(?:in\s+)?((?:revolutions|turns(?!\s+(?:by|about|with|at|on|round|through))|strokes|cycles|cylinders|teeth)"
@@ -118,13 +70,13 @@ _COUNTED = re.compile(
 )
 _DAMPER = re.compile(r"\bdamper\b[^.]*$")
 _STRESSED = re.compile(r"(?<!\w)\*{1,2}([A-Za-z][A-Za-z -]*[A-Za-z])\*{1,2}(?!\w)")
-_RATIO_OF_TWO = re.compile(r"\bratio (?:of|between) .* (?:and|to)\b")
 _IN_TURNS = re.compile(r"\s+in\s+(?:revolutions|turns)\s+(?:per|a)\s+minute\b")
 _PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
 _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
 _AT_FIRST = re.compile(r"(?:In|For|At|Under|During|On|From|By|With)\s")
-_ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
+#: A word at the end of a phrase that belongs to what comes behind it
+ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
 _MEASURED = re.compile(  # a spring of stiffness $k$
     r"^((?!moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
     r"((?:[a-z]+ )?stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|"
@@ -225,7 +177,7 @@ def called(text: str) -> dict[str, str]:
     for match in _CALLED.finditer(text):
         if match[1].endswith(" and") or _AT_FIRST.match(match[1]):
             continue  # the force and $m$ the mass; in steady running $M_e = M_p$
-        words = _ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
+        words = ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
         if words.startswith("that of"):  # the reciprocating mass is that of the piston
             kinds = re.findall(_KINDS, text[max(0, match.start() - 60) : match.end(1)].rpartition("that of")[0])
             words = words.replace("that", kinds[-1], 1) if kinds else words
@@ -241,112 +193,6 @@ def called(text: str) -> dict[str, str]:
         if phrase:
             names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase.replace(" of the ", " of ")))
     return names
-
-
-def subject(before: str, alone: bool) -> tuple[str, str]:
-    """What the sentence in front of an equation says that it gives, and of what, or its last words.
-
-    before: the text up to the equation. alone: whether it gives one thing.
-    """
-    words, spoken, sentence = _sentence(before)
-    sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
-    sentence = re.sub(r"(?:^|\s*,\s+)that is\s*,\s+", " ", sentence)
-    bare = _CLOSING.sub("", sentence)
-    bare = _CLOSING.sub(
-        "", re.sub(r"\s*,\s+(?:at|with|without|for|in|by)\s+[^,]*$", "", bare)
-    )  # the force, at an angle
-    if _GIVEN_WITH.search(spoken):
-        bare = re.sub(r"\s+(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*$", "", bare)
-    bare = _AT_LAST.sub(r"\1", _FUSED.sub(r"\1-of-\2", bare))
-    tail = " ".join(bare.split()[-_LAST:]).replace("-of-", " of ")
-    tail = _FOR.sub("", tail)
-    if not alone:
-        return "", tail
-    ends = bare != sentence  # with a verb: the torque of the gas is
-    first = re.match(
-        rf"(?:The|Its|A|and the|and its|[A-Z][a-z]+'s)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|by|along)\b", bare
-    )
-    if first and _MOVES.search(first[1]):
-        first = None
-    consists = re.match(
-        rf"(?:The|Its)\s+({_SHORT})\s+(?:is\s+(?:that|the\s+(?:sum|product|difference))|consists|comprises|contains)\b",
-        bare,
-    )
-    beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if ends else None
-    headed = re.search(
-        rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|at|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
-    )
-    # The heat that leaves is, and the angle that was turned by then
-    relative = re.match(rf"(?:{'The|An?|' * ends}and the)\s+({_SHORT})\s+(?:that|which)\b", bare)
-    last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
-    behind = re.search(
-        rf"\b(?:has|gives?|yields?|makes?|takes?|stores?|causes?|produces?|exerts?|needs?|requires?)\s+(?:the|an?)\s+({_SHORT})(?:\s+of\s+(?:the|an?)\s+{_PLAIN})?$",
-        bare,
-    )
-    moves = re.search(rf"\b(?:the|its)\s+({_SHORT})\s+(?:rises|falls|drops|grows)\b", bare, re.IGNORECASE)
-    # fires with the frequency
-    onto = (
-        None
-        if ends or _LETTER_LAST.search(spoken)
-        else re.search(rf".*\b(?:with|by|to|at) (?:the [^,]* and )?the ({_SHORT}(?: of {_PLAIN})?)$", bare)
-    )
-    verb = _VERB.search(bare)
-    chosen = (
-        behind
-        or relative
-        or consists
-        or moves
-        or onto
-        or (first if not verb else None)
-        or beside
-        or (headed if ends else None)
-        or (last if ends or not verb else None)
-    )
-    letters_own = chosen is not None and chosen in (last, behind) and _LETTER_LAST.search(spoken)
-    if strained := _STRAINED.search(bare):
-        return {"bent": "bending stress", "twisted": "torsional stress"}[strained[1]], tail
-    if _SWINGS.search(bare):
-        return "natural frequency", tail
-    if borne := _BORNE.search(bare):
-        return f"force on the {borne[1]}", tail
-    if (loaded := _LOADED.search(bare)) and " and " not in loaded[1]:
-        return f"force on the {loaded[1]}", tail
-    if acts := _ACTS.search(bare):
-        return f"{' '.join(acts[1].split()[-2:])} force", tail
-    if chosen is None or letters_own or _PER.search(bare) or chosen[1] == "ratio" or _RATIO_OF_TWO.search(bare):
-        return "", tail
-    phrase = _ENDS.sub("", chosen[1]).replace("-of-", " of ")
-    if place := _AT_DEAD_CENTRE.search(bare):
-        return f"{phrase} at {place[1].lower()} dead centre", tail
-    if phrase.endswith(" one"):  # the tangential force, and the radial one
-        kinds = [word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in KINDS]
-        phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
-    whole = _BESIDE.split(re.sub(r"^(?:the|its|an?|and the|and its)\s+", "", bare, flags=re.IGNORECASE))[0]
-    whole = whole.replace("-of-", " of ")
-    return phrase, whole if chosen is first and whole.startswith(phrase) else phrase or tail
-
-
-def _sentence(before: str) -> tuple[str, str, str]:
-    # what stands in front of an equation, its last sentence as it is printed, and its words alone
-    whole = OPENED.sub("", before).rstrip(" \n:;.,")
-    spoken = _SENTENCE.split(whole)[-1]
-    return whole, spoken, " ".join(_UNWORDED.sub(" ", spoken).split())
-
-
-def listed(before: str, count: int) -> list[str]:
-    """What a sentence says that several equations give, one name for each: `The side force and the torque are`."""
-    *_, sentence = _sentence(before)
-    bare = re.sub(r"\s+are$", "", sentence)
-    shared = re.fullmatch(r"(?:the |whose |its )?([a-z]+) and (?:the )?([a-z]+) ([a-z]+)s\b.*", bare, re.IGNORECASE)
-    if shared is not None and count == 2:  # the tangential and radial forces
-        return [f"{shared[1]} {shared[3]}", f"{shared[2]} {shared[3]}"]
-    parts = re.split(r"\s*,\s*(?:and\s+)?|\s+and\s+", bare)
-    if bare == sentence or len(parts) != count:
-        return []
-    heads = [
-        re.split(r"\s+(?:of|on|in|for|at)\s+", re.sub(r"^(?:the|its|an?)\s+", "", p, flags=re.I))[0] for p in parts
-    ]
-    return heads if all(re.fullmatch(_SHORT, head) for head in heads) else []
 
 
 def _cells(row: str) -> Iterator[tuple[str, str, str]]:

@@ -16,10 +16,11 @@ from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.lagrange import LagrangeEquation, calligraphic, lagrange_equation
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.macros import expanded
-from mechsym.audit.read.nomenclature import OPENED, Named, called, listed, nomenclature, subject
+from mechsym.audit.read.nomenclature import Named, called, nomenclature
 from mechsym.audit.read.refused import NO_LETTERS, SIGN, matrices_of, refused
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
+from mechsym.audit.read.subject import OPENED, listed, subject
 from mechsym.audit.read.tree import Node, argument_of, check, number
 from mechsym.audit.read.tree import name as name_of
 from mechsym.errors import BadInput
@@ -96,6 +97,11 @@ class Said:
     law: LagrangeEquation | None = None
     inline: bool = False
     spelled: Mapping[str, str] = field(default_factory=dict)  #: Plain name to the author's LaTeX
+
+    @property
+    def equates(self) -> bool:
+        """Whether it says within a sentence that two letters are one, of which nothing in front of it knows."""
+        return self.inline and all(isinstance(side, ast.Name) for side in self.sides)
 
 
 @record

@@ -207,7 +207,7 @@ def _negated(node: Node) -> Node:
 
 def _with_one_pi(node: ast.BinOp) -> Node:
     # pi*omega/(2*pi**2): what was multiplied in stands on the other side already
-    above, below = ([split_power(factor) for factor in factors(node, side)] for side in (True, False))
+    above, below = ([_split_power(factor) for factor in factors(node, side)] for side in (True, False))
     powers = [sum(power for base, power in side if _is_pi(base)) for side in (above, below)]
     if not all(powers):
         return node
@@ -233,7 +233,7 @@ def factors(node: Node, above: bool) -> Iterator[Node]:
         yield node
 
 
-def split_power(node: Node) -> tuple[Node, int]:
+def _split_power(node: Node) -> tuple[Node, int]:
     """Base and power of a factor, the power 1 where it is no whole number."""
     if is_operation(node, ast.Pow):
         power = value_of(node.right)
