@@ -18,6 +18,7 @@ class Budget:
 
 _CHOSEN: ContextVar[Budget | None] = ContextVar("budget", default=None)
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*(MB|GB)")
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _BYTES = {"MB": 1e6, "GB": 1e9}
 
 
@@ -27,7 +28,7 @@ def choose(text: str) -> None:
     for part in filter(None, (p.strip() for p in text.split(","))):
         if memory := _SIZE.fullmatch(part):
             size = float(memory[1]) * _BYTES[memory[2]]
-        elif part.replace(".", "", 1).isdecimal():
+        elif _NUMBER.fullmatch(part):
             raise BadInput(f"--budget {text!r}: {part} of what? write --budget '{part} min' or '{part} GB'")
         else:
             seconds = parse(part, "s", "--budget")

@@ -81,7 +81,7 @@ _LARGEST = {
     "m": 100.0, "kg": 1e6, "kg*m": 1e6, "kg*m^2": 1e8, "rad": 1e5, "rad/s": 1e4, "m/s": 1e4, "N": 1e9, "N*m": 1e9,
     "N/m": 1e12, "N*m/rad": 1e12, "N*s/m": 1e10, "N*m*s/rad": 1e10, "m/s^2": 1e5,
 }  # fmt: skip
-_DEGREES = "a number without a unit is in radians: are degrees meant, '90 deg'?"
+_DEGREES = "few angles are a whole number of radians, and a number without a unit is in radians: '90 deg'"
 _BY_CODE = {kind.code: kind for kind in PROPORTIONS}
 
 

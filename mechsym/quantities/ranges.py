@@ -58,9 +58,8 @@ def read_range(text: str, option: str, unit: str = "-", key: str = "") -> Range:
 
         _check_count(where, count)
         if count == 1 and numbers[0] != numbers[1]:
-            raise BadInput(
-                f"{where}: one value of a range is its first end alone; write {numbers[0]:g}, or more values"
-            )
+            first = f"{numbers[0]:g} {''.join(units)}".strip()
+            raise BadInput(f"{where}: one value of a range is its first end alone; write {first}, or more values")
         numbers = tuple(np.linspace(numbers[0], numbers[1], count).tolist())
     whole = kind == "steps" or count is not None
     return Range(kind="grid" if whole else kind, values=numbers, unit="".join(units))

@@ -71,6 +71,8 @@ def test_what_is_beside_it_is_read(formula):
         r"Take $$ \ddot{x} = -\dot{x}^2 + \sin(x) $$",
         r"With the velocity $v$ $$ \dot{x} = v $$ $$ \dot{v} = 0.001 u - 0.0025\cos(3 x) $$",
         "- $F_E$: external force acting onto the mass\n\n" r"With the forces $F_S$ and $F_I$ $$ F_S + F_I = F_E $$",
+        r"With the mean torque taken away the work is $$ W = \int_0^{2\pi} M\,d\varphi $$",
+        r"It flows in half of a turn; its mean is $$ M = \frac{1}{2\pi} \int_0^{\pi} T\,d\varphi $$",
         r"The final time is $t_f$: $$ \frac{dx}{dt} = -x + u $$ $$ x(t_f) = 1 $$",
     ],
 )  # fmt: skip

@@ -143,3 +143,9 @@ def test_of_several_poses_one_that_agrees_is_enough(monkeypatch):
     preview.require_plausible(model, trace, [0.0, 1.0, 2.0], 0.01)
     with pytest.raises(BadInput, match=r"a sample every .* turns or swings once in 0.00628"):
         preview.require_plausible(model, trace, [0.0], 5e-4)
+
+
+@pytest.mark.parametrize("number", ["10", "1.5", "1e3", "-3", "2 h, 8"])
+def test_a_budget_without_a_unit_is_refused(number):
+    with pytest.raises(BadInput, match=r"of what\? write --budget '.* min' or '.* GB'"):
+        budget.choose(number)

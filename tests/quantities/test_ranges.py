@@ -41,6 +41,7 @@ def test_values_in_si(text, unit, plain, found):
         ("1:2", "takes numbers"),
         ("1..2", "--any: 1..2 does not say how many; write 1..2:5 or a list"),
         ("1+-2", "does not say how many"),
+        ("1..2kPa:1", "one value of a range is its first end alone; write 1 kPa, or more values"),
         ("1..2:0", "0 values; allowed are 1 to 1000000"),
         ("1:1e9:1", "1000000000 values; allowed"),
         ("2:1:1", "needs a <= b and a step > 0"),

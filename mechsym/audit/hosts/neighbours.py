@@ -187,7 +187,10 @@ def _is_right_undefined(near: Near) -> bool:
         meaning = fitted.meanings.get(letter, "")
         if meaning and meaning not in meant.values():
             plain = replace(fitted, tree=fitted.claim.tree, meanings={**meant, defined[0]: meaning})
-            met = compared(formula(plain), near.states, near.quantity)
+            try:
+                met = compared(formula(plain), near.states, near.quantity)
+            except BadInput:
+                continue
             if met is not None and of_sign(met.ratio):
                 return True
     return False

@@ -131,7 +131,7 @@ def expected(world: World, order: int) -> Iterator[Expected]:
 
 
 def _turned(world: World, said: Said, left: str) -> Iterator[Expected]:
-    r"""Of what hangs on an angle that turns evenly: R^{..} = omega^2 R'', whatever R is."""
+    r"""What hangs on an angle that turns evenly: \ddot R = omega^2 R'', whatever R is."""
     for stem, dots in ((left.removesuffix("dd"), 2), (left.removesuffix("d"), 1)):
         printed, slope = world.plain(said.sides[1]), stem + "prime" * dots
         used = letters(printed)
@@ -163,7 +163,7 @@ def _averaged(said: Said) -> Iterator[Expected]:
     printed = said.sides[1]
     integrals = [n for n in letters(printed) if n.startswith("integral")]
     bounds = _BOUNDS.match(said.spelled.get(integrals[0], "")) if len(integrals) == 1 else None
-    if bounds is None:
+    if bounds is None or isinstance(printed, ast.Name):  # the integral alone is no mean
         return
     try:
         low, high = (read_latex(text.strip("{}"), whole=True)[0] for text in bounds.groups())
@@ -196,8 +196,8 @@ def _speed_of_its_way(world: World, order: int, said: Said, left: str) -> Iterat
     index = left[1:]
     before = (d for d in world.defined if d.order < order and d.letter[1:] == index and d.letter[0] in _WAYS)
     ways = [d.letter for d in before if world.turns(d.letter) and not world.paper.said[d.order].claim]
-    told = index or _ITS_SPEED.search(_DISPLAY.split(OPENED.sub("", said.before.rstrip()))[-1])
-    if told and len(set(ways)) == 1 and left[0] in "vcuw" and world.angle:
+    of_it = index or _ITS_SPEED.search(_DISPLAY.split(OPENED.sub("", said.before.rstrip()))[-1])
+    if of_it and len(set(ways)) == 1 and left[0] in "vcuw" and world.angle:
         rate = times(name(Slope(ways[0], world.angle).name), name(f"{world.angle}d"))
         for tree in (rate, negative(rate)):
             yield Expected(tree=tree, printed=world.plain(said.sides[1]), note=f"the rate of {ways[0]}", whole=True)

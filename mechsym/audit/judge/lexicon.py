@@ -127,9 +127,8 @@ class Lexicon:
         if slope := self._slope(name.rpartition(OF)[2]):
             counts[slope] = 3
         free = self.theory.letters  # a mass is the letter m before it is what follows from a density
-        return sorted(
-            ((r, m) for m, r in counts.items()), key=lambda told: (told[0], told[1] in free, told[1]), reverse=True
-        )
+        ranked = sorted(((rank, m in free, m) for m, rank in counts.items()), reverse=True)
+        return [(rank, m) for rank, _, m in ranked]
 
     def _is_measured_otherwise(self, meaning: str, unit: str) -> bool:
         # n_1 of revolutions per minute is no number of teeth

@@ -1,4 +1,4 @@
-r"""What a text calls its letters and its equations: tables, lists, and the words in front of them and behind."""
+r"""What a text calls its letters: tables, lists, and the words in front of them and behind."""
 
 import re
 from collections.abc import Iterator, Sequence

@@ -299,12 +299,15 @@ def _applied(shown: Sequence[Displayed]) -> re.Pattern[str] | None:
             arguments |= {part.strip() for part in match[2].split(",")}
     if not arguments:
         return None
-    letters_own, any_of = (
-        "|".join(re.escape(k) for k in sorted(k, key=lambda k: (-len(k), k))) for k in (own, arguments)
-    )
+    any_of = _any_of(arguments)
     within = rf"\s*(?:{any_of})(?:\s*,\s*(?:{any_of}))*\s*"
-    letter = rf"(?:(?<![A-Za-z\\])(?P<own>{letters_own})|(?P<of>{SIGN}))"
+    letter = rf"(?:(?<![A-Za-z\\])(?P<own>{_any_of(own)})|(?P<of>{SIGN}))"
     return re.compile(rf"{letter}\s*(?:\\left)?\({within}(?:\\right)?\)(?(own)|(?!\s*\^))")
+
+
+def _any_of(signs: set[str]) -> str:
+    # longer ones first, and in one order in every run
+    return "|".join(re.escape(sign) for sign in sorted(signs, key=lambda sign: (-len(sign), sign)))
 
 
 def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inline: bool) -> Said:
