@@ -3,6 +3,8 @@
 import ast
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
+from itertools import takewhile
 
 from mechsym.audit.judge.forms import known
 from mechsym.audit.judge.lagrangian import Energies, laws
@@ -55,11 +57,14 @@ def energy_slip(world: World, energies: Energies) -> EnergySlip | None:
                 then = Energies(world=other, laws=laws(other))
             except (BadInput, KeyError, RecursionError):
                 continue
-            follow = [world.paper.said[order].name for order in motions if _holds(other, then, order)]
             # two slips explain as much where one equation is left: told then only if it is the sign of a difference
-            enough = len(follow) == len(motions) or edit.kind == "sign" and is_operation(edit.new, ast.Sub)
-            if enough and len(follow) > len(best.follow if best else ()):
-                best = EnergySlip(order=defined.order, right=right, follow=follow, energies=then)
+            sign = edit.kind == "sign" and is_operation(edit.new, ast.Sub)
+            follow = [*(filter if sign else takewhile)(partial(_holds, other, then), motions)]
+            if (sign or len(follow) == len(motions)) and len(follow) > len(best.follow if best else ()):
+                names_of = [world.paper.said[order].name for order in follow]
+                best = EnergySlip(order=defined.order, right=right, follow=names_of, energies=then)
+            if len(follow) == len(motions):
+                return best
     return best
 
 

@@ -168,19 +168,34 @@ def _meet(fit: Match, world: World, order: int, side: int, tree: Node) -> None:
     choices = [_choices(fit, world, letter, strong) for letter in used]
     if not all(choices) or not any(letter in fit.meant or _by_name(fit, world, letter) for letter in used):
         return  # letters of which none is the theory's may be anything of their units
-    for reading in islice(product(*choices), _READINGS):
-        if len(set(reading)) < len(reading):
-            continue
-        quantity, sign = _quantity(fit, world, tree, dict(zip(used, reading, strict=True)), left)
+    every = [r for r in islice(product(*choices), _READINGS) if len(set(r)) == len(r)]
+    for reading, value in zip(every, _values(fit, tree, used, every), strict=True):
+        meant = dict(zip(used, reading, strict=True))
+        quantity, sign = _quantity(fit, world, value, meant, left)
         if not quantity:
             continue
-        fit.meant |= dict(zip(used, reading, strict=True))
+        fit.meant |= meant
         if left and sign > 0:
             fit.meant.setdefault(left, quantity)
         fit.met[order, side] = Met(quantity=quantity, sign=sign)
         if strong:
             fit.strong.add(order)
         return
+
+
+def _values(fit: Match, tree: Node, used: Sequence[str], every: Sequence[tuple[str, ...]]) -> np.ndarray:
+    """Values of a tree at the states, a row for each reading of its letters; nan where it has none."""
+    meanings = zip(*every, strict=True) if every else [()] * len(used)
+    at = {k: np.ravel([fit.values[m] for m in meant]) for k, meant in zip(used, meanings, strict=True)}
+    at["pi"] = np.full(len(every) * _STATES, np.pi)
+    with np.errstate(all="ignore"):
+        try:
+            value = np.asarray(evaluate(tree, at, FLOATS), dtype=float)
+        except (KeyError, ValueError, TypeError):
+            value = np.full(1, np.nan)
+    if value.size != len(every) * _STATES:
+        value = np.full(len(every) * _STATES, np.nan)
+    return value.reshape(len(every), _STATES)
 
 
 def _choices(fit: Match, world: World, letter: str, strong: bool) -> list[str]:
@@ -199,14 +214,8 @@ def _choices(fit: Match, world: World, letter: str, strong: bool) -> list[str]:
     return [n for n in fit.of_kind(kind) if kind is not None or n in fit.theory.letters or n in fit.theory.results][:24]
 
 
-def _quantity(fit: Match, world: World, tree: Node, reading: Mapping[str, str], left: str) -> tuple[str, int]:
-    given = {"pi": fit.values["pi"]} | {k: fit.values[v] for k, v in reading.items()}
-    with np.errstate(all="ignore"):
-        try:
-            value = np.asarray(evaluate(tree, given, FLOATS), dtype=float)
-        except (KeyError, ValueError, TypeError):
-            return "", 0
-    if value.shape != (_STATES,) or not np.all(np.isfinite(value)) or np.ptp(value) == 0:
+def _quantity(fit: Match, world: World, value: np.ndarray, reading: Mapping[str, str], left: str) -> tuple[str, int]:
+    if not np.all(np.isfinite(value)) or np.ptp(value) == 0:
         return "", 0
     kind = world.kinds.of(left) if left else None
     wanted = fit.meant.get(left, "")

@@ -78,8 +78,13 @@ class Lexicon:
             self.phrases += [(words(one), theory.angle) for one in ANGLES]
             for dots, said in _RATES.items():
                 self.phrases += [(words(one), theory.angle + dots) for one in said]
-        self.heads = {_joined(phrase) for phrase, _ in self.phrases}
-        self.parts = {word for phrase, _ in self.phrases for word in phrase if len(word) > 2}
+        self.heads: dict[str, list[int]] = {}  # to places in the phrases: what each is without spaces
+        self.having: dict[str, list[int]] = {}  # the same by each of their words
+        for i, (phrase, _) in enumerate(self.phrases):
+            self.heads.setdefault(_joined(phrase), []).append(i)
+            for word in phrase:
+                self.having.setdefault(word, []).append(i)
+        self.parts = {word for word in self.having if len(word) > 2}
         self.known: dict[tuple[str, str], list[tuple[int, str]]] = {}
 
     def touches(self, names: Iterable[str]) -> bool:
@@ -102,13 +107,16 @@ class Lexicon:
         tail = _word_list(name.rpartition(OF)[2])
         turned = _turned(said)
         turns = of_turns(about)
+        joined = (_joined(own), _joined(tail))
+        alike = {i for whole in joined for i in self.heads.get(whole, ())}
+        alike |= {i for word in {*own, *said} for i in self.having.get(word, ())}
         counts: dict[str, int] = {}
         standing: list[tuple[tuple[str, ...], str]] = []
-        for phrase, meaning in self.phrases:
+        for phrase, meaning in (self.phrases[i] for i in sorted(alike)):
             if turns and self._is_measured_otherwise(meaning, turns):
                 continue
             rank, whole = 0, _joined(phrase)
-            if whole in (_joined(own), _joined(tail)):
+            if whole in joined:
                 rank = 1 if whole in _GREEK else min(len(whole), 3)
             elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):
                 rest = own[: -len(phrase)] if own[-len(phrase) :] == phrase else own[len(phrase) :]

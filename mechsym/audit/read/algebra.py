@@ -14,7 +14,7 @@ import mpmath
 import numpy as np
 import sympy
 
-from mechsym.audit.read.tree import Node, children, digest, function_of, letters
+from mechsym.audit.read.tree import Node, as_printed, children, digest, function_of, letters
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -79,7 +79,7 @@ def evaluate(
         left, right = evaluate(tree.left, names, algebra, memo), evaluate(tree.right, names, algebra, memo)
         value = algebra.operations[type(tree.op)](left, right)
     elif isinstance(tree, ast.Constant):
-        value = algebra.number(Fraction(str(tree.value)))
+        value = algebra.number(as_printed(tree.value))
     else:
         values = [evaluate(child, names, algebra, memo) for _, child in children(tree)]
         if isinstance(tree, ast.Call):

@@ -8,6 +8,7 @@ formula may hold (two arguments, degrees, cases) is a tree of the few functions 
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import cache
 from hashlib import blake2b
 from typing import TypeGuard
 
@@ -67,12 +68,18 @@ def argument_of(node: Node, *functions: str) -> Node | None:
     return node.args[0] if isinstance(node, ast.Call) and (not functions or called in functions) else None
 
 
+@cache
+def as_printed(constant: object) -> Fraction:
+    """The number that a constant is printed as: 0.1 is a tenth."""
+    return Fraction(str(constant))
+
+
 def value_of(node: Node) -> Fraction | None:
     """Exact value of a number, a negative number or a quotient of numbers; None of anything else."""
     if isinstance(node, (ast.Name, ast.Call)):
         return None
     if isinstance(node, ast.Constant):
-        return Fraction(str(node.value))
+        return as_printed(node.value)
     if isinstance(node, ast.UnaryOp):
         inner = value_of(node.operand)
         return None if inner is None else -inner

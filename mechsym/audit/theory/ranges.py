@@ -27,10 +27,12 @@ def harmonic(entry: Harmonic, names: dict[str, Values], algebra: Algebra, fill: 
         raise BadInput("a harmonic is decided by its digits alone")
     close = 1e-12 if algebra is FLOATS else mpmath.mpf(10) ** (6 - mpmath.mp.dps)
     before: Values = None
-    count = _POINTS
+    total, count = 0, _POINTS
     while count <= 16 * _POINTS:
-        now = sum(_term(entry, names, algebra, fill, k, count) for k in range(count))
-        now = now * (2 if entry.order else 1) / count
+        # every other place of a grid is one of the grid before
+        places = range(count) if before is None else range(1, count, 2)
+        total = total + sum(_term(entry, names, algebra, fill, k, count) for k in places)
+        now = total * (2 if entry.order else 1) / count
         if before is not None and np.all(np.abs(now - before) <= close * (1 + np.abs(now))):
             return now
         before, count = now, 2 * count

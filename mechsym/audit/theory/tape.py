@@ -27,19 +27,20 @@ from mechsym.errors import BadInput
 from mechsym.quantities import record
 
 Rate = Callable[[str], Node]  # of a letter or a name
+_ZERO, _ONE = number(0), number(1)
 
 
 def slope_by(tree: Node, letter: str) -> Node:
     """Partial derivative of an expression by one of its letters."""
-    return derivative(tree, lambda k: number(int(k == letter)))
+    return derivative(tree, lambda k: _ONE if k == letter else _ZERO)
 
 
 def derivative(tree: Node, rate: Rate) -> Node:
     """Derivative of an expression whose letters have given rates."""
-    if isinstance(tree, ast.Constant):
-        return number(0)
     if isinstance(tree, ast.Name):
         return rate(tree.id)
+    if all(is_zero(rate(letter)) for letter in letters(tree)):
+        return _ZERO
     if isinstance(tree, ast.UnaryOp):
         return minus(number(0), derivative(tree.operand, rate))
     if isinstance(tree, ast.IfExp):
@@ -92,7 +93,8 @@ def _outer(function: str, tree: ast.Call) -> Node:
 
 def is_zero(tree: Node) -> bool:
     """Whether a tree is the number 0."""
-    return value_of(tree) == 0
+    value = value_of(tree)
+    return value is not None and not value
 
 
 def plus(left: Node, right: Node) -> Node:
