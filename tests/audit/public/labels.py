@@ -7,6 +7,7 @@ second power beyond the first and not in a later one. All else is wrong.
 
 import random
 from collections.abc import Iterator, Mapping
+from functools import cache
 from typing import Any
 
 import mpmath
@@ -72,6 +73,13 @@ FUNCTIONS = {
 
 def both(theory: str, state: Mapping[str, mpf]) -> tuple[dict[str, mpf], dict[str, mpf]]:
     """Quantities of a theory by either truth."""
+    return _both(theory, tuple(state.items()), mpmath.mp.dps)
+
+
+@cache
+def _both(theory: str, letters: tuple[tuple[str, mpf], ...], _digits: int) -> tuple[dict[str, mpf], dict[str, mpf]]:
+    # the rows of a theory ask at the same states
+    state = dict(letters)
     if hasattr(points, theory):
         return getattr(points, theory)(state), getattr(laws, theory)(state)
     return getattr(more, theory)(state)  # type: ignore[no-any-return]
