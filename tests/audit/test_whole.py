@@ -8,7 +8,8 @@ import pytest
 
 from mechsym import cli
 from mechsym.audit.hosts.whole import check_texts, page_of, read_texts, summary_of
-from mechsym.audit.judge.kinds import findings, kinds_of, odd
+from mechsym.audit.judge.kinds import kinds_of
+from mechsym.audit.judge.misfits import findings, odd
 from mechsym.audit.judge.table_slips import table_slips
 from mechsym.audit.read.displays import displayed
 from mechsym.audit.read.nomenclature import nomenclature

@@ -5,7 +5,8 @@ import ast
 import pytest
 from audited import blamed, is_told, judged, same
 
-from mechsym.audit.judge.kinds import kinds_of, odd
+from mechsym.audit.judge.kinds import kinds_of
+from mechsym.audit.judge.misfits import odd
 from mechsym.audit.judge.table_slips import table_slips
 from mechsym.audit.read.lagrange import lagrange_equation
 from mechsym.audit.read.said import read_text_whole

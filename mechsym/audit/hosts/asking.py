@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from mechsym.audit.hosts.judged import Judged
-from mechsym.audit.judge import kinds as of_units
+from mechsym.audit.judge import misfits as of_units
 from mechsym.audit.judge.asked import Asked
 from mechsym.audit.judge.forms import has_nothing, has_sense, spelled
 from mechsym.audit.judge.sampled import free, where_defined

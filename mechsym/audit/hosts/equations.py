@@ -12,7 +12,7 @@ from mechsym.audit.hosts.judged import AGREES, UNTOLD, Judged, of_other_left, pa
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
-from mechsym.audit.judge import kinds as of_units
+from mechsym.audit.judge import misfits as of_units
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved, with_frequency
 from mechsym.audit.judge.forms import (
     has_sense,
@@ -212,7 +212,7 @@ class Judge:
     def _by_solving(self, order: int, said: Said) -> Judged | None:
         # what the equation before it gives, where a word says that this is it
         follows = solved(self.world, order)
-        if follows is None or CUT_SHORT.search(said.before):
+        if follows is None:
             return None
         theory, (tree, place) = self.world.theory(order), follows
         both = known(self.world, tree, theory), known(self.world, said.sides[1], theory)

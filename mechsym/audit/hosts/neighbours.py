@@ -81,7 +81,8 @@ class Neighbours:
         beside = [(near, self._beside(near)) for near in every if near.quantity]
         beside.sort(key=lambda b: _unlikely(*b))
         worse, misprints = None, []
-        for near, others in islice(((n, o) for n, o in beside if n.away and _is_told(n, o)), _ASKED):
+        asked = ((n, o) for n, o in beside if n.away and _is_told(n, o) and not self._has_other_name(n))
+        for near, others in islice(asked, _ASKED):
             if _is_right_undefined(near):
                 return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"}
             row = slip(replace(near, settled=self._is_settled(near)), others, self._of_angle(near))
@@ -150,6 +151,18 @@ class Neighbours:
                     yield Near(away=away, fitted=fitted, form=form, quantity=quantity, states=states)
                 if not met and len(fitted.meanings) > 1:
                     yield Near(away=1.0, fitted=fitted, form=form, quantity="", states=states)
+
+    def _has_other_name(self, near: Near) -> bool:
+        # not called so, where another letter of the same function is that quantity
+        own = near.fitted.claim
+        return near.quantity not in near.fitted.quantities and any(
+            (other.away, other.quantity) == (0.0, near.quantity)
+            and other.fitted.theory is near.fitted.theory
+            and other.fitted.claim.scope == own.scope
+            and other.fitted.claim.name != own.name
+            for every in self.near.values()
+            for other in every
+        )
 
     def _is_settled(self, near: Near) -> bool:
         # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is

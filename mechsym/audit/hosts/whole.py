@@ -15,7 +15,8 @@ from mechsym.audit.hosts.judged import AGREES, Judged
 from mechsym.audit.hosts.paper import CARRIED, EquationPlace, few
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
-from mechsym.audit.judge import kinds as of_units
+from mechsym.audit.judge import misfits as of_units
+from mechsym.audit.judge.kinds import kinds_of
 from mechsym.audit.judge.lagrangian import Energies, laws
 from mechsym.audit.judge.table_slips import TableSlip, table_slips
 from mechsym.audit.judge.twins import Twins
@@ -118,7 +119,7 @@ def _rows_of(text: TextFile) -> Iterator[Row]:
         nothing = Said(shown=Displayed(number="", label="", text="", line=1), name="file", why=str(text.refused))
         yield _row(text.file, nothing, None, ())
         return
-    kinds = of_units.kinds_of(paper)
+    kinds = kinds_of(paper)
     misfits, _ = of_units.odd(kinds, paper.said)
     slips, left = table_slips(paper, kinds, misfits)
     odd: dict[str, list[of_units.Odd]] = {}

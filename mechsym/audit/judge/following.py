@@ -4,6 +4,7 @@ import ast
 import math
 import re
 from collections.abc import Iterator
+from functools import reduce
 
 from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.motion import ANGLES, KINETIC
@@ -42,6 +43,7 @@ _SOLVED = re.compile(
 )
 _STEADY = re.compile(r"\buniform(?:ly)?\b|\b(?:constant|steady) (?:angular )?(?:speed|velocity)\b", re.IGNORECASE)
 _DERIVED = re.compile(r"\b(?:differentiat\w+|(?:time )?derivatives?|derived by time)\b", re.IGNORECASE)
+_DERIVED_OF = re.compile(r"\bdifferentiat\w+\s+(?:\w+\s+){0,2}\(([\w.]+)\)[^.;:]*\btime\b", re.IGNORECASE)
 _REDUCED = re.compile(r"\breduc(?:ed|tion|ing)\b|\b(?:equivalent|effective) (?:moment of )?inertia\b", re.IGNORECASE)
 _PUSHES = re.compile(r"\b(?:piston|gas|plunger|yoke|slider|crosshead)\b")
 _ELSEWHERE = re.compile(r"\b(?:second|third|other|ahead|behind|degrees|leads?|lags?)\b|°|\\circ")  # at another angle
@@ -70,6 +72,7 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
     steady = len(between) > 1 and _STEADY.search(between[-1]) is not None
     if (
         len(between) < 2
+        or CUT_SHORT.search(said.before.replace(between[-1], _STEADY.sub("", between[-1])))
         or not (steady or _SOLVED.search(between[-1]))
         or source.section != said.section
         or source.claim
@@ -78,6 +81,10 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
     sides = [world.plain(side) for side in source.sides]
     if len(sides) > 2 and letter not in letters(sides[0]):  # of a chain the form that has the letter
         sides = [sides[0], *(side for side in sides[1:] if letter in letters(side))]
+    if not any(letter in letters(side) for side in sides):  # the hinge's moment within Q
+        inner = {d.letter: world.plain(world.paper.said[d.order].sides[1]) for d in world.defined if d.order < place}
+        inner = {k: tree for k, tree in inner.items() if letter in letters(tree)}
+        sides = [substitute(s, lambda n: inner.get(n.id) if isinstance(n, ast.Name) else None) for s in sides]
     if steady:  # nothing is accelerated that turns
         rates = {f"{world.angle}dd", *(f"{k}d" for k in (*SPEEDS, *world.aliases))}
         sides = [
@@ -114,11 +121,15 @@ def expected(world: World, order: int) -> Iterator[Expected]:
         if _DERIVED.search(words):
             yield from _differentiated(world, order, said)
         left = getattr(said.sides[0], "id", "")
+        if left and world.angle and (of := _DERIVED_OF.search(words)):
+            yield from _rate_of(world, said, of[1])
         if _SPEED.search(world.paper.called.get(left, "")) or _SPEED.search(words):
             yield from _speed_of_its_way(world, order, said, left)
         of_torque = _TORQUE.search(words) or _TORQUE.search(world.paper.called.get(left, ""))
         if of_torque and not _ELSEWHERE.search(words) and not re.search(r"[2-9]$", left):
             yield from _by_virtual_work(world, order, said)
+        if world.angle and "virtual work" in words:
+            yield from _along_its_ways(world, said)
         if function_of(said.sides[1]) == "sqrt" and left.startswith(SPEEDS):
             yield from _natural(world, order, said)
         yield from _turned(world, said, left)
@@ -191,6 +202,16 @@ def _by_virtual_work(world: World, order: int, said: Said) -> Iterator[Expected]
             yield Expected(tree=tree, printed=printed, note=f"the work of {forces[0]} on {way}", whole=True)
 
 
+def _along_its_ways(world: World, said: Said) -> Iterator[Expected]:
+    # F_x along x and F_y along y
+    printed = world.plain(said.sides[1])
+    ways = {d.letter for d in world.defined if world.turns(d.letter)}
+    along = {k: k[1:] for k in letters(printed) if world.kinds.of(k) == of_unit("N") and k[1:] in ways}
+    if len(along) > 1:
+        work = reduce(plus, (times(name(k), name(Slope(way, world.angle).name)) for k, way in along.items()))
+        yield Expected(tree=work, printed=printed, note=f"the work of {' and '.join(along)}", whole=True)
+
+
 def _speed_of_its_way(world: World, order: int, said: Said, left: str) -> Iterator[Expected]:
     # v_i is the rate of x_i, of the one way with the same index that the text has; so is v, where it is its velocity
     index = left[1:]
@@ -201,6 +222,15 @@ def _speed_of_its_way(world: World, order: int, said: Said, left: str) -> Iterat
         rate = times(name(Slope(ways[0], world.angle).name), name(f"{world.angle}d"))
         for tree in (rate, negative(rate)):
             yield Expected(tree=tree, printed=world.plain(said.sides[1]), note=f"the rate of {ways[0]}", whole=True)
+
+
+def _rate_of(world: World, said: Said, source: str) -> Iterator[Expected]:
+    # differentiating (5) by time gives v, at an even speed
+    for other in world.paper.said:
+        if other.name == source and len(other.sides) == 2 and isinstance(other.sides[0], ast.Name):
+            even = times(slope_by(world.plain(other.sides[1]), world.angle), name(f"{world.angle}d"))
+            printed = world.plain(said.sides[1])
+            yield Expected(tree=even, printed=printed, note=f"the rate of ({source})", whole=True)
 
 
 def _above(tree: Node) -> list[str]:
@@ -248,14 +278,37 @@ def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:
     # twice the kinetic energy over the square of a rate
     printed = world.plain(said.sides[1])
     used = {*letters(printed)}
+    ratios = {
+        d.tree.left.id: times(name(d.letter), d.tree.right)
+        for d in world.defined
+        if d.letter in used and is_operation(d.tree, ast.Div) and isinstance(d.tree.left, ast.Name)
+    }
+    for note, whole in _kinetic(world, order):
+        energy = substitute(whole, lambda n: ratios.get(n.id) if isinstance(n, ast.Name) else None)
+        rates = {k: _rate_in(k.removesuffix("d"), used) or k for k in letters(energy) if k.endswith("d")}
+        energy = renamed(energy, rates)
+        for rate in dict.fromkeys(rates.values()):
+            tree = over(times(number(2), energy), times(name(rate), name(rate)))
+            yield Expected(tree=tree, printed=printed, note=note)
+
+
+def _kinetic(world: World, order: int) -> Iterator[tuple[str, Node]]:
+    # each kinetic energy in front of an equation, and the sum of those of the parts
+    parts: dict[str, tuple[str, Node]] = {}
     for source in world.paper.said[:order]:
-        if len(source.sides) == 2 and getattr(source.sides[0], "id", "") in KINETIC:
-            energy = world.plain(source.sides[1])
-            rates = {k: _rate_in(k.removesuffix("d"), used) or k for k in letters(energy) if k.endswith("d")}
-            whole = renamed(energy, rates)
-            for rate in dict.fromkeys(rates.values()):
-                tree = over(times(number(2), whole), times(name(rate), name(rate)))
-                yield Expected(tree=tree, printed=printed, note=f"by the energy of ({source.name})")
+        letter = getattr(source.sides[0], "id", "") if len(source.sides) > 1 else ""
+        whole = world.plain(source.sides[-1]) if letter else None
+        if whole is not None and letter in KINETIC:
+            yield f"by the energy of ({source.name})", whole
+        elif (
+            whole is not None
+            and letter.rstrip("0123456789") in KINETIC
+            and any(k.endswith("d") for k in letters(whole))
+        ):
+            parts[letter] = (source.name, whole)
+    if len(parts) > 1:
+        total = reduce(plus, (tree for _, tree in parts.values()))
+        yield f"by the energies of {', '.join(f'({source})' for source, _ in parts.values())}", total
 
 
 def _differentiated(world: World, order: int, said: Said) -> Iterator[Expected]:

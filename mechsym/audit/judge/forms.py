@@ -39,6 +39,8 @@ def spelled(world: World, said: Said) -> dict[str, str]:
     """The author's LaTeX of every letter of a text, as this equation has it where they differ."""
     everywhere = {k: v for one in world.paper.said for k, v in one.spelled.items()}
     named = {slope_of(k, world.angle): v for k, v in everywhere.items() if PRIMED.fullmatch(k)}
+    dotted = {k: v for k, v in everywhere.items() if v.startswith((r"\dot", r"\ddot"))}
+    named |= {f"{k.rstrip('d')}_{k[len(k.rstrip('d')) :]}": v for k, v in dotted.items()}  # of what the text defines
     written = everywhere | named | dict(said.spelled)
     known = {k: rate for k, rate in world.aliases.items() if k in written}
     return written | {rate: written[k] for k, rate in known.items() if k in said.spelled or rate not in written}

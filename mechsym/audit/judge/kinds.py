@@ -11,19 +11,22 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from mechsym.audit.judge.exponents import exponent, is_left
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.tree import Node, argument_of, function_of, is_operation, letters, value_of, walk
 from mechsym.audit.read.units import defined_unit, misnamed, of_turns, usual_unit
 from mechsym.errors import BadInput
-from mechsym.quantities import dimension, record
+from mechsym.quantities import dimension
 from mechsym.quantities.units import scale
 
 Kind = tuple[Fraction, ...]  # exponents of kg, m, s, K, of a factor 60 and of a factor 1000
 PURE: Kind = (Fraction(0),) * 6
 _LENGTH: Kind = (Fraction(0), Fraction(1), *PURE[2:])
-_SIXTY, _THOUSAND = 4, 5
+_NEWTON: Kind = (Fraction(1), Fraction(1), Fraction(-2), *PURE[3:])
+_MANY = 4  # letters of one family
+SIXTY, THOUSAND = 4, 5
 _SCALED = {"kW": 3, "kN": 3, "kPa": 3, "kJ": 3, "MPa": 6, "MW": 6, "MJ": 6}
 _CONVERTS = {Fraction(15), Fraction(30), Fraction(60), Fraction(120)}
 #: Whole numbers that formulas have of themselves; any other may carry a unit
@@ -38,7 +41,7 @@ _WAYS = ("x", "y", "z", "s")
 
 
 _STEMS = "|".join([*sorted(SYMBOLS, key=len, reverse=True), "[A-Za-z]"])
-_RATE = re.compile(rf"((?:{_STEMS})\w*?)(dd?)")
+RATE = re.compile(rf"((?:{_STEMS})\w*?)(dd?)")
 _STEP = re.compile(rf"(?:Delta|delta|d)((?:{'|'.join(sorted(SYMBOLS, key=len, reverse=True))}|[A-Zxyzms])\w*)")
 _MARKED = re.compile(r"(\w+?)(?:bar|hat|tilde|star)")
 _INDEX = re.compile(rf"({_STEMS})(\w+)")
@@ -48,17 +51,8 @@ class Clash(BadInput):
     """Two parts of an expression that have different units."""
 
 
-class _Unknown(Exception):  # noqa: N818 not an error: nothing can be said
+class Unknown(Exception):  # noqa: N818 not an error: nothing can be said
     pass
-
-
-@record
-class Odd:
-    """An equation whose units do not fit."""
-
-    said: Said
-    part: int  #: Which side, counted from the left [-]
-    why: str
 
 
 @dataclass
@@ -86,7 +80,7 @@ class Kinds:
             if above is None or below is None:
                 return None
             return tuple(a - slope.order * b for a, b in zip(above, below, strict=True))
-        if (rate := _RATE.fullmatch(letter)) and (still := self.of(rate[1])) is not None:
+        if (rate := RATE.fullmatch(letter)) and (still := self.of(rate[1])) is not None:
             # the dot on a mass or a heat may mean the angle
             return (*still[:2], still[2] - len(rate[2]), *still[3:]) if still in (PURE, _LENGTH) else None
         if within := _MARKED.fullmatch(letter) or _STEP.fullmatch(letter):
@@ -112,39 +106,49 @@ class Kinds:
     def is_lent(self, letter: str) -> bool:
         """Whether a letter with an index has its kind from the one without it; a number for an index is lent less."""
         within = _MARKED.fullmatch(letter)
-        if letter in self.printed or letter in self.inferred or _RATE.fullmatch(letter) or slope_in(letter):
+        if letter in self.printed or letter in self.inferred or RATE.fullmatch(letter) or slope_in(letter):
             return False
         base = _INDEX.fullmatch(within[1] if within else letter)
         if base is None or base[2][0].isdigit() and base[1] not in self.spoken:
             return False
-        return self.of(letter) is not None
+        family = [k for n, k in self.printed.items() if n.startswith(base[1])]
+        # beside F, F_g and F_n an F_r is a force
+        return self.of(letter) is not None and (len(family) < _MANY or any(k != _NEWTON for k in family))
 
     def kind(self, tree: Node) -> Kind:
-        """Kind of an expression. Raises Clash, and _Unknown where a letter is unknown or a number may have a unit."""
+        """Kind of an expression. Raises Clash, and Unknown where a letter is unknown or a number may have a unit."""
+        kind = self._kind(tree)
+        if is_left(kind):
+            raise Unknown
+        return kind
+
+    def _kind(self, tree: Node) -> Kind:
         value = value_of(tree)
         if value is not None:
             return _number(Fraction(value))
         if isinstance(tree, ast.Name):
             known = PURE if tree.id in ("pi", "plusminus") else self.of(tree.id)
             if known is None:
-                raise _Unknown
+                raise Unknown
             return known
         if isinstance(tree, ast.UnaryOp):
-            return self.kind(tree.operand)
+            return self._kind(tree.operand)
         if isinstance(tree, ast.IfExp):
             return self._same(tree.body, tree.orelse)
         if isinstance(tree, ast.Call):
             return self._called(str(function_of(tree)), tree.args[0])
         if isinstance(tree, ast.BinOp):
             return self._operation(tree)
-        raise _Unknown
+        raise Unknown
 
     def _called(self, function: str, argument: Node) -> Kind:
-        inner = self.kind(argument)
+        inner = self._kind(argument)
         if function in ("abs", "sum"):
             return inner
         if function == "sqrt":
             return tuple(e / 2 for e in inner)
+        if is_left(inner):
+            raise Unknown
         if any(inner[:4]) and function != "log":  # log p + n log V is right in any unit
             raise Clash(f"the argument of {function} has the unit {text(inner)}")
         return PURE
@@ -153,33 +157,35 @@ class Kinds:
         if isinstance(tree.op, (ast.Add, ast.Sub)):
             return self._same(tree.left, tree.right)
         if isinstance(tree.op, ast.Pow):
-            exponent, base = value_of(tree.right), self.kind(tree.left)
-            if exponent is None:
+            power, base = exponent(tree.right), self._kind(tree.left)
+            if power is None:
                 if any(base[:4]):
-                    raise _Unknown
+                    raise Unknown
                 return PURE
-            return tuple(e * Fraction(exponent) for e in base)
+            return tuple(e * power for e in base)
         sign = 1 if isinstance(tree.op, ast.Mult) else -1
-        left, right = self.kind(tree.left), self.kind(tree.right)
+        left, right = self._kind(tree.left), self._kind(tree.right)
         return tuple(a + sign * b for a, b in zip(left, right, strict=True))
 
     def _same(self, left: Node, right: Node) -> Kind:
         try:
-            first = self.kind(left)
-        except _Unknown:
-            self.kind(right)
+            first = self._kind(left)
+        except Unknown:
+            self._kind(right)
             raise
-        second = self.kind(right)
+        second = self._kind(right)
         if first[:4] != second[:4]:
             if value_of(left) == 0 or value_of(right) == 0:
                 return second if value_of(left) == 0 else first
+            if is_left(first) or is_left(second):
+                raise Unknown
             raise Clash(f"{text(first)} is added to {text(second)}")
         return first if any(first[4:]) else second
 
 
 def _number(value: Fraction) -> Kind:
     if value and abs(value) not in _PLAIN:
-        raise _Unknown
+        raise Unknown
     sixty = Fraction(int(abs(value) in _CONVERTS))
     return (*PURE[:4], sixty, Fraction(0))
 
@@ -275,7 +281,7 @@ def kind_in(kinds: Kinds, tree: Node) -> Kind | None:
     """The kind of an expression; None where it has none, or a letter of it is not known."""
     try:
         return kinds.kind(tree)
-    except (_Unknown, Clash):
+    except (Unknown, Clash):
         return None
 
 
@@ -305,90 +311,6 @@ def converted(said: Said, letter: str) -> bool:
     return bool(constants & _CONVERTS)
 
 
-def odd(kinds: Kinds, said: Sequence[Said]) -> tuple[list[Odd], set[str]]:
-    """Equations whose units do not fit, and the names of those whose units were compared and do."""
-    misfits, fitting = [], set()
-    for one in said:
-        if not one.sides or one.inline:
-            continue
-        sides: list[tuple[int, Kind]] = []
-        for i, side in enumerate(one.sides):
-            if not letters(side):  # 0 has any unit, and numbers alone are in one that stands behind them
-                continue
-            try:
-                sides.append((i, kinds.kind(side)))
-            except Clash as clash:
-                misfits.append(Odd(said=one, part=i, why=str(clash)))
-            except _Unknown:
-                continue
-        misfits += _unlike(kinds, one, sides)
-        if (len(sides) > 1 or len(one.sides) > 1 and value_of(one.sides[-1]) == 0 and sides) and not _unlike(
-            kinds, one, sides
-        ):
-            fitting.add(id_of(one))
-    return misfits, fitting
-
-
-def id_of(said: Said) -> str:
-    """What an equation is known by."""
-    return f"{said.shown.begins}:{said.shown.text}"
-
-
-def _unlike(kinds: Kinds, one: Said, sides: Sequence[tuple[int, Kind]]) -> list[Odd]:
-    if len({k for _, k in sides}) < 2:
-        return []
-    plain = Counter(k[:4] for _, k in sides)
-    common = plain.most_common(1)[0][0] if len(sides) > 2 else sides[0][1][:4]
-    misfits = [
-        Odd(said=one, part=i, why=f"its unit is {text(k)}, and that of the other side {text((*common, *PURE[4:]))}")
-        for i, k in sides if k[:4] != common
-    ]  # fmt: skip
-    if misfits:
-        return misfits
-    for place, factor in ((_SIXTY, "60"), (_THOUSAND, "1000")):
-        if place == _THOUSAND and kinds.scaled & set(letters_of(one)):
-            continue
-        first = sides[0][1][place]
-        misfits += [
-            Odd(said=one, part=i, why=f"a factor {factor} is missing between the units of its sides")
-            for i, k in sides[1:] if k[place] != first
-        ]  # fmt: skip
-    return misfits
-
-
 def letters_of(said: Said) -> Iterable[str]:
     """All letters of an equation."""
     return {n for side in said.sides for n in letters(side)}
-
-
-def _is_only_time(kinds: Kinds, letter: str) -> bool:
-    slope, rate = slope_in(letter), _RATE.fullmatch(letter)
-    of = slope.of if slope and slope.by == "t" else rate[1] if rate else letter
-    return letter in ("t", "dt") or kinds.of(of) in (None, PURE)
-
-
-def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list[Odd]:
-    """Misfits that no letter of doubtful unit explains: a form of several, or a left side whose own unit is printed."""
-    _, fitting = odd(kinds, said)
-    agreeing = [one for one in said if id_of(one) in fitting and getattr(one.sides[0], "id", "") not in kinds.inferred]
-    sure = {n for one in agreeing for n in letters_of(one)}
-    lent = {getattr(one.said.sides[0], "id", "") for one in misfits}
-    doubtful = {n for n in lent if kinds.is_lent(n)}  # M_b beside a mass M is a moment
-    kept = []
-    bare = [one for one in misfits if one.why.startswith("the argument of")]
-    in_numbers = {n for one in bare for n in letters_of(one.said)} if len(bare) > 1 else set()
-    for one in misfits:
-        if one in bare and not in_numbers.isdisjoint(letters_of(one.said)):
-            continue  # a text of several such counts lengths in a unit of its own
-        if len(one.said.sides) > 2 and not doubtful.isdisjoint(letters_of(one.said)):
-            continue
-        if all(_is_only_time(kinds, n) for n in letters_of(one.said)):
-            continue  # y' = -2 y t of mathematics has no seconds
-        left = one.said.sides[0]
-        two = len(one.said.sides) == 2
-        if two and "factor" not in one.why and any(kinds.is_lent(n) and n not in sure for n in letters_of(one.said)):
-            continue  # S_p beside a stroke S is a speed
-        named = isinstance(left, ast.Name) and kinds.of(left.id) is not None and left.id not in kinds.inferred
-        if len(one.said.sides) > 2 or named or one.part and not isinstance(left, ast.Name):
-            kept.append(one)
-    return kept

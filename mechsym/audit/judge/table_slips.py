@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from mechsym.audit.judge.kinds import Kind, Kinds, Odd, converted, id_of, infer, letters_of, odd, text
+from mechsym.audit.judge.kinds import Kind, Kinds, converted, infer, letters_of, text
+from mechsym.audit.judge.misfits import Odd, id_of, odd
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
 from mechsym.quantities import dimension, record

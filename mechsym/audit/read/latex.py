@@ -29,15 +29,15 @@ _FUNCTIONS = {
 _SEVERAL = ("atan2", "min", "max", "hypot")
 _FUNCTIONS |= {n: n for n in (*_SEVERAL, "sinh", "cosh", "tanh", "sec", "csc")} | {"sen": "sin"}
 SINGLE = (*(n for n in _FUNCTIONS if n not in _SEVERAL),)  #: Functions of one argument, as they are written
-_LONGEST = 400  # digits of a number
-_FRACTIONS = {"\\frac", "\\dfrac", "\\tfrac"}
+_LONGEST, _FRACTIONS = 400, {"\\frac", "\\dfrac", "\\tfrac"}  # digits of a number; what divides
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
-# {\sin}^2 and {\sin^2}, \mathrm around signs: braces of editors, which say nothing
+# {\sin}^2 and {\sin^2}, \mathrm around signs: braces that say nothing; \sin\varphi\,\frac{a}{b}: a space that ends it
 _ONE = rf"\\(?:{'|'.join(sorted(SINGLE, key=len, reverse=True))})"
 _BRACED = (
     (re.compile(rf"\{{\s*({_ONE})\s*\}}"), r"\1 "),
     (re.compile(rf"\{{\s*({_ONE})\s*(\^\s*(?:\{{[^{{}}]*\}}|\w))\s*\}}"), r"\1\2 "),
     (re.compile(r"\\(?:mathrm|mathit|mathbf|mathsf)\s*\{([^{}]*\\[^{}]*)\}"), r"{\1}"),
+    (re.compile(rf"({_ONE}(?:\^\{{?\d\}}?)?\s*\d?\s*\\?[A-Za-z]+(?:_\w)?)\s*\\[,;:]\s*(?=\\[dt]?frac)"), r"\1\\cdot "),
 )
 _TIMES, _OVER = {"*", "\\cdot", "\\times", ".", "\\ast", "\\bullet", "·"}, {"/", "\\div", ":"}
 _SUMS = ("+", "-", "\\pm", "\\mp")

@@ -29,9 +29,10 @@ _BOLD = re.compile(
     r"([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*$"
 )
 _ITEM = re.compile(  # of a list of descriptions, or of points
-    r"^\s*\\item\s*(?:\[([^\[\]\n]{1,24})\]|\$([^$\n]{1,24})\$\s*[:=,–—-])\s*([A-Za-z][^()\[\]\n]{2,60}?)"
-    r"\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]])?\s*[.,;]?\s*$"
+    r"^\s*(?:\\item\s*\[([^\[\]\n]{1,24})\]|(?:\\item|[-*+])\s*((?:\$[^$\n]{1,24}\$\s*,\s*)*\$[^$\n]{1,24}\$)\s*[:=,–—-])"
+    r"\s*([A-Za-z][^()\[\]\n]{2,60}?)\s*(?:[(\[]([^()\[\]\n]{1,24})[)\]]|,\s*([^,()\[\]\n]{1,24}))?\s*[.,;]?\s*$"
 )
+_PURE = re.compile(r"\b(?:coefficients?|factors?|numbers?|ratios?|efficienc(?:y|ies)|exponents?)$")
 # crank radius $r$ (m), crank angle $\varphi$ of the first crank (rad)
 _UNIT_BEHIND = re.compile(
     r"\b([a-z][a-z\s-]{2,60}?)\s+\$([^$\n=]{1,40})\$(?:\s+of\s+(?:the\s+)?[a-z ]{3,40})?\s*\(([^()\n]{1,20})\)"
@@ -41,7 +42,7 @@ _RUN_IN = re.compile(
     r"[$`]([^$`\n]{1,40})[$`]\s+([a-z][A-Za-z\s-]{2,60}?)(?:\s*[(\[]([^()\[\]\n]{1,20})[)\]](?=\s*(?:[,.;]|$))|(?=\s*[,.;]))",
     re.MULTILINE,
 )
-_FEWEST = 4  # letters of such a list
+_FEWEST, _LONGEST = 4, 6000  # letters of such a list; characters of a row
 _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
     r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|be|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
@@ -72,6 +73,11 @@ _DAMPER = re.compile(r"\bdamper\b[^.]*$")
 _STRESSED = re.compile(r"(?<!\w)\*{1,2}([A-Za-z][A-Za-z -]*[A-Za-z])\*{1,2}(?!\w)")
 _IN_TURNS = re.compile(r"\s+in\s+(?:revolutions|turns)\s+(?:per|a)\s+minute\b")
 _PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
+# the crank radius $r$ in m, of stiffness $k$ in N/m
+_SYMBOLS = (
+    r"(?:k?g|[cmk]?m|m?s|min|h|K|[kM]?N|[kMG]?Pa|bar|[kM]?J|[kM]?W|rad|Hz)(?:\$?\^\{?-?\d\}?\$?|[²³⁴])?(?![A-Za-z\d$])"
+)
+_IN_UNIT = re.compile(rf"\$([^$\n=]{{1,40}})\$\s+in\s+({_SYMBOLS}(?:(?:\s|\\,|·|/|\*)+{_SYMBOLS})*)(?=[\s.,;:)]|\Z)")
 _PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
 _PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
 _AT_FIRST = re.compile(r"(?:In|For|At|Under|During|On|From|By|With)\s")
@@ -105,13 +111,15 @@ def nomenclature(text: str) -> dict[str, Named]:
         line = text.count("\n", 0, match.start()) + 1
         unit = (unit_of(match[3]) if match[3] else "") or ""
         names.setdefault(spelled(match[1]), Named(meaning=" ".join(match[2].split()), unit=unit, line=line))
-    for number, row in enumerate(text.split("\n"), 1):
-        if len(row) > 6000:
+    rows = text.split("\n")
+    measured = sum(bool(_item(m, False)[2]) for row in rows for m in _ITEM.finditer(row[:_LONGEST])) >= _FEWEST
+    for number, row in enumerate(rows, 1):
+        if len(row) > _LONGEST:
             continue
         listed = [*_cells(row), *((m[1], m[2], m[3]) for m in _LISTED.finditer(row))]
         listed += [(m[2], m[1], m[3]) for m in _BACKWARDS.finditer(row)]
+        listed += [_item(m, measured) for m in _ITEM.finditer(row)]
         listed += [(m[1], m[2], m[3] if m[3] and unit_of(m[3]) else "") for m in _BOLD.finditer(row)]
-        listed += [(m[1] or m[2], m[3], m[4] if m[4] and unit_of(m[4]) else "") for m in _ITEM.finditer(row)]
         for symbol, meaning, unit in listed:
             known = unit_of(unit) if unit else None
             for one in re.split(r",\s*(?![^{]*\})", symbol.strip("$ ")):
@@ -134,7 +142,20 @@ def nomenclature(text: str) -> dict[str, Named]:
         one = spelled(symbol.partition("=")[0])
         if one and one not in names:
             names[one] = Named(meaning=" ".join(meaning.split()), unit="", line=text.count("\n", 0, start) + 1)
+    for match in _IN_UNIT.finditer(text):
+        one, known = spelled(match[1]), unit_of(match[2])
+        if one and known and not (one in names and names[one].unit):
+            line, meaning = text.count("\n", 0, match.start()) + 1, names[one].meaning if one in names else ""
+            names[one] = Named(meaning=meaning, unit=known, line=line)
     return names
+
+
+def _item(match: re.Match[str], measured: bool) -> tuple[str, str, str]:
+    # letters, meaning and unit of a point; measured: whether the others have units, so that a ratio without is a number
+    unit = next((u for u in (match[4], match[5]) if u and unit_of(u)), "")
+    meaning = match[3] if unit or not match[5] else f"{match[3]}, {match[5]}"
+    pure = "-" if measured and _PURE.search(meaning) else ""
+    return (match[1] or match[2]).replace("$", ""), meaning, unit or pure
 
 
 def _in_a_row(run: Sequence[re.Match[str]], text: str) -> list[re.Match[str]]:

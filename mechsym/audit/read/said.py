@@ -152,7 +152,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     for symbol, about in written.items():
         if plain := _plain(symbol, words, twofold):
             named.setdefault(plain, about)
-    ahead: dict[str, str] = {plain: about.meaning for plain, about in named.items()}
+    ahead: dict[str, str] = {plain: about.meaning for plain, about in named.items() if about.meaning}
     for symbol, phrase in called(text).items():
         if plain := _plain(symbol, words, twofold):
             ahead[plain] = phrase

@@ -29,6 +29,7 @@ _LOADED = re.compile(
     re.IGNORECASE,
 )
 _STRAINED = re.compile(r"\b(bent|twisted)\s+(?:by|with)\s+the\s+(?:shear\s+)?stress$")
+_STORES = re.compile(r"\bstores$")
 _SWINGS = re.compile(r"\b(?:swings?|vibrates?|oscillates?)\b[^.;]*\bwith$")
 _BORNE = re.compile(r"^and\s+the\s+([a-z]+(?:\s[a-z]+)?)\s+the\s+force$")  # the guide carries .., and the rod the force
 # the energy of the flywheel at the mean speed
@@ -36,6 +37,9 @@ _AT_LAST = re.compile(r"(\bof\s+(?:the|an?|its)\s+[a-z-]+)\s+(?:at|with|for|unde
 _MOVES = re.compile(r"\s(?:runs|lies|moves|turns|rotates|swings|acts|works|flows|stands)$")  # the engine runs with
 _BESIDE = re.compile(r"\s(?:with|at|for|in|by|from|to|between|under)\s")  # what a quantity is of ends there
 _AT_DEAD_CENTRE = re.compile(r"\bat (?:the )?(top|bottom) dead cent(?:re|er)\b", re.IGNORECASE)
+_LEFT = re.compile(r"\bwhat (?:is left|remains) of\b|\bthe (?:rest|remainder) of\b", re.IGNORECASE)
+_THAT_OF = re.compile(r"^(?:and\s+|The\s+)?that of ([a-z]+(?: [a-z]+){0,2}?)(?:\s+is)?$", re.IGNORECASE)
+_HEAD_OF = re.compile(r"\b(?:the|its)\s+((?:[a-z-]+\s+)?[a-z-]+) of\b", re.IGNORECASE)
 _LAST = 6  # words in front of an equation
 # names with an `of` of their own
 _FUSED = re.compile(
@@ -64,11 +68,19 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     words, spoken, sentence = _sentence(before)
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     sentence = re.sub(r"(?:^|\s*,\s+)that is\s*,\s+", " ", sentence)
-    # the radial force, at a pressure angle, is
-    bare = re.sub(r"\s*,\s+(?:at|with|without|for|in|by)\s+[^,]*$", "", _CLOSING.sub("", sentence))
-    bare = _CLOSING.sub("", bare)
+    if _LEFT.search(sentence):
+        return "", ""  # of a quantity another one is left
+    if (that := _THAT_OF.search(sentence)) and (heads := _HEAD_OF.findall(words[: -len(spoken)])):
+        return "", f"{heads[-1]} of {that[1]}"  # the force of first order .., and that of second order
+    bare = _CLOSING.sub("", sentence)
+    shorter = re.sub(r"\s*,\s+(?:at|with|without|for|in|by)\s+[^,]*$", "", bare)
+    if bare != sentence or _CLOSING.search(shorter):  # the radial force, at a pressure angle, is
+        bare = _CLOSING.sub("", shorter)
     if _GIVEN_WITH.search(spoken):
         bare = re.sub(r"\s+(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*$", "", bare)
+    clause = re.split(r",\s+and\s+(?=(?:the|its)\s)", bare)[-1]
+    if clause != bare and not _VERB.search(clause):  # the work is .., and the mean pressure
+        bare = clause
     bare = _AT_LAST.sub(r"\1", _FUSED.sub(r"\1-of-\2", bare))
     tail = _FOR.sub("", " ".join(bare.split()[-_LAST:]).replace("-of-", " of "))
     if not alone:
@@ -92,6 +104,8 @@ def _by_verb(bare: str) -> str:
     """What a verb says without a name: what carries bears a force, what swings has a frequency."""
     if strained := _STRAINED.search(bare):
         return {"bent": "bending stress", "twisted": "torsional stress"}[strained[1]]
+    if _STORES.search(bare):
+        return "stored energy"
     if _SWINGS.search(bare):
         return "natural frequency"
     if borne := _BORNE.search(bare):

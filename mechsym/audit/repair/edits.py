@@ -170,6 +170,8 @@ def _tidy(node: Node, printed: set[int]) -> Node:
         return node.left
     if left == 1 and is_operation(node, ast.Mult):
         return node.right
+    if is_operation(node, ast.Mult) and isinstance(node.right, ast.Name):
+        return _squared(node, node.right)
     if left is not None and right is not None and is_operation(node, ast.Mult):
         return number(left * right, decimal=True)
     if is_operation(node, ast.Div) and left is not None and right and left.denominator == right.denominator == 1:
@@ -178,6 +180,15 @@ def _tidy(node: Node, printed: set[int]) -> Node:
         one, other = (node.right, node.left.right) if right is not None else (node.left.right, node.right)
         return binary(ast.Div, node.left.left, _led_by(one, other))
     return _with_one_pi(node)
+
+
+def _squared(node: ast.BinOp, last: ast.Name) -> Node:
+    # a*x*x
+    before = node.left.right if is_operation(node.left, ast.Mult) else node.left
+    if not isinstance(before, ast.Name) or before.id != last.id:
+        return node
+    square = binary(ast.Pow, last, number(2))
+    return square if before is node.left else binary(ast.Mult, node.left.left, square)  # type: ignore[attr-defined]
 
 
 def _added_up(node: ast.BinOp) -> Node:
