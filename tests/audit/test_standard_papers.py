@@ -190,3 +190,52 @@ def test_two_cylinders_are_not_those_of_a_machine_of_one(tmp_path):
     )
     one, two = (judged(tmp_path, text % title, "text.md")[-1] for title in ("Of one cylinder", "Of a twin"))
     assert "twin" not in one["matched"] and "twin" in two["matched"]
+
+
+def test_a_place_behind_its_name_changes_no_unit(tmp_path):
+    text = "| $\\rho_0$ | density upstream | %s |\n|---|---|---|\n| $v$ | velocity | m/s |\n\n$$ q = \\rho_0 v $$"
+    notes = [judged(tmp_path, text % unit, "text.md")[-1]["note"] for unit in ("kg", "kg/m^3")]
+    assert "rho0 in kg, and this wants kg/m^3" in notes[0] and "wants" not in notes[1]
+
+
+RIM = "A %s of the radius $R$ in m with the mass $m$ in kg has the moment of inertia about its axis\n$$ J = %s m R^2 $$"
+
+
+@pytest.mark.parametrize(
+    ("body", "share", "right"),
+    [("rim", r"\frac12", "m R^2"), ("disc", "", r"\frac12 m R^2"), ("rim", "", ""), ("disc", r"\frac12", "")],
+)
+def test_a_rim_is_no_disc(tmp_path, body, share, right):
+    row = judged(tmp_path, RIM % (body, share), "text.md")[-1]
+    assert same(row["correction"], right) if right else row["verdict"] == "exact"
+
+
+def test_an_efficiency_is_what_comes_out_by_what_goes_in(tmp_path):
+    text = (
+        "With the thrust $T$ in N, the speed of advance $v_a$ in m/s and the delivered power $P_D$ in W\n"
+        "the efficiency of the propeller is\n$$ \\eta = %s $$"
+    )
+    right, wrong = r"\frac{T v_a}{P_D}", r"\frac{P_D}{T v_a}"
+    rows = [judged(tmp_path, text % form, "text.md")[-1] for form in (right, wrong)]
+    assert rows[0]["verdict"] == "exact" and rows[1]["verdict"] == "misprint" and same(rows[1]["correction"], right)
+
+
+def test_a_mean_with_a_slip_does_not_come_back_to_what_is_solved_by_it(tmp_path):
+    text = (
+        "The flywheel gives the work\n$$ D = W(1-e) $$\n\nor between the speeds\n"
+        "$$ D = \\frac12 J(\\omega_1^2 - \\omega_2^2). $$\n\nWith the mean speed\n"
+        "$$ \\omega_m = \\frac{\\omega_1 - \\omega_2}{2} $$\n\nand the coefficient of fluctuation\n"
+        "$$ C = \\frac{\\omega_1 - \\omega_2}{\\omega_m} $$\n\nits moment of inertia is\n"
+        "$$ J = \\frac{D}{C\\omega_m^2} $$"
+    )
+    rows = blamed(judged(tmp_path, text, "text.md"))
+    assert [row["line"] for row in rows] == [8] and same(rows[0]["correction"], r"\frac{\omega_1 + \omega_2}{2}")
+
+
+def test_a_force_in_the_rod_is_the_force_of_the_rod(tmp_path):
+    text = (
+        "Under the piston force $F$ the rod of length $l$ on the crank of radius $r$ is inclined by\n"
+        "$$ \\sin\\beta = \\frac{r}{l}\\sin\\varphi, $$\n\nthe force in the rod\n$$ S = %s $$"
+    )
+    rows = [judged(tmp_path, text % form, "text.md")[-1] for form in (r"\frac{F}{\cos\beta}", r"F\cos\beta")]
+    assert [row["verdict"] for row in rows] == ["exact", "misprint"]

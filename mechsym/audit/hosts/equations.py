@@ -302,6 +302,11 @@ class Judge:
     def _pair(self, order: int, said: Said, i: int, k: int) -> Judged:
         nothing = Judged(verdict="")
         theory = self.world.theory(order)
+        own = getattr(said.sides[i], "id", "")
+        if any(
+            d.order > order and own in letters(d.tree) for d in self.world.defined if d.letter in letters(said.sides[k])
+        ):
+            return nothing  # which is solved for that letter later
         left, right = known(self.world, said.sides[i], theory), known(self.world, said.sides[k], theory)
         if value_of(right) == 0 and value_of(left) is None and not (free(theory, left)):
             return nothing

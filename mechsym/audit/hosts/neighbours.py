@@ -167,7 +167,7 @@ class Neighbours:
     def _is_settled(self, near: Near) -> bool:
         # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is
         own = near.fitted.claim
-        return any(
+        return "efficiency" in near.quantity or any(  # which is no more than 1
             other.fitted.theory is near.fitted.theory
             and other.quantity == near.quantity
             and (other.fitted.claim.name, other.fitted.claim.line) == (own.name, own.line)

@@ -167,12 +167,15 @@ class Worded:
 
 
 def _ruled_out(before: str, prose: str) -> str:
-    """What names of quantities have that a text speaks against: of a disc that it is a ring, and of engines with two
-    strokes and with four the kind that the sentence in front of an equation does not name, or that a text never names.
+    """What names of quantities have that a text speaks against: of a disc that it is a ring, of a ring that it is a
+    disc, and of engines with two strokes and with four the kind that the sentence in front of an equation does not
+    name, or that a text never names.
     """
     last = re.split(r"[.;]\s", before.strip())[-1]
     if re.search(r"\b(?:disc|disk|solid cylinder)\b", last, re.IGNORECASE):
         return "thin_ring"
+    if re.search(r"\b(?:rim|ring|hoop)\b", last, re.IGNORECASE):
+        return "cylinder"
     for words in (last, prose):
         named = {word.lower() for word in re.findall(r"\b(two|four)[- ]stroke", words, re.IGNORECASE)}
         if named:

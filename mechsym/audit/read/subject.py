@@ -134,6 +134,9 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
     headed = re.search(
         rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|at|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
     )
+    within = re.match(
+        rf"(?:and\s+)?(?:the|its)\s+({_SHORT})\s+(?:in|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
+    )
     # The heat that leaves is, and the angle that was turned by then
     relative = re.match(rf"(?:{'The|An?|' * ends}and the)\s+({_SHORT})\s+(?:that|which)\b", bare)
     last = re.search(rf"(?:.*(?<!\bof)\s|^)(?:the|its|an?|and)\s+({_SHORT})$", bare, re.IGNORECASE)
@@ -157,12 +160,14 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
         or onto
         or (first if not verb else None)
         or beside
-        or (headed if ends else None)
+        or (headed if ends else within)
         or (last if ends or not verb else None)
     )
     if chosen is None or chosen in (last, behind) and _LETTER_LAST.search(spoken):
         return "", ""
     plain = re.sub(r"^(?:the|its|an?|and the|and its)\s+", "", bare, flags=re.IGNORECASE)
+    if chosen is within:
+        return chosen[1], bare[within.start(1) :]
     return chosen[1], _BESIDE.split(plain)[0] if chosen is first else ""
 
 

@@ -73,9 +73,14 @@ def unit_of(text: str) -> str | None:
     return text if text.strip() else None
 
 
+_PLACES = {"upstream", "downstream", "inside", "outside", "above", "below", "ahead", "behind"}
+
+
 def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
     """What a letter is measured in by its name; indexed: whether some letter of the text is a diameter d_i."""
     words = re.findall(r"[a-z]+", re.split(r"\b(?:that|which)\b", meaning.lower().replace("'s", ""))[0])
+    while len(words) > 1 and words[-1] in _PLACES:
+        words.pop()
     called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
     called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
     step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
