@@ -169,7 +169,7 @@ class Worded:
 def _ruled_out(before: str, prose: str) -> str:
     """What names of quantities have that a text speaks against: of a disc that it is a ring, of a ring that it is a
     disc, and of engines with two strokes and with four the kind that the sentence in front of an equation does not
-    name, or that a text never names.
+    name, or that a text never names; of what is no engine all of these.
     """
     last = re.split(r"[.;]\s", before.strip())[-1]
     if re.search(r"\b(?:disc|disk|solid cylinder)\b", last, re.IGNORECASE):
@@ -180,4 +180,4 @@ def _ruled_out(before: str, prose: str) -> str:
         named = {word.lower() for word in re.findall(r"\b(two|four)[- ]stroke", words, re.IGNORECASE)}
         if named:
             return {"two": "four_stroke", "four": "two_stroke"}[named.pop()] if len(named) == 1 else ""
-    return ""
+    return "" if re.search(r"engine|diesel|motor|otto", prose, re.IGNORECASE) else "_stroke"

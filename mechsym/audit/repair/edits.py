@@ -170,8 +170,8 @@ def _tidy(node: Node, printed: set[int]) -> Node:
         return node.left
     if left == 1 and is_operation(node, ast.Mult):
         return node.right
-    if is_operation(node, ast.Mult) and isinstance(node.right, ast.Name):
-        return _squared(node, node.right)
+    if is_operation(node, ast.Mult) and (square := _squared(node)) is not None:
+        return square
     if left is not None and right is not None and is_operation(node, ast.Mult):
         return number(left * right, decimal=True)
     if is_operation(node, ast.Div) and left is not None and right and left.denominator == right.denominator == 1:
@@ -182,11 +182,12 @@ def _tidy(node: Node, printed: set[int]) -> Node:
     return _with_one_pi(node)
 
 
-def _squared(node: ast.BinOp, last: ast.Name) -> Node:
+def _squared(node: ast.BinOp) -> Node | None:
     # a*x*x
     before = node.left.right if is_operation(node.left, ast.Mult) else node.left
-    if not isinstance(before, ast.Name) or before.id != last.id:
-        return node
+    last = node.right
+    if not isinstance(last, ast.Name) or not isinstance(before, ast.Name) or before.id != last.id:
+        return None
     square = binary(ast.Pow, last, number(2))
     return square if before is node.left else binary(ast.Mult, node.left.left, square)  # type: ignore[attr-defined]
 
