@@ -78,7 +78,9 @@ FOLLOWING = {"marine": {122}, "rodless_dynamics": {55}}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", PLANTED)
+@pytest.mark.parametrize(
+    "name", [*BY_LENGTH[:40], *(pytest.param(name, marks=pytest.mark.heavy) for name in BY_LENGTH[40:])]
+)
 def test_a_text_with_its_slips_corrected_is_left_in_peace(name, tmp_path):
     (path,) = (p for p in TEXTS.glob(f"{name}.*"))
     text, mended = corrected(path.read_text(), PLANTED[name])

@@ -239,3 +239,14 @@ def test_a_force_in_the_rod_is_the_force_of_the_rod(tmp_path):
     )
     rows = [judged(tmp_path, text % form, "text.md")[-1] for form in (r"\frac{F}{\cos\beta}", r"F\cos\beta")]
     assert [row["verdict"] for row in rows] == ["exact", "misprint"]
+
+
+def test_a_ratio_of_lengths_is_put_in_for_no_length(tmp_path):
+    inside = r"\left(\sin\varphi + \frac{\lambda}{2}\sin 2\varphi\right)^2"
+    text = (
+        "The crank ratio is\n$$ \\lambda = \\frac{r}{l} $$\n\nand the kinetic energy\n"
+        f"$$ T = \\frac12 I_0\\dot\\varphi^2 + \\frac12 m r^2 {inside}\\dot\\varphi^2. $$\n\n"
+        f"The reduced moment of inertia is\n$$ I = I_0 + %s m r^2 {inside} $$"
+    )
+    rows = [judged(tmp_path, text % share, "text.md")[-1] for share in ("", r"\frac12")]
+    assert [row["verdict"] for row in rows] == ["exact", "misprint"]

@@ -54,6 +54,11 @@ class Neighbours:
             if near.away == 0.0 and near.quantity in near.fitted.quantities and len(near.fitted.meanings) > 1
         ]
 
+        self.exact: dict[tuple[str, str, str], set[str]] = {}  # theory, quantity and function to the names that are it
+        for near in (near for every in self.near.values() for near in every if near.away == 0.0):
+            own = near.fitted.claim
+            self.exact.setdefault((near.fitted.theory.name, near.quantity, own.scope), set()).add(own.name)
+
     def outcome(self, claim: Claim) -> Row | None:
         """The best of what theories say of a claim: it agrees with one, is a slip away from one, or differs from it."""
         every = self.near[id(claim)]
@@ -155,14 +160,8 @@ class Neighbours:
     def _has_other_name(self, near: Near) -> bool:
         # not called so, where another letter of the same function is that quantity
         own = near.fitted.claim
-        return near.quantity not in near.fitted.quantities and any(
-            (other.away, other.quantity) == (0.0, near.quantity)
-            and other.fitted.theory is near.fitted.theory
-            and other.fitted.claim.scope == own.scope
-            and other.fitted.claim.name != own.name
-            for every in self.near.values()
-            for other in every
-        )
+        others = self.exact.get((near.fitted.theory.name, near.quantity, own.scope), set()) - {own.name}
+        return bool(others) and near.quantity not in near.fitted.quantities
 
     def _is_settled(self, near: Near) -> bool:
         # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is

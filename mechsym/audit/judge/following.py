@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Iterator
 from functools import reduce
+from typing import TypeGuard
 
 from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.motion import ANGLES, KINETIC
@@ -281,7 +282,7 @@ def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:
     ratios = {
         d.tree.left.id: times(name(d.letter), d.tree.right)
         for d in world.defined
-        if d.letter in used and is_operation(d.tree, ast.Div) and isinstance(d.tree.left, ast.Name)
+        if d.letter in used and is_operation(d.tree, ast.Div) and _is_rate(d.tree.left) and _is_rate(d.tree.right)
     }
     for note, whole in _kinetic(world, order):
         energy = substitute(whole, lambda n: ratios.get(n.id) if isinstance(n, ast.Name) else None)
@@ -290,6 +291,10 @@ def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:
         for rate in dict.fromkeys(rates.values()):
             tree = over(times(number(2), energy), times(name(rate), name(rate)))
             yield Expected(tree=tree, printed=printed, note=note)
+
+
+def _is_rate(tree: Node) -> TypeGuard[ast.Name]:
+    return isinstance(tree, ast.Name) and (tree.id.endswith("d") or tree.id.startswith(SPEEDS))
 
 
 def _kinetic(world: World, order: int) -> Iterator[tuple[str, Node]]:
