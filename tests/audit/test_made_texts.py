@@ -31,9 +31,12 @@ def test_every_text_has_its_list():
 BY_LENGTH = sorted(PLANTED, key=lambda name: max(path.stat().st_size for path in TEXTS.glob(f"{name}.*")))
 
 
-@pytest.mark.parametrize(
-    "name", [*BY_LENGTH[:40], *(pytest.param(name, marks=pytest.mark.slow) for name in BY_LENGTH[40:])]
-)
+def _long(mark):
+    # the names of all texts, the long ones marked
+    return [*BY_LENGTH[:40], *(pytest.param(name, marks=mark) for name in BY_LENGTH[40:])]
+
+
+@pytest.mark.parametrize("name", _long(pytest.mark.slow))
 def test_planted_slips_are_found_and_nothing_else_is_blamed(name):
     (path,) = (p for p in TEXTS.glob(f"{name}.*"))
     rows, cover = check_texts(read_texts(path))
@@ -78,9 +81,7 @@ FOLLOWING = {"marine": {122}, "rodless_dynamics": {55}}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "name", [*BY_LENGTH[:40], *(pytest.param(name, marks=pytest.mark.heavy) for name in BY_LENGTH[40:])]
-)
+@pytest.mark.parametrize("name", _long(pytest.mark.heavy))
 def test_a_text_with_its_slips_corrected_is_left_in_peace(name, tmp_path):
     (path,) = (p for p in TEXTS.glob(f"{name}.*"))
     text, mended = corrected(path.read_text(), PLANTED[name])

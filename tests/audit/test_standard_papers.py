@@ -1,6 +1,8 @@
 """What papers of engines in the usual form say of their own equations: letters as exponents, units, energies, words."""
 
 from fractions import Fraction
+from itertools import permutations
+from math import cos, sin
 
 import pytest
 from audited import blamed, judged, same
@@ -30,6 +32,14 @@ def test_exponents_with_letters_add_up_where_they_cancel():
     assert exponent(_tree("-n")) == -n != exponent(_tree("-m"))
     assert exponent(_tree("sin(n)")) is exponent(_tree("n**2")) is exponent(_tree("1/(n - n)")) is None
     assert is_left([n]) and not is_left([n - n, Fraction(7, 12)])
+
+
+def test_no_letter_of_an_exponent_hides_in_a_small_denominator():
+    forms = "{0} 1-{0} 1/(1-{0}) 1/({0}+1) ({0}-1)/{0} {0}/({0}-1) 1/(2*{0}-1) 1/(2*{0}+1)"
+    forms += " {0}*{1} {0}/{1} {0}-{1} ({0}-1)/{1}"
+    for one, other in permutations(("n", "m", "k", "kappa", "gamma", "n1", "n_p", "alpha", "a", "s"), 2):
+        for form in forms.split():
+            assert is_left([exponent(_tree(form.format(one, other)))]), form.format(one, other)
 
 
 @pytest.mark.parametrize(
@@ -90,12 +100,7 @@ def test_what_a_sentence_gives(before, told):
 def test_a_thin_space_ends_the_argument_of_a_sine():
     tree, _ = read_latex(r"a\sin\varphi\,\frac{b}{c} + \cos 2\theta\;\frac{1}{d}")
     at = {"a": 2.0, "phi": 0.3, "b": 5.0, "c": 7.0, "theta": 0.4, "d": 3.0}
-    values = {
-        k: at[{"varphi": "phi"}.get(k, k)] for k in ("a", "varphi", "phi", "b", "c", "theta", "d") if k != "varphi"
-    }
-    from math import cos, sin
-
-    assert float(evaluate(tree, values, FLOATS)) == pytest.approx(2 * sin(0.3) * 5 / 7 + cos(0.8) / 3, rel=1e-14)
+    assert float(evaluate(tree, at, FLOATS)) == pytest.approx(2 * sin(0.3) * 5 / 7 + cos(0.8) / 3, rel=1e-14)
 
 
 WAY = (
@@ -249,4 +254,14 @@ def test_a_ratio_of_lengths_is_put_in_for_no_length(tmp_path):
         f"The reduced moment of inertia is\n$$ I = I_0 + %s m r^2 {inside} $$"
     )
     rows = [judged(tmp_path, text % share, "text.md")[-1] for share in ("", r"\frac12")]
+    assert [row["verdict"] for row in rows] == ["exact", "misprint"]
+
+
+def test_a_compressor_has_no_strokes_of_an_engine(tmp_path):
+    text = (
+        "The piston of the compressor goes from the bottom dead centre to the top.\n"
+        "The work of a turn is\n$$ W = p V_s. $$\n\nAt $N$ revolutions per minute the indicated power is\n"
+        "$$ P_i = \\frac{W N}{%d} $$"
+    )
+    rows = [judged(tmp_path, text % number, "text.md")[-1] for number in (60, 120)]
     assert [row["verdict"] for row in rows] == ["exact", "misprint"]

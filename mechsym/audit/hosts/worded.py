@@ -180,4 +180,4 @@ def _ruled_out(before: str, prose: str) -> str:
         named = {word.lower() for word in re.findall(r"\b(two|four)[- ]stroke", words, re.IGNORECASE)}
         if named:
             return {"two": "four_stroke", "four": "two_stroke"}[named.pop()] if len(named) == 1 else ""
-    return "" if re.search(r"engine|diesel|motor|otto", prose, re.IGNORECASE) else "_stroke"
+    return "" if re.search(r"\b(?:engines?|diesel|motors?|otto)\b", prose, re.IGNORECASE) else "_stroke"

@@ -1,17 +1,22 @@
 """Exponents of units where a formula has letters for them: H^n/(H - z)^n is a number for every n.
 
-A letter stands for one number that nobody prints. What fits with it fits for all values of the letter; a unit in which
-it is left is none.
+A letter stands for one number that nobody prints: a prime by a larger one, so that no sum, product or quotient of
+several has a small denominator but where they cancel. What fits with it fits for all values of the letter; a unit in
+which it is left is none.
 """
 
 import ast
 from collections.abc import Iterable
 from fractions import Fraction
+from functools import cache
 from hashlib import blake2b
+
+import sympy
 
 from mechsym.audit.read.tree import Node, value_of
 
-_LARGEST = 10_007  # a prime: no denominator of a unit
+_BELOW, _FROM, _MANY = 1_000_003, 550_000, 150_000  # the prime that all are divided by; where theirs begin
+_SMALL = 1000  # denominators of units are smaller
 
 
 def exponent(tree: Node) -> Fraction | None:
@@ -20,8 +25,7 @@ def exponent(tree: Node) -> Fraction | None:
     if value is not None:
         return value
     if isinstance(tree, ast.Name):
-        drawn = int.from_bytes(blake2b(tree.id.encode(), digest_size=4).digest())
-        return Fraction(drawn % (_LARGEST - 1) + 1, _LARGEST)
+        return _drawn(tree.id)
     if isinstance(tree, ast.UnaryOp):
         inner = exponent(tree.operand)
         return None if inner is None else -inner
@@ -37,4 +41,10 @@ def exponent(tree: Node) -> Fraction | None:
 
 def is_left(kind: Iterable[Fraction]) -> bool:
     """Whether a letter is left in the exponents of a unit."""
-    return any(power.denominator > _LARGEST // 10 for power in kind)
+    return any(power.denominator >= _SMALL for power in kind)
+
+
+@cache
+def _drawn(letter: str) -> Fraction:
+    place = int.from_bytes(blake2b(letter.encode(), digest_size=4).digest()) % _MANY
+    return Fraction(int(sympy.nextprime(_FROM + place)), _BELOW)

@@ -51,8 +51,8 @@ class Clash(BadInput):
     """Two parts of an expression that have different units."""
 
 
-class Unknown(Exception):  # noqa: N818 not an error: nothing can be said
-    pass
+class Unknown(Exception):  # noqa: N818 not an error
+    """Nothing can be said of a unit: a letter of it is not known, or a number may carry one."""
 
 
 @dataclass

@@ -29,18 +29,18 @@ _FUNCTIONS = {
 _SEVERAL = ("atan2", "min", "max", "hypot")
 _FUNCTIONS |= {n: n for n in (*_SEVERAL, "sinh", "cosh", "tanh", "sec", "csc")} | {"sen": "sin"}
 SINGLE = (*(n for n in _FUNCTIONS if n not in _SEVERAL),)  #: Functions of one argument, as they are written
-_LONGEST, _FRACTIONS = 400, {"\\frac", "\\dfrac", "\\tfrac"}  # digits of a number; what divides
+_LONGEST = 400  # digits of a number
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
 # {\sin}^2 and {\sin^2}, \mathrm around signs: braces that say nothing; \sin\varphi\,\frac{a}{b}: a space that ends it
 _ONE = rf"\\(?:{'|'.join(sorted(SINGLE, key=len, reverse=True))})"
-_BRACED = (
+_REWRITTEN = (
     (re.compile(rf"\{{\s*({_ONE})\s*\}}"), r"\1 "),
     (re.compile(rf"\{{\s*({_ONE})\s*(\^\s*(?:\{{[^{{}}]*\}}|\w))\s*\}}"), r"\1\2 "),
     (re.compile(r"\\(?:mathrm|mathit|mathbf|mathsf)\s*\{([^{}]*\\[^{}]*)\}"), r"{\1}"),
     (re.compile(rf"({_ONE}(?:\^\{{?\d\}}?)?\s*\d?\s*\\?[A-Za-z]+(?:_\w)?)\s*\\[,;:]\s*(?=\\[dt]?frac)"), r"\1\\cdot "),
 )
 _TIMES, _OVER = {"*", "\\cdot", "\\times", ".", "\\ast", "\\bullet", "·"}, {"/", "\\div", ":"}
-_SUMS = ("+", "-", "\\pm", "\\mp")
+_SUMS, _FRACTIONS = ("+", "-", "\\pm", "\\mp"), {"\\frac", "\\dfrac", "\\tfrac"}
 _STOP = {")", "]", "}", "\\}", "|", "\\over", "", ",", *_SUMS}
 _SPELLED = (*sorted({*_FUNCTIONS, "asin", "acos", "atan", "sqrt"}, key=len, reverse=True),)
 
@@ -48,7 +48,7 @@ _SPELLED = (*sorted({*_FUNCTIONS, "asin", "acos", "atan", "sqrt"}, key=len, reve
 def read_latex(text: str, whole: bool = False, way: Way = ASKED) -> tuple[Node, dict[str, str]]:
     """Read LaTeX without an equals sign: the tree, and plain names to the LaTeX that was written for them."""
     text = typeset(text).replace("ℓ", r"\ell ")
-    for pattern, instead in _BRACED:
+    for pattern, instead in _REWRITTEN:
         text = pattern.sub(instead, text)
     silent = _SILENT if r"\begin" in text else {*_SILENT, "&"}
     cursor = Cursor([t for t in _TOKEN.findall(text) if t not in silent], whole=whole, way=way)
