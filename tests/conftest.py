@@ -15,7 +15,7 @@ from mechsym.quantities.display import choose
 
 # Hundreds of files are compiled for the tests; these rooms look at what users get, the others do without the last
 # optimisation
-_AS_USERS = ("generated", "matrix", "native", "proof")
+_AS_USERS = ("generated", "native", "proof")
 _QUICK = "MECHSYM_TESTS_QUICK"  # told to workers, which see the CC that is set here
 if "CC" not in os.environ:
     with contextlib.suppress(compiler.NoCompiler):
@@ -32,7 +32,8 @@ def pytest_addoption(parser):
 
 @pytest.fixture(autouse=True)
 def _compiled_as_for_users(request, monkeypatch):
-    if _QUICK in os.environ and request.path.parent.name in _AS_USERS:
+    as_users = request.path.parent.name in _AS_USERS or request.node.get_closest_marker("as_users")
+    if _QUICK in os.environ and as_users:
         monkeypatch.delenv("CC", raising=False)
 
 

@@ -40,8 +40,10 @@ def asked_once(
     beside: Sequence[Near] = (),
     of_angle: Sequence[Near] = (),
     settled: bool = False,
+    from_top: bool = False,
 ) -> tuple[Row, Repair | None]:
-    """The row of a formula, of one slip at most, with its repair; twice: the same one may stand in both halves.
+    """The row of a formula, of one slip at most, with its repair; twice: the same one may stand in both halves;
+    settled, from_top: no other way of counting a letter or the angle is open.
 
     beside, of_angle: others of the same program that agree, which have the same letters and count the same angle.
     """
@@ -53,7 +55,7 @@ def asked_once(
             verdict = decide(question, one=True)
         if verdict.verdict == "untestable" and _is_told_otherwise(verdict.note, own, beside):
             verdict = decide(question, settled=True, one=True)
-        right = also_exact(question) if verdict.verdict not in PASSED else ()
+        right = also_exact(question, from_top) if verdict.verdict not in PASSED else ()
         if right and any(not _holds_beside(near, right, own) for near in of_angle):
             right = ()
     except BadInput as error:
@@ -206,12 +208,14 @@ def _slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row |
         tree = _negative(form.tree) if turned else form.tree
         rest = at_rest(fitted.theory, form)
         text = to_python(tree)
-        row, repair = asked_once(text, fitted.theory, quantity, own, rest, twice, beside, of_angle, near.settled)
+        row, repair = asked_once(
+            text, fitted.theory, quantity, own, rest, twice, beside, of_angle, near.settled, fitted.claim.from_top
+        )
         if row["verdict"] in PASSED:
             # it passes as what: exact, a truncation, by a convention
             return row | {"verdict": "agrees", "passed": row["verdict"]}
         if row["verdict"] == "misprint" and repair is not None:
-            repair = replace(repair, tree=trees.substitute(repair.tree, lambda n: renamed_to(n, _own_names(own))))
+            repair = replace(repair, tree=_in_own_letters(repair.tree, fitted.theory, own))
             if _explains(repair, near, tree, own, beside):
                 row |= {"correction": to_python(_negative(repair.tree) if turned else repair.tree)}
                 meant = {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}
@@ -240,6 +244,20 @@ def _is_negative(tree: Node) -> bool:
 def _own_names(own: Mapping[str, str]) -> dict[str, str]:
     # the program's letter for what the theory calls otherwise
     return {meaning: letter for letter, meaning in own.items() if meaning.isidentifier() and meaning not in own}
+
+
+def _in_own_letters(tree: Node, theory: Theory, own: Mapping[str, str]) -> Node:
+    """In the program's letters, with what it has none for written out in them: the rest of a length."""
+    names = _own_names(own)
+
+    def written(node: Node) -> Node | None:
+        if not isinstance(node, ast.Name) or node.id in (*own, *own.values()):
+            return None
+        entry = theory.tape.get(node.id)
+        is_rest = isinstance(entry, ast.BinOp) and isinstance(entry.op, ast.Sub)
+        return entry if is_rest and {*letters(entry)} <= {*own.values()} else None  # type: ignore[arg-type, return-value]
+
+    return trees.substitute(trees.substitute(tree, written), lambda n: renamed_to(n, names))
 
 
 def _renamed(row: Row, fitted: Fitted, own: Mapping[str, str]) -> Row:

@@ -35,6 +35,7 @@ from mechsym.audit.theory.record import Theory
 
 _SUM = "forcesum"  # letter for a sum of forces
 # slider cranks are counted from the other dead centre in every theory
+_FROM_TOP = re.compile(r"\b(?:from|after|past)\s+(?:the\s+|its\s+)?(?:top|inner|upper)\s+dead\s+cent", re.IGNORECASE)
 _FROM_BOTTOM = re.compile(r"\b(?:counted|measured|taken)\s+from\s+(?:the\s+|its\s+)?(?:bottom|outer|lower)\s+dead")
 
 
@@ -63,6 +64,7 @@ class Worded:
         called = {k: words for k, words in paper.called.items() if k not in vague}
         turning = {n for n in self.world.used if n.rstrip("0123456789") in self.world.kinds.turns and n not in called}
         called |= dict.fromkeys((*self.world.kinds.turns, *sorted(turning)), "revolutions per minute")
+        from_top = any(_FROM_TOP.search(text) for text in (paper.prose, *called.values()))
         for order, said in enumerate(paper.said):
             if not said.sides or said.claim or said.inline:
                 continue
@@ -88,7 +90,7 @@ class Worded:
                         scope="", name=left, tree=tree, line=said.shown.line, about=about, case=0, values=others,
                         abouts=called | {_SUM: "resulting force"}, ruled_out=_ruled_out(said.before, paper.prose),
                         whole=said.about if said.about.startswith(about) else "",
-                        parameters=tuple(called),
+                        parameters=tuple(called), from_top=from_top,
                         written={name: tree for name, tree in values.items() if name != left},
                     )  # fmt: skip
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}

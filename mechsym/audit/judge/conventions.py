@@ -133,11 +133,14 @@ def _shifted(shift: Mapping[str, Node], node: Node) -> Node | None:
     return shift.get(node.id) if isinstance(node, ast.Name) else None
 
 
-def also_exact(question: Question) -> tuple[str, ...]:
-    """Under which other conventions a formula would be exact; none where there is none."""
+def also_exact(question: Question, from_top: bool = False) -> tuple[str, ...]:
+    """Under which other conventions a formula would be exact; none where there is none.
+
+    from_top: the author says that the angle counts from the top dead centre.
+    """
     if not question.theory.angle or question.theory.angle in question.hold:
         return ()
-    for angle in ("", *_ANGLES):
+    for angle in ("", *_ANGLES) if not from_top else ("", "reversed"):
         for sign in ((), ("sign",)):
             chosen = (*((angle,) if angle else ()), *sign)
             if chosen and holds_with(question, chosen):

@@ -32,6 +32,7 @@ _UNFIT = re.compile("_(?:constraints|truncated|printed)$")  # what an author has
 _INNER = re.compile(
     "residual_|bias|force_phi|force_theta|force_alpha|R_[xy]_|.*_phi$|generalized_force|.*energy"
 )  # names that no text has
+_FORCE = re.compile(r"\b(?:gas|driving|external|applied|useful)\b.*\bforce\b|\bforce of the gas\b", re.IGNORECASE)
 _SPARE = {"force", "piston", "of", "on", "the", "total"}
 
 
@@ -211,7 +212,15 @@ def _choices(fit: Match, world: World, letter: str, strong: bool) -> list[str]:
     kind = world.kinds.of(letter)
     if not strong:
         return []  # a product of three letters is one of many things
-    return [n for n in fit.of_kind(kind) if kind is not None or n in fit.theory.letters or n in fit.theory.results][:24]
+    every = [n for n in fit.of_kind(kind) if kind is not None or n in fit.theory.letters or n in fit.theory.results]
+    return [n for n in every if n in fit.theory.letters or not _is_called_otherwise(n, world.phrase(letter))][:24]
+
+
+def _is_called_otherwise(quantity: str, about: str) -> bool:
+    # the gas force is no normal force
+    words = quantity.split("_")
+    plain = {w for w in words if len(w) > 3} - _SPARE
+    return len(words) > 1 and bool(plain) and bool(_FORCE.search(about)) and not any(w in about for w in plain)
 
 
 def _quantity(fit: Match, world: World, value: np.ndarray, reading: Mapping[str, str], left: str) -> tuple[str, int]:

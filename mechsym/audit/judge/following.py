@@ -4,6 +4,7 @@ import ast
 import math
 import re
 from collections.abc import Iterator
+from fractions import Fraction
 from functools import reduce
 from typing import TypeGuard
 
@@ -31,6 +32,9 @@ from mechsym.audit.read.tree import (
     number,
     renamed,
     substitute,
+    summands,
+    value_of,
+    walk,
 )
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, slope_by, times
@@ -55,7 +59,11 @@ _SPEED, _WAYS = re.compile(r"\b(?:speeds?|velocit(?:y|ies))\b", re.IGNORECASE), 
 _AT_A_VALUE = re.compile(
     rf"\b(?:At|For|With|Where)\s+\$({SIGN})\s*=\s*([^$=]+)\$\s+(?:this|that|it)\s+(?:is|becomes|gives)\s*$"
 )
-_MEAN = re.compile(r"\b(?:mean|average)\b", re.IGNORECASE)
+_MEAN = re.compile(
+    r"\b(?:mean|average)\b|\b(?:over|in|during) (?:a|one|each|every|the whole) (?:revolution|turn)\b[^.]*\bthat of\b",
+    re.IGNORECASE,
+)
+_SEVERAL = re.compile(r"\b(?:two|both|three|each|every|all|twin|pair|(?!its|this|is)[a-z]+[a-rt-z]s)\b", re.IGNORECASE)
 _BOUNDS = re.compile(r"\\int_(\{[^{}]*\}|\w|\\[a-z]+)\^(\{[^{}]*\}|\w|\\[a-z]+)")
 _ROUNDING = 1e-9  # [-]
 _BEFORE = 6  # equations in front of one that it may be the derivative of
@@ -138,6 +146,8 @@ def expected(world: World, order: int) -> Iterator[Expected]:
             yield from _at_value(world, order, said, *at.groups())
         if _MEAN.search(words) and not re.fullmatch("[aA]_?0", left):  # Fourier's a_0 is twice the mean
             yield from _averaged(said)
+        if left and "kinetic" in f"{world.paper.called.get(left, said.about)} {words}" and not _SEVERAL.search(words):
+            yield from _halved(world, said)
         if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
             yield from _reduced(world, order, said)
 
@@ -187,6 +197,28 @@ def _averaged(said: Said) -> Iterator[Expected]:
         one, other = (float(evaluate(part, values, FLOATS)) for part in (printed, tree))
         if other and one / other > 1 - _ROUNDING:
             yield Expected(tree=tree, printed=printed, note="a mean is the integral by the length that it goes over")
+
+
+def _halved(world: World, said: Said) -> Iterator[Expected]:
+    # a kinetic energy has one half before each square of a speed, where it has one before some
+    printed = world.plain(said.sides[1])
+    terms = summands(printed)
+    before = [_number_before(term) if _has_square_of_rate(term) else None for term in terms]
+    if {*before} == {Fraction(1, 2), Fraction(1)}:
+        mended = [over(term, number(2)) if c == 1 else term for c, term in zip(before, terms, strict=True)]
+        yield Expected(tree=reduce(plus, mended), printed=printed, note="half of each mass by the square of its speed")
+
+
+def _number_before(term: Node) -> Fraction:
+    if is_operation(term, ast.Mult, ast.Div):
+        left, right = _number_before(term.left), _number_before(term.right)
+        return left * right if isinstance(term.op, ast.Mult) else left / right
+    return value_of(term) or Fraction(1)
+
+
+def _has_square_of_rate(term: Node) -> bool:
+    squares = [n.left for _, n in walk(term) if is_operation(n, ast.Pow) and value_of(n.right) == 2]
+    return any(_is_rate(n) or isinstance(n, ast.Name) and n.id[0] == "v" for square in squares for _, n in walk(square))
 
 
 def _by_virtual_work(world: World, order: int, said: Said) -> Iterator[Expected]:

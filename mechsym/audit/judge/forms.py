@@ -8,13 +8,21 @@ from mechsym.audit.judge.primes import PRIMED, primed, rated, slope_of, stems_of
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope, slope_in
-from mechsym.audit.read.tree import Node, letters, value_of, walk
+from mechsym.audit.read.tree import Node, letters, substitute, value_of, walk
 from mechsym.audit.theory.record import Theory
+from mechsym.audit.theory.tape import slope_by
 
 
 def known(world: World, tree: Node, theory: Theory) -> Node:
-    """A side under the names of the tape: dots, slopes by time, rates of the angle."""
-    return rated(world.plain(tree), theory)
+    """A side under the names of the tape: dots, slopes by time and by what stands in a formula, rates of the angle."""
+    return substitute(rated(world.plain(tree), theory), lambda n: _sloped(n, theory))
+
+
+def _sloped(node: Node, theory: Theory) -> Node | None:
+    # the stiffness dF/dz of a spring, whose force is printed by its travel z, which the text defines
+    slope = slope_in(node.id) if isinstance(node, ast.Name) and node.id not in theory.letters else None
+    entry = theory.tape.get(slope.of) if slope and slope.order == 1 and slope.by in theory.tape else None
+    return slope_by(entry, slope.by) if slope and isinstance(entry, ast.AST) and slope.by in letters(entry) else None
 
 
 def readings(world: World, left: Node, right: Node, theory: Theory) -> Iterator[tuple[Node, Node]]:

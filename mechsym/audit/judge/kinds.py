@@ -247,6 +247,11 @@ def kinds_of(paper: Text) -> Kinds:
         if said.shown.unit and said.sides and isinstance(said.sides[0], ast.Name):
             kinds.printed.setdefault(said.sides[0].id, of_unit(said.shown.unit))
     beside = Counter(said.shown.begins for said in paper.said)
+    for said in paper.said:  # the ratio of two speeds, of which one turns, is a length
+        if len(said.sides) == 2 and "ratio" in paper.called.get(getattr(said.sides[0], "id", ""), ""):
+            ratio, kind = said.sides[1], kind_in(kinds, said.sides[1])
+            if is_operation(ratio, ast.Div) and kind is not None and all(map(RATE.fullmatch, letters(ratio))):
+                kinds.printed[getattr(said.sides[0], "id", "")] = kind
     for _ in range(3):
         for said in paper.said:
             # numbers in a row are data, in units that stand elsewhere

@@ -116,6 +116,8 @@ class Lexicon:
             if turns and self._is_measured_otherwise(meaning, turns):
                 continue
             rank, whole = 0, _joined(phrase)
+            if said and said[-1] == "ratio" and "ratio" not in phrase and phrase != own:
+                continue  # the connecting rod ratio is no length of the connecting rod
             if whole in joined:
                 rank = 1 if whole in _GREEK else min(len(whole), 3)
             elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):

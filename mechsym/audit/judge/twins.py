@@ -25,6 +25,7 @@ from mechsym.audit.read.tree import (
     negative,
     number,
     substitute,
+    summands,
     walk,
     without_double_signs,
 )
@@ -173,7 +174,7 @@ class Twins:
         (wanted, there), *_ = _beside(tree, printed).other
         swapped = [n for _, n in walk(tree) if function_of(n) in _OTHER]
         if function_of(wanted) in _OTHER and isinstance(there, ast.Call):  # F cos(a) cos(b), F sin(a) cos(b) in space
-            return right if len(swapped) > 1 and all(_circular(term) == 1 for term in _terms(tree)) else None
+            return right if len(swapped) > 1 and all(_circular(term) == 1 for term in summands(tree)) else None
         inside = any(wanted is n for f in swapped for _, n in walk(argument_of(f, *_OTHER) or f))
         sign = is_operation(wanted, *_KIN[0]) and is_operation(there, *_KIN[0])
         return right if inside and len(swapped) > (1 if sign else 2) else None
@@ -243,10 +244,3 @@ def _exchanged(node: Node) -> Node | None:
 
 def _circular(tree: Node) -> int:
     return sum(function_of(n) in _OTHER for _, n in walk(tree))
-
-
-def _terms(tree: Node) -> list[Node]:
-    # of a sum, without their signs
-    if is_operation(tree, ast.Add, ast.Sub):
-        return [*_terms(tree.left), *_terms(tree.right)]
-    return [tree.operand] if isinstance(tree, ast.UnaryOp) else [tree]

@@ -132,7 +132,7 @@ class World:
             about = self.paper.named.get(usual)
             fits = usual != "w" or about and about.unit == "rad/s"
             # beside the dotted angle it is the constant speed, where it is called a speed of what turns
-            beside = f"{self.angle}d" in written and not re.match("angular (?:velocity|speed)", self._phrase(usual))
+            beside = f"{self.angle}d" in written and not re.match("angular (?:velocity|speed)", self.phrase(usual))
             if (
                 self.angle
                 and f"{self.angle}d" not in self.aliases.values()
@@ -142,7 +142,8 @@ class World:
             ):
                 self.aliases[usual] = f"{self.angle}d"
 
-    def _phrase(self, letter: str) -> str:
+    def phrase(self, letter: str) -> str:
+        """What the text calls a letter."""
         about = self.paper.named.get(letter)
         return (about.meaning if about else self.paper.called.get(letter, "")).lower()
 
@@ -243,7 +244,7 @@ class World:
     def _name_turns(self) -> None:
         # an angular speed that nothing gives, beside the one letter that counts turns
         a_second = {k for k, about in self.paper.named.items() if about.unit in ("1/s", "-/s")}
-        counted = sorted(k for k in self.kinds.turns | a_second if re.search("(?:speed|minute)$", self._phrase(k)))
+        counted = sorted(k for k in self.kinds.turns | a_second if re.search("(?:speed|minute)$", self.phrase(k)))
         if len(counted) != 1 or any(d.letter in (counted[0], "omega") for d in self.defined):
             return
         each = times(number(Fraction(1, 30) if counted[0] in self.kinds.turns else 2), name("pi"))

@@ -33,11 +33,12 @@ _LONGEST = 400  # digits of a number
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
 # {\sin}^2 and {\sin^2}, \mathrm around signs: braces that say nothing; \sin\varphi\,\frac{a}{b}: a space that ends it
 _ONE = rf"\\(?:{'|'.join(sorted(SINGLE, key=len, reverse=True))})"
+_APART = r"\s*\\[,;:]\s*(?=\\(?:[dt]?frac|d?dot)\b)"
 _REWRITTEN = (
     (re.compile(rf"\{{\s*({_ONE})\s*\}}"), r"\1 "),
     (re.compile(rf"\{{\s*({_ONE})\s*(\^\s*(?:\{{[^{{}}]*\}}|\w))\s*\}}"), r"\1\2 "),
     (re.compile(r"\\(?:mathrm|mathit|mathbf|mathsf)\s*\{([^{}]*\\[^{}]*)\}"), r"{\1}"),
-    (re.compile(rf"({_ONE}(?:\^\{{?\d\}}?)?\s*\d?\s*\\?[A-Za-z]+(?:_\w)?)\s*\\[,;:]\s*(?=\\[dt]?frac)"), r"\1\\cdot "),
+    (re.compile(rf"({_ONE}(?:\^\{{?\d\}}?)?\s*\d?\s*\\?[A-Za-z]+(?:_\w)?){_APART}"), r"\1\\cdot "),
 )
 _TIMES, _OVER = {"*", "\\cdot", "\\times", ".", "\\ast", "\\bullet", "·"}, {"/", "\\div", ":"}
 _SUMS, _FRACTIONS = ("+", "-", "\\pm", "\\mp"), {"\\frac", "\\dfrac", "\\tfrac"}
@@ -207,12 +208,8 @@ def _factor(cursor: Cursor, bare: bool = False) -> Node:
             return binary(ast.Pow, _argument(cursor), binary(ast.Div, number(1), degree))
         if token == "\\sum":
             cursor.take()
-            for mark in ("_", "^"):
-                if cursor.peek() == mark:
-                    cursor.take()
-                    if cursor.take() == "{":
-                        while cursor.peek() and cursor.take() != "}":
-                            pass
+            while cursor.peek() in ("_", "^"):
+                _subscript_of(cursor)
             return call("sum", _product(cursor))
         if token == "\\begin":
             return _cases(cursor)

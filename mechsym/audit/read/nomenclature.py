@@ -122,10 +122,11 @@ def nomenclature(text: str) -> dict[str, Named]:
         listed += [(m[1], m[2], m[3] if m[3] and unit_of(m[3]) else "") for m in _BOLD.finditer(row)]
         for symbol, meaning, unit in listed:
             known = unit_of(unit) if unit else None
-            for one in re.split(r",\s*(?![^{]*\})", symbol.strip("$ ")):
+            symbols = re.split(r",\s*(?![^{]*\})", symbol.strip("$ "))
+            for one, its in zip(symbols, _each(meaning.strip(), len(symbols)), strict=True):
                 one = spelled(one.partition("=")[0])
                 if one and one not in names and (known or not unit.strip()):
-                    names[one] = Named(meaning=meaning.strip(), unit=known or "", line=number)
+                    names[one] = Named(meaning=its, unit=known or "", line=number)
         for match in _PROSE.finditer(row) if not listed else ():  # what stands in brackets there is a unit
             one = spelled(match[2])
             if not run and match[1] in KINDS and one and len(one) < 20 and one not in names:
@@ -148,6 +149,16 @@ def nomenclature(text: str) -> dict[str, Named]:
             line, meaning = text.count("\n", 0, match.start()) + 1, names[one].meaning if one in names else ""
             names[one] = Named(meaning=meaning, unit=known, line=line)
     return names
+
+
+def _each(meaning: str, count: int) -> list[str]:
+    # indicated and effective power; moments of inertia of the engine and of the propeller
+    if count == 2 and (of_both := re.fullmatch(r"([a-z]+) and ([a-z]+) ([a-z ]+)", meaning, re.IGNORECASE)):
+        return [f"{of_both[1]} {of_both[3]}", f"{of_both[2]} {of_both[3]}"]
+    if count == 2 and (both := re.fullmatch(r"(.+?) (of .+?) and (of .+)", meaning)):
+        head = " ".join(_PLURALS.get(word, word) for word in both[1].split())
+        return [f"{head} {both[2]}", f"{head} {both[3]}"]
+    return [meaning] * count
 
 
 def _item(match: re.Match[str], measured: bool) -> tuple[str, str, str]:

@@ -5,6 +5,7 @@ import re
 from mechsym.audit.read.nomenclature import ENDS
 from mechsym.audit.read.units import KINDS
 
+_PUT_IN = re.compile(r"(\s(?:is|are|becomes|reads))\s*,\s+(?:to|in|for|with|at|by|as|up)\s[^,]*$")  # the travel is, to the second order,
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
 _FOR = re.compile(r"^(?:For|With|In|At|From|By)\b.*\bthe\s+")  # for the unevenness the speeds
@@ -30,17 +31,22 @@ _LOADED = re.compile(
 )
 _STRAINED = re.compile(r"\b(bent|twisted)\s+(?:by|with)\s+the\s+(?:shear\s+)?stress$")
 _STORES = re.compile(r"\bstores$")
+_PRESSED = re.compile(r"\bpresses\s+(?:on|against)\s+(?:the|its)\s+(?:guide|liner|cylinder wall)\s+with$")
+_IN_HERTZ = re.compile(r"^In (?:hertz|Hz)\s+(?:it|this)$", re.IGNORECASE)
+_AT_PIN = re.compile(r"^(?:and\s+)?at\s+(the\s+[a-z]+\s+(?:pin|end))$", re.IGNORECASE)
+_TWO_MASSES = re.compile(r"\bpoint masses\b|\btwo masses\b")
 _SWINGS = re.compile(r"\b(?:swings?|vibrates?|oscillates?)\b[^.;]*\bwith$")
 _BORNE = re.compile(r"^and\s+the\s+([a-z]+(?:\s[a-z]+)?)\s+the\s+force$")  # the guide carries .., and the rod the force
 # the energy of the flywheel at the mean speed
 _AT_LAST = re.compile(r"(\bof\s+(?:the|an?|its)\s+[a-z-]+)\s+(?:at|with|for|under)\s+(?:the|an?)\s+[a-z -]+$")
+_FROM_IT = re.compile(r"^From (?:it|this|that|them|these) (?:follows?|comes?)\b")
 _MOVES = re.compile(r"\s(?:runs|lies|moves|turns|rotates|swings|acts|works|flows|stands)$")  # the engine runs with
 _BESIDE = re.compile(r"\s(?:with|at|for|in|by|from|to|between|under)\s")  # what a quantity is of ends there
 _AT_DEAD_CENTRE = re.compile(r"\bat (?:the )?(top|bottom) dead cent(?:re|er)\b", re.IGNORECASE)
 _LEFT = re.compile(r"\bwhat (?:is left|remains) of\b|\bthe (?:rest|remainder) of\b", re.IGNORECASE)
 _THAT_OF = re.compile(r"^(?:and\s+|The\s+)?that of ([a-z]+(?: [a-z]+){0,2}?)(?:\s+is)?$", re.IGNORECASE)
 _HEAD_OF = re.compile(r"\b(?:the|its)\s+((?:[a-z-]+\s+)?[a-z-]+) of\b", re.IGNORECASE)
-_LAST = 6  # words in front of an equation
+_LAST, _NEAR = 6, 400  # words in front of an equation; characters that a sentence before it may refer to
 # names with an `of` of their own
 _FUSED = re.compile(
     r"\b(moments?|modulus|coefficient|radius|degree|speed|velocity) of "
@@ -68,8 +74,11 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     words, spoken, sentence = _sentence(before)
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     sentence = re.sub(r"(?:^|\s*,\s+)that is\s*,\s+", " ", sentence)
+    sentence = _PUT_IN.sub(r"\1", sentence)
     if _LEFT.search(sentence):
         return "", ""  # of a quantity another one is left
+    if (place := _AT_PIN.search(sentence)) and _TWO_MASSES.search(words[-_NEAR:]):
+        return f"mass at {place[1].lower()}", f"mass at {place[1].lower()}"  # the rod is replaced by two masses
     if (that := _THAT_OF.search(sentence)) and (heads := _HEAD_OF.findall(words[: -len(spoken)])):
         return "", f"{heads[-1]} of {that[1]}"  # the force of first order .., and that of second order
     bare = _CLOSING.sub("", sentence)
@@ -78,8 +87,9 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         bare = _CLOSING.sub("", shorter)
     if _GIVEN_WITH.search(spoken):
         bare = re.sub(r"\s+(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*$", "", bare)
-    clause = re.split(r",\s+and\s+(?=(?:the|its)\s)", bare)[-1]
-    if clause != bare and not _VERB.search(clause):  # the work is .., and the mean pressure
+    # the work is .., and the mean pressure; from it follow, at an even speed, the piston speed
+    clause = re.split(r"\s,\s+(?=the\s)" if _FROM_IT.match(bare) else r",\s+and\s+(?=(?:the|its)\s)", bare)[-1]
+    if clause != bare and not _VERB.search(clause):
         bare = clause
     bare = _AT_LAST.sub(r"\1", _FUSED.sub(r"\1-of-\2", bare))
     tail = _FOR.sub("", " ".join(bare.split()[-_LAST:]).replace("-of-", " of "))
@@ -106,6 +116,10 @@ def _by_verb(bare: str) -> str:
         return {"bent": "bending stress", "twisted": "torsional stress"}[strained[1]]
     if _STORES.search(bare):
         return "stored energy"
+    if _PRESSED.search(bare):
+        return "side force"
+    if _IN_HERTZ.search(bare):
+        return "natural frequency in hertz"
     if _SWINGS.search(bare):
         return "natural frequency"
     if borne := _BORNE.search(bare):

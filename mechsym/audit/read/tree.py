@@ -203,6 +203,13 @@ def letters(tree: Node) -> tuple[str, ...]:
     return known
 
 
+def summands(tree: Node) -> list[Node]:
+    """Parts of a sum, without their signs."""
+    if is_operation(tree, ast.Add, ast.Sub):
+        return [*summands(tree.left), *summands(tree.right)]
+    return [tree.operand] if isinstance(tree, ast.UnaryOp) else [tree]
+
+
 def digest(tree: Node) -> bytes:
     """What an expression says in sixteen bytes: the same for two nodes that say the same."""
     known: bytes | None = tree.__dict__.get(_DIGEST)

@@ -35,6 +35,7 @@ KINDS = {
     "stress": "Pa", "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
     "angular acceleration": "rad/s^2", "piston speed": "m/s", "shear modulus": "Pa", "young modulus": "Pa",
     "elasticity": "Pa", "density": "kg/m^3", "power density": "", "energy density": "", "frequency": "Hz",
+    "mass flow": "kg/s", "fuel flow": "kg/s",
 }  # fmt: skip
 #: Words that change what the next one is measured in
 OTHERS = re.compile(
