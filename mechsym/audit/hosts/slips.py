@@ -204,12 +204,15 @@ def _slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row |
     printed, expected = states.values(states.random, form, quantity)
     good = np.isfinite(printed) & np.isfinite(expected)
     against = float(np.sum((printed * expected)[good])) < 0
+    # an offset lies on either side, as it does for an angle from the bottom
+    sided = any(one.unit == "m" and not one.positive for one in fitted.theory.letters.values())
+    from_top = fitted.claim.from_top and not sided
     for turned in (False, True) if against else (False,):
         tree = _negative(form.tree) if turned else form.tree
         rest = at_rest(fitted.theory, form)
         text = to_python(tree)
         row, repair = asked_once(
-            text, fitted.theory, quantity, own, rest, twice, beside, of_angle, near.settled, fitted.claim.from_top
+            text, fitted.theory, quantity, own, rest, twice, beside, of_angle, near.settled, from_top
         )
         if row["verdict"] in PASSED:
             # it passes as what: exact, a truncation, by a convention
@@ -254,8 +257,9 @@ def _in_own_letters(tree: Node, theory: Theory, own: Mapping[str, str]) -> Node:
         if not isinstance(node, ast.Name) or node.id in (*own, *own.values()):
             return None
         entry = theory.tape.get(node.id)
-        is_rest = isinstance(entry, ast.BinOp) and isinstance(entry.op, ast.Sub)
-        return entry if is_rest and {*letters(entry)} <= {*own.values()} else None  # type: ignore[arg-type, return-value]
+        if not isinstance(entry, ast.BinOp) or not isinstance(entry.op, ast.Sub):
+            return None
+        return entry if {*letters(entry)} <= {*own.values()} else None
 
     return trees.substitute(trees.substitute(tree, written), lambda n: renamed_to(n, names))
 
