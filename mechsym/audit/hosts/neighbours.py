@@ -167,7 +167,9 @@ class Neighbours:
         # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is
         own = near.fitted.claim
         # an efficiency is no more than 1, and a volume is counted from nothing
-        return re.search("efficiency|volume", near.quantity) is not None or any(
+        if re.search("efficiency|volume", " ".join((near.quantity, *near.fitted.meanings.values()))):
+            return True
+        return any(
             other.fitted.theory is near.fitted.theory
             and other.quantity == near.quantity
             and (other.fitted.claim.name, other.fitted.claim.line) == (own.name, own.line)

@@ -4,12 +4,10 @@ import ast
 import math
 import re
 from collections.abc import Iterator
-from fractions import Fraction
 from functools import reduce
-from typing import TypeGuard
 
+from mechsym.audit.judge.by_energy import Expected, halved, rate_in, reduced, stored
 from mechsym.audit.judge.kinds import of_unit
-from mechsym.audit.judge.motion import ANGLES, KINETIC
 from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.world import World
@@ -17,7 +15,7 @@ from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.refused import SIGN
 from mechsym.audit.read.said import Said
-from mechsym.audit.read.slopes import Slope
+from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.spelling import SPEEDS
 from mechsym.audit.read.subject import OPENED
 from mechsym.audit.read.tree import (
@@ -30,16 +28,11 @@ from mechsym.audit.read.tree import (
     name,
     negative,
     number,
-    renamed,
     substitute,
-    summands,
-    value_of,
-    walk,
 )
 from mechsym.audit.theory.record import dependencies
 from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, slope_by, times
 from mechsym.errors import BadInput
-from mechsym.quantities import record
 
 _SOLVED = re.compile(
     r"\b(?:solved for|solving|gives?|yields?|follows?|hence|thus|therefore|so that|from which|whence|obtains?"
@@ -55,6 +48,7 @@ _ELSEWHERE = re.compile(r"\b(?:second|third|other|ahead|behind|degrees|leads?|la
 _TORQUE = re.compile(r"\btorque\b|\bmoment\b(?! of)", re.IGNORECASE)
 CUT_SHORT = re.compile(r"lineari[sz]|small|neglect|approximat|\bnear\b|constant speed", re.IGNORECASE)
 _ITS_SPEED = re.compile(r"\bits\s+(?:velocity|speed)\b", re.IGNORECASE)
+_STORED = re.compile(r"\b(?:stor(?:es?|ed)|potential energy|elastic energy)\b", re.IGNORECASE)
 _SPEED, _WAYS = re.compile(r"\b(?:speeds?|velocit(?:y|ies))\b", re.IGNORECASE), "xyzsh"
 _AT_A_VALUE = re.compile(
     rf"\b(?:At|For|With|Where)\s+\$({SIGN})\s*=\s*([^$=]+)\$\s+(?:this|that|it)\s+(?:is|becomes|gives)\s*$"
@@ -106,17 +100,6 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
     return None if tree is None else (tree, place)
 
 
-@record
-class Expected:
-    """What an equation may have to say by the words in front of it."""
-
-    tree: Node
-    printed: Node  #: The part of the equation that it is held against
-    note: str
-    scaled: bool = False  #: Whether a number before all of it is left open
-    whole: bool = False  #: Whether what the text defines is meant by its letters
-
-
 def expected(world: World, order: int) -> Iterator[Expected]:
     """What an equation may have to say by those before it: a derivative, an inertia, a torque or a frequency."""
     said = world.paper.said[order]
@@ -147,9 +130,12 @@ def expected(world: World, order: int) -> Iterator[Expected]:
         if _MEAN.search(words) and not re.fullmatch("[aA]_?0", left):  # Fourier's a_0 is twice the mean
             yield from _averaged(said)
         if left and "kinetic" in f"{world.paper.called.get(left, said.about)} {words}" and not _SEVERAL.search(words):
-            yield from _halved(world, said)
+            yield from halved(world, said)
+        if left and _STORED.search(f"{world.paper.called.get(left, said.about)} {words}"):
+            yield from stored(world, order, said)
+        yield from _by_primes(world, said, left)
         if _REDUCED.search(words) and isinstance(said.sides[0], ast.Name):
-            yield from _reduced(world, order, said)
+            yield from reduced(world, order, said)
 
 
 def _turned(world: World, said: Said, left: str) -> Iterator[Expected]:
@@ -199,26 +185,14 @@ def _averaged(said: Said) -> Iterator[Expected]:
             yield Expected(tree=tree, printed=printed, note="a mean is the integral by the length that it goes over")
 
 
-def _halved(world: World, said: Said) -> Iterator[Expected]:
-    # a kinetic energy has one half before each square of a speed, where it has one before some
-    printed = world.plain(said.sides[1])
-    terms = summands(printed)
-    before = [_number_before(term) if _has_square_of_rate(term) else None for term in terms]
-    if {*before} == {Fraction(1, 2), Fraction(1)}:
-        mended = [over(term, number(2)) if c == 1 else term for c, term in zip(before, terms, strict=True)]
-        yield Expected(tree=reduce(plus, mended), printed=printed, note="half of each mass by the square of its speed")
-
-
-def _number_before(term: Node) -> Fraction:
-    if is_operation(term, ast.Mult, ast.Div):
-        left, right = _number_before(term.left), _number_before(term.right)
-        return left * right if isinstance(term.op, ast.Mult) else left / right
-    return value_of(term) or Fraction(1)
-
-
-def _has_square_of_rate(term: Node) -> bool:
-    squares = [n.left for _, n in walk(term) if is_operation(n, ast.Pow) and value_of(n.right) == 2]
-    return any(_is_rate(n) or isinstance(n, ast.Name) and n.id[0] == "v" for square in squares for _, n in walk(square))
+def _by_primes(world: World, said: Said, left: str) -> Iterator[Expected]:
+    # the slope of what is printed by rho and its primes
+    slope = slope_in(left, world.angle) if world.angle else None
+    own = next((d.tree for d in world.defined if slope and d.letter == slope.of), None)
+    if slope and slope.order == 1 and own is not None and any(f"{k}prime" in world.used for k in letters(own)):
+        moving = {k: name(f"{k}prime") for k in letters(own) if f"{k}prime" in world.used}
+        tree = derivative(own, lambda k: moving.get(k, number(0)))
+        yield Expected(tree=tree, printed=world.plain(said.sides[1]), note=f"the slope of {slope.of}")
 
 
 def _by_virtual_work(world: World, order: int, said: Said) -> Iterator[Expected]:
@@ -307,47 +281,6 @@ def with_frequency(world: World, order: int) -> Iterator[tuple[int, Node]]:
                     yield place, plus(world.plain(said.sides[0]), times(more, name(rate[:-2])))
 
 
-def _reduced(world: World, order: int, said: Said) -> Iterator[Expected]:
-    # twice the kinetic energy over the square of a rate
-    printed = world.plain(said.sides[1])
-    used = {*letters(printed)}
-    ratios = {
-        d.tree.left.id: times(name(d.letter), d.tree.right)
-        for d in world.defined
-        if d.letter in used and is_operation(d.tree, ast.Div) and _is_rate(d.tree.left) and _is_rate(d.tree.right)
-    }
-    for note, whole in _kinetic(world, order):
-        energy = substitute(whole, lambda n: ratios.get(n.id) if isinstance(n, ast.Name) else None)
-        rates = {k: _rate_in(k.removesuffix("d"), used) or k for k in letters(energy) if k.endswith("d")}
-        energy = renamed(energy, rates)
-        for rate in dict.fromkeys(rates.values()):
-            tree = over(times(number(2), energy), times(name(rate), name(rate)))
-            yield Expected(tree=tree, printed=printed, note=note)
-
-
-def _is_rate(tree: Node) -> TypeGuard[ast.Name]:
-    return isinstance(tree, ast.Name) and (tree.id.endswith("d") or tree.id.startswith(SPEEDS))
-
-
-def _kinetic(world: World, order: int) -> Iterator[tuple[str, Node]]:
-    # each kinetic energy in front of an equation, and the sum of those of the parts
-    parts: dict[str, tuple[str, Node]] = {}
-    for source in world.paper.said[:order]:
-        letter = getattr(source.sides[0], "id", "") if len(source.sides) > 1 else ""
-        whole = world.plain(source.sides[-1]) if letter else None
-        if whole is not None and letter in KINETIC:
-            yield f"by the energy of ({source.name})", whole
-        elif (
-            whole is not None
-            and letter.rstrip("0123456789") in KINETIC
-            and any(k.endswith("d") for k in letters(whole))
-        ):
-            parts[letter] = (source.name, whole)
-    if len(parts) > 1:
-        total = reduce(plus, (tree for _, tree in parts.values()))
-        yield f"by the energies of {', '.join(f'({source})' for source, _ in parts.values())}", total
-
-
 def _differentiated(world: World, order: int, said: Said) -> Iterator[Expected]:
     left, right = (world.plain(side) for side in said.sides)
     used = {*letters(left), *letters(right)}
@@ -356,15 +289,8 @@ def _differentiated(world: World, order: int, said: Said) -> Iterator[Expected]:
         if source.inline or source.claim or len(source.sides) != 2 or source.section != said.section:
             continue
         whole = minus(*(world.plain(side) for side in source.sides))
-        rates = {letter: name(rate) for letter in letters(whole) if (rate := _rate_in(letter, used))}
+        rates = {letter: name(rate) for letter in letters(whole) if (rate := rate_in(letter, used))}
         if rates:
             moving = rates | {"t": number(1)}
             tree = derivative(whole, lambda k, known=moving: known.get(k, number(0)))  # type: ignore[misc]
             yield Expected(tree=tree, printed=minus(left, right), note=f"the rate of ({source.name})", scaled=True)
-
-
-def _rate_in(letter: str, used: set[str]) -> str:
-    # the rate of an angle with an index may be an omega with it
-    stem = next((a for a in ANGLES if letter.startswith(a)), "")
-    named = [f"{rate}{letter.removeprefix(stem)}" for rate in ("omega", "w")] if stem and letter != stem else []
-    return next((rate for rate in (f"{letter}d", *named) if rate in used), "")

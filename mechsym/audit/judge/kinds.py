@@ -88,6 +88,8 @@ class Kinds:
         base = _INDEX.fullmatch(letter)
         if base is None or letter in self.dotted:
             return self.bare.get(letter)
+        if base[2] in ("max", "min", "mean"):
+            return self.of(base[1])
         if base[2][0].isdigit():
             kind = self.printed.get(base[1])
             siblings = {k for n, k in self.printed.items() if re.fullmatch(rf"{base[1]}\d\w*", n)}
@@ -269,6 +271,11 @@ def infer(kinds: Kinds, said: Said) -> None:
     left = said.sides[0] if said.sides else None
     over = left is not None and is_operation(left, ast.Div) and value_of(left.left) == 1
     letter = left.right if over and isinstance(left, ast.BinOp) else left
+    if all(isinstance(side, ast.Name) for side in said.sides):  # m_1 = m_2 = m
+        alike = {n for side in said.sides for n in letters(side)}
+        shared = {kind for n in alike if (kind := kinds.of(n)) is not None}
+        if len(shared) == 1:
+            kinds.inferred |= dict.fromkeys((n for n in alike if kinds.of(n) is None), *shared)
     if not isinstance(letter, ast.Name) or letter.id in kinds.inferred or letter.id in kinds.printed:
         return
     # x(t_f) = 1 may be 1 m

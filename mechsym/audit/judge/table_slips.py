@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from mechsym.audit.judge.kinds import Kind, Kinds, converted, infer, letters_of, text
+from mechsym.audit.judge.kinds import Kind, Kinds, converted, infer, letters_of, of_unit, text
 from mechsym.audit.judge.misfits import Odd, id_of, odd
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
@@ -32,7 +32,8 @@ def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list
             before = {id_of(o.said) for o in odd(kinds, own)[0]}
             sure = _sure(letter, left)
             for kind in _wanted(kinds, letter):
-                count = _mended(kinds, letter, kind, own, before) + sure
+                count = _mended(kinds, letter, kind, own, before)
+                count += sure + (count > 0 and _has_relative(paper, letter, kind))
                 if count > 1 and (best is None or count > best[0]):
                     best = (count, letter, kind)
         if best is None:
@@ -75,6 +76,13 @@ def _sure(letter: str, misfits: Sequence[Odd]) -> int:
     return int(
         any(o.part == 0 and len(o.said.sides) > 2 and getattr(o.said.sides[0], "id", "") == letter for o in misfits)
     )
+
+
+def _has_relative(paper: Text, letter: str, kind: Kind) -> bool:
+    # V beside a V_0 that the table has in cubic metres, both a volume
+    last = paper.named[letter].meaning.lower().split()[-1:]
+    others = [about for other, about in paper.named.items() if other != letter and other[0] == letter[0] and about.unit]
+    return any(of_unit(about.unit) == kind and last[0] in about.meaning.lower().split() for about in others if last)
 
 
 def _wanted(kinds: Kinds, letter: str) -> set[Kind]:

@@ -24,6 +24,7 @@ from mechsym.audit.read.tree import (
     Node,
     argument_of,
     binary,
+    factors,
     function_of,
     is_operation,
     letters,
@@ -39,6 +40,7 @@ from mechsym.audit.theory.tape import TheoryTape, over, times
 from mechsym.quantities import record
 
 _OPAQUE = re.compile(r"integral\w{8}|constant|function")
+_CASE = re.compile(r"\b(?:for|if|when|where)\b[^.;:$]*$", re.IGNORECASE)  # for equal masses m_1 = m_2
 
 
 @record
@@ -201,8 +203,7 @@ class World:
         return not before or self.paper.said[before[-1].order].section != said.section and not said.inline
 
     def _rate_of(self, letter: str) -> bool:
-        known = {d.letter for d in self.defined}
-        return any(letter.endswith(dots) and letter[: -len(dots)] in known for dots in ("d", "dd"))
+        return any(letter == d.letter + dots for d in self.defined for dots in ("d", "dd"))
 
     def _solve(self, order: int, left: Node, right: Sequence[Node], any_letter: bool) -> None:
         # the one letter that nothing has defined yet: under a sine, or a force in a balance
@@ -292,7 +293,9 @@ class World:
         for index, one in enumerate(self.defined):
             source = self.paper.said[one.order]
             holds = one.order < 0 or source.section == here and not source.equates
-            if one.order <= order or holds and one.letter not in latest:
+            case = source.equates and _CASE.search(source.before)
+            over_it = case and any(not said.inline for said in self.paper.said[one.order + 1 : order])
+            if one.order <= order and not over_it or holds and one.letter not in latest:
                 latest[one.letter] = index
         key = tuple(sorted(latest.values()))
         if believed is None and key in self.theories:
@@ -369,18 +372,14 @@ def _with_angle(tree: Node, rate: str, angle: str) -> Node:
     """The tree with an angle in place of the product of its rate and time."""
 
     def changed(node: Node) -> Node | None:
-        factors = _factors(node)
-        names = [f.id for f in factors if isinstance(f, ast.Name)]
+        parts = factors(node)
+        names = [f.id for f in parts if isinstance(f, ast.Name)]
         if names.count("t") != 1 or names.count(rate) != 1:
             return None
-        rest = [f for f in factors if not (isinstance(f, ast.Name) and f.id in ("t", rate))]
+        rest = [f for f in parts if not (isinstance(f, ast.Name) and f.id in ("t", rate))]
         return reduce(partial(binary, ast.Mult), [*(_with_angle(f, rate, angle) for f in rest), name(angle)])
 
     return substitute(tree, changed)
-
-
-def _factors(node: Node) -> list[Node]:
-    return [*_factors(node.left), *_factors(node.right)] if is_operation(node, ast.Mult) else [node]
 
 
 def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:

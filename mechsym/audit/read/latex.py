@@ -33,11 +33,14 @@ _LONGEST = 400  # digits of a number
 _CLOSING = {"(": ")", "[": "]", "{": "}", "\\{": "\\}", "|": "|"}
 # {\sin}^2 and {\sin^2}, \mathrm around signs: braces that say nothing; \sin\varphi\,\frac{a}{b}: a space that ends it
 _ONE = rf"\\(?:{'|'.join(sorted(SINGLE, key=len, reverse=True))})"
+_TWICE, _LETTER = r"(\^\{?\d\}?)", r"\s*(\\?[A-Za-z]+(?:_\w|_\{\w+\})?)\s*"
 _APART = r"\s*\\[,;:]\s*(?=\\(?:[dt]?frac|d?dot)\b)"
+_SLOPE = rf"(?<![\\A-Za-z_^])d{_TWICE}?{_LETTER}/\s*d{_LETTER}((?(1){_TWICE}))(?![A-Za-z_])"  # d\rho/d\varphi
 _REWRITTEN = (
     (re.compile(rf"\{{\s*({_ONE})\s*\}}"), r"\1 "),
     (re.compile(rf"\{{\s*({_ONE})\s*(\^\s*(?:\{{[^{{}}]*\}}|\w))\s*\}}"), r"\1\2 "),
     (re.compile(r"\\(?:mathrm|mathit|mathbf|mathsf)\s*\{([^{}]*\\[^{}]*)\}"), r"{\1}"),
+    (re.compile(_SLOPE), r"\\frac{d\1\2}{d\3\4}"),
     (re.compile(rf"({_ONE}(?:\^\{{?\d\}}?)?\s*\d?\s*\\?[A-Za-z]+(?:_\w)?){_APART}"), r"\1\\cdot "),
 )
 _TIMES, _OVER = {"*", "\\cdot", "\\times", ".", "\\ast", "\\bullet", "·"}, {"/", "\\div", ":"}

@@ -42,6 +42,10 @@ _RUN_IN = re.compile(
     r"[$`]([^$`\n]{1,40})[$`]\s+([a-z][A-Za-z\s-]{2,60}?)(?:\s*[(\[]([^()\[\]\n]{1,20})[)\]](?=\s*(?:[,.;]|$))|(?=\s*[,.;]))",
     re.MULTILINE,
 )
+# $D$ -- bore, m; $S$ -- stroke, m
+_IN_SENTENCE = re.compile(
+    r"\$([^$\n=]{1,40})\$\s*(?:-{1,3}|[–—:=])\s*([A-Za-z][^;$]{2,80}?),\s*((?:[^;,]|\\,){1,30}?)\s*(?=[;.]\s)"
+)
 _FEWEST, _LONGEST = 4, 6000  # letters of such a list; characters of a row
 _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
@@ -105,6 +109,10 @@ def nomenclature(text: str) -> dict[str, Named]:
     for match in units if len(units) >= _FEWEST else ():
         line, phrase = text.count("\n", 0, match.start()) + 1, " ".join(_BEGINS.split(match[1])[-1].split())
         names.setdefault(spelled(match[2]), Named(meaning=phrase, unit=unit_of(match[3]) or "", line=line))
+    listed_in = [m for m in _IN_SENTENCE.finditer(text) if unit_of(m[3])]
+    for match in listed_in if len(listed_in) >= _FEWEST else ():
+        line, phrase = text.count("\n", 0, match.start()) + 1, " ".join(match[2].split())
+        names.setdefault(spelled(match[1]), Named(meaning=phrase, unit=unit_of(match[3]) or "", line=line))
     run = [m for m in _RUN_IN.finditer(text) if not m[3] or unit_of(m[3])]
     run = run if sum(bool(m[3]) for m in run) >= _FEWEST else _in_a_row(run, text)
     for match in run:
@@ -194,6 +202,8 @@ def _is_called_before(text: str, match: re.Match[str]) -> bool:
         return True  # it is said of the equation behind
     if comma and not match[2] and before is not None and before[1] in ("is", "are"):
         return True  # the work is $W$, the volume
+    if comma and not match[2] and "=" in match[0] and before is not None and before[1] in (*KINDS, "speed"):
+        return True  # at a constant speed $\omega = \dot\theta$, the velocity
     apart = match[2] or comma
     return not apart and before is not None and before[1].lower() not in ("where", "with", "and", "let", "here")
 

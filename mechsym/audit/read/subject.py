@@ -5,9 +5,12 @@ import re
 from mechsym.audit.read.nomenclature import ENDS
 from mechsym.audit.read.units import KINDS
 
-_PUT_IN = re.compile(r"(\s(?:is|are|becomes|reads))\s*,\s+(?:to|in|for|with|at|by|as|up)\s[^,]*$")  # the travel is, to the second order,
+_PUT_IN = re.compile(
+    r"(\s(?:is|are|becomes|reads))\s*,\s+(?:to|in|for|with|at|by|as|up)\s[^,]*$"
+)  # the travel is, to the second order,
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
+_INSIDE = re.compile(rf"\s+(?:in|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}")
 _FOR = re.compile(r"^(?:For|With|In|At|From|By)\b.*\bthe\s+")  # for the unevenness the speeds
 # the torque is with the volume $V$ of both: a letter stands behind the last of what it is with
 _GIVEN_WITH = re.compile(r"\s(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*\$[^$]+\$(?:\s+of\s+[a-z ]+)?\s*$")
@@ -180,8 +183,8 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
     if chosen is None or chosen in (last, behind) and _LETTER_LAST.search(spoken):
         return "", ""
     plain = re.sub(r"^(?:the|its|an?|and the|and its)\s+", "", bare, flags=re.IGNORECASE)
-    if chosen is within:
-        return chosen[1], bare[within.start(1) :]
+    if chosen is within or chosen is first and _INSIDE.fullmatch(bare[chosen.end(1) :]):
+        return chosen[1], bare[chosen.start(1) :]
     return chosen[1], _BESIDE.split(plain)[0] if chosen is first else ""
 
 

@@ -210,6 +210,11 @@ def summands(tree: Node) -> list[Node]:
     return [tree.operand] if isinstance(tree, ast.UnaryOp) else [tree]
 
 
+def factors(tree: Node) -> list[Node]:
+    """Parts of a product."""
+    return [*factors(tree.left), *factors(tree.right)] if is_operation(tree, ast.Mult) else [tree]
+
+
 def digest(tree: Node) -> bytes:
     """What an expression says in sixteen bytes: the same for two nodes that say the same."""
     known: bytes | None = tree.__dict__.get(_DIGEST)
