@@ -272,7 +272,7 @@ class Judge:
                 for reading in fitting.readings(fit, self.world, used):
                     against = f"{fit.theory.name}.{quantity}"
                     row = self.asking.asked(fit.theory, quantity, tree, reading, said)
-                    shown = all(n in fit.meant or self.world.turns(n) for n in used)
+                    shown = all(n in fit.meant or self.world.turns(n) or self.world.phrase(n) for n in used)
                     if row is not None and "repaired by factor" in row["note"] and not shown:
                         continue  # the m of a text may be of both pistons, or of one
                     if row is not None and (slip := self.asking.finding(row, said, side, against)):

@@ -166,8 +166,8 @@ class Neighbours:
     def _is_settled(self, near: Near) -> bool:
         # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is
         own = near.fitted.claim
-        # an efficiency is no more than 1, and a volume is counted from nothing
-        if re.search("efficiency|volume", " ".join((near.quantity, *near.fitted.meanings.values()))):
+        # an efficiency is no more than 1, the index of a spring no less, and a volume is counted from nothing
+        if re.search("efficiency|volume|index", " ".join((near.quantity, *near.fitted.meanings.values()))):
             return True
         return any(
             other.fitted.theory is near.fitted.theory

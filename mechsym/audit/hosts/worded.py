@@ -33,6 +33,7 @@ from mechsym.audit.row import Row
 from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Theory
 
+_ALONE = 4  # operations of a formula of one letter that is held against theories: (2/(k + 1))^(k/(k - 1))
 _SUM = "forcesum"  # letter for a sum of forces
 # slider cranks are counted from the other dead centre in every theory
 _FROM_TOP = re.compile(r"\b(?:from|after|past)\s+(?:the\s+|its\s+)?(?:top|inner|upper)\s+dead\s+cent", re.IGNORECASE)
@@ -79,7 +80,7 @@ class Worded:
             about = called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
                 if (
-                    len(letters(side)) > 1
+                    (len(letters(side)) > 1 or sum(isinstance(n, ast.BinOp) for _, n in walk(side)) > _ALONE)
                     and not vanishes(side)
                     and not any(function_of(n) == "sum" for _, n in walk(side))
                 ):

@@ -68,7 +68,9 @@ def halved(world: World, said: Said) -> Iterator[Expected]:
     terms = summands(printed)
     before = [_number_before(term) if _has_square_of_rate(term) else None for term in terms]
     whole = [term for c, term in zip(before, terms, strict=True) if c == 1]
-    if {*before} == {Fraction(1, 2), Fraction(1)} and not any(_has_twins(world, term) for term in whole):
+    if ({*before} == {Fraction(1, 2), Fraction(1)} or before == [1]) and not any(
+        _has_twins(world, term) for term in whole
+    ):
         mended = [over(term, number(2)) if c == 1 else term for c, term in zip(before, terms, strict=True)]
         yield Expected(tree=reduce(plus, mended), printed=printed, note="half of each mass by the square of its speed")
 

@@ -57,7 +57,9 @@ _MEAN = re.compile(
     r"\b(?:mean|average)\b|\b(?:over|in|during) (?:a|one|each|every|the whole) (?:revolution|turn)\b[^.]*\bthat of\b",
     re.IGNORECASE,
 )
-_SEVERAL = re.compile(r"\b(?:two|both|three|each|every|all|twin|pair|(?!its|this|is)[a-z]+[a-rt-z]s)\b", re.IGNORECASE)
+_SEVERAL = re.compile(
+    r"\b(?:two|both|three|each|every|all|twin|pair|(?!its|this|is|parts|masses)[a-z]+[a-rt-z]s)\b", re.IGNORECASE
+)
 _BOUNDS = re.compile(r"\\int_(\{[^{}]*\}|\w|\\[a-z]+)\^(\{[^{}]*\}|\w|\\[a-z]+)")
 _ROUNDING = 1e-9  # [-]
 _BEFORE = 6  # equations in front of one that it may be the derivative of

@@ -64,6 +64,7 @@ class Kinds:
     bare: dict[str, Kind] = field(default_factory=dict)  #: Of letters that a relative with a unit for an index tells
     scaled: set[str] = field(default_factory=set)  #: Letters that the table measures in no unit of the SI
     dotted: frozenset[str] = frozenset()  #: Letters with a dot: Ed is no E with an index
+    indexed: frozenset[str] = frozenset()  #: Letters with an index: C_d is no rate of C
     misnamed: dict[str, str] = field(default_factory=dict)  #: Letters that the table has in no unit of theirs, to it
     spoken: frozenset[str] = frozenset()  #: Letters of which sentences tell, and no table
     turns: set[str] = field(default_factory=set)  #: Letters in revolutions a minute that formulas take as a number
@@ -80,7 +81,8 @@ class Kinds:
             if above is None or below is None:
                 return None
             return tuple(a - slope.order * b for a, b in zip(above, below, strict=True))
-        if (rate := RATE.fullmatch(letter)) and (still := self.of(rate[1])) is not None:
+        rate = RATE.fullmatch(letter) if letter not in self.indexed else None
+        if rate and (still := self.of(rate[1])) is not None:
             # the dot on a mass or a heat may mean the angle
             return (*still[:2], still[2] - len(rate[2]), *still[3:]) if still in (PURE, _LENGTH) else None
         if within := _MARKED.fullmatch(letter) or _STEP.fullmatch(letter):
@@ -207,7 +209,10 @@ def kinds_of(paper: Text) -> Kinds:
     """What the nomenclature, units behind equations, and definitions tell."""
     dotted = frozenset(k for said in paper.said for k, v in said.spelled.items() if v.startswith(("\\dot", "\\ddot")))
     spoken = frozenset(paper.called) - frozenset(paper.named)
-    kinds = Kinds(printed={"dt": of_unit("s"), "t": of_unit("s")}, dotted=dotted, spoken=spoken)
+    below = {k for said in paper.said for k, v in said.spelled.items() if "_" in v}
+    kinds = Kinds(
+        printed={"dt": of_unit("s"), "t": of_unit("s")}, dotted=dotted, spoken=spoken, indexed=frozenset(below) - dotted
+    )
     indexed = {k for said in paper.said for k, v in said.spelled.items() if v.startswith("d_")}
     if "dt" in indexed:
         del kinds.printed["dt"]  # a diameter of something
@@ -271,8 +276,8 @@ def infer(kinds: Kinds, said: Said) -> None:
     left = said.sides[0] if said.sides else None
     over = left is not None and is_operation(left, ast.Div) and value_of(left.left) == 1
     letter = left.right if over and isinstance(left, ast.BinOp) else left
-    if all(isinstance(side, ast.Name) for side in said.sides):  # m_1 = m_2 = m
-        alike = {n for side in said.sides for n in letters(side)}
+    alike = {side.id for side in said.sides if isinstance(side, ast.Name)}
+    if len(alike) == len(said.sides) > 2 and len({n[0] for n in alike}) == 1:  # m_1 = m_2 = m
         shared = {kind for n in alike if (kind := kinds.of(n)) is not None}
         if len(shared) == 1:
             kinds.inferred |= dict.fromkeys((n for n in alike if kinds.of(n) is None), *shared)

@@ -74,7 +74,9 @@ def _unlike(kinds: Kinds, one: Said, sides: Sequence[tuple[int, Kind]]) -> list[
 def _is_only_time(kinds: Kinds, letter: str) -> bool:
     slope, rate = slope_in(letter), RATE.fullmatch(letter)
     of = slope.of if slope and slope.by == "t" else rate[1] if rate else letter
-    return letter in ("t", "dt") or kinds.of(of) in (None, PURE)
+    kind = kinds.inferred.get(of)
+    followed = kind is not None and not any((*kind[:2], kind[3]))  # omega = d theta/dt of such a text
+    return letter in ("t", "dt") or kinds.of(of) in (None, PURE) or followed
 
 
 def findings(kinds: Kinds, misfits: Sequence[Odd], said: Sequence[Said]) -> list[Odd]:

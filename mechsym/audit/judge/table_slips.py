@@ -7,6 +7,7 @@ from mechsym.audit.judge.kinds import Kind, Kinds, converted, infer, letters_of,
 from mechsym.audit.judge.misfits import Odd, id_of, odd
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
+from mechsym.audit.read.units import head_of
 from mechsym.quantities import dimension, record
 
 
@@ -80,9 +81,9 @@ def _sure(letter: str, misfits: Sequence[Odd]) -> int:
 
 def _has_relative(paper: Text, letter: str, kind: Kind) -> bool:
     # V beside a V_0 that the table has in cubic metres, both a volume
-    last = paper.named[letter].meaning.lower().split()[-1:]
+    last = head_of(paper.named[letter].meaning).split()[-1:]
     others = [about for other, about in paper.named.items() if other != letter and other[0] == letter[0] and about.unit]
-    return any(of_unit(about.unit) == kind and last[0] in about.meaning.lower().split() for about in others if last)
+    return any(of_unit(about.unit) == kind and head_of(about.meaning).split()[-1:] == last for about in others if last)
 
 
 def _wanted(kinds: Kinds, letter: str) -> set[Kind]:

@@ -289,12 +289,12 @@ class World:
 
     def theory(self, order: int, believed: Mapping[str, Node] | None = None) -> Theory:
         """The definitions that hold at an equation; `believed`: what letters are taken to be instead."""
-        latest, here = dict[str, int](), self.paper.said[order].section
+        latest, said = dict[str, int](), self.paper.said
         for index, one in enumerate(self.defined):
-            source = self.paper.said[one.order]
-            holds = one.order < 0 or source.section == here and not source.equates
-            case = source.equates and _CASE.search(source.before)
-            over_it = case and any(not said.inline for said in self.paper.said[one.order + 1 : order])
+            source = said[one.order]
+            holds = one.order < 0 or source.section == said[order].section and not source.equates
+            case = source.equates and _CASE.search(source.before) and "equal" not in said[order].before[-120:]
+            over_it = case and any(not other.inline for other in said[one.order + 1 : order])
             if one.order <= order and not over_it or holds and one.letter not in latest:
                 latest[one.letter] = index
         key = tuple(sorted(latest.values()))

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from mechsym.audit.read.spelling import SYMBOLS
-from mechsym.audit.read.units import KINDS, OTHERS, unit_of
+from mechsym.audit.read.units import KINDS, OTHERS, PREPOSITIONS, unit_of
 from mechsym.quantities import record
 
 
@@ -220,6 +220,8 @@ def called(text: str) -> dict[str, str]:
         if match[1].endswith(" and") or _AT_FIRST.match(match[1]):
             continue  # the force and $m$ the mass; in steady running $M_e = M_p$
         words = ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
+        if words.partition(" ")[0] in PREPOSITIONS:
+            continue  # the crosshead is in equilibrium under $F$
         if words.startswith("that of"):  # the reciprocating mass is that of the piston
             kinds = re.findall(_KINDS, text[max(0, match.start() - 60) : match.end(1)].rpartition("that of")[0])
             words = words.replace("that", kinds[-1], 1) if kinds else words

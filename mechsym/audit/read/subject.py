@@ -77,6 +77,9 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     words, spoken, sentence = _sentence(before)
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     sentence = re.sub(r"(?:^|\s*,\s+)that is\s*,\s+", " ", sentence)
+    sentence = re.sub(
+        r"\s+(?:refers|relates) to\s.*$", " is", sentence
+    )  # the mean pressure refers to the projected area
     sentence = _PUT_IN.sub(r"\1", sentence)
     if _LEFT.search(sentence):
         return "", ""  # of a quantity another one is left

@@ -35,7 +35,7 @@ KINDS = {
     "stress": "Pa", "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
     "angular acceleration": "rad/s^2", "piston speed": "m/s", "shear modulus": "Pa", "young modulus": "Pa",
     "elasticity": "Pa", "density": "kg/m^3", "power density": "", "energy density": "", "frequency": "Hz",
-    "mass flow": "kg/s", "fuel flow": "kg/s",
+    "mass flow": "kg/s", "fuel flow": "kg/s", "twist": "rad",
 }  # fmt: skip
 #: Words that change what the next one is measured in
 OTHERS = re.compile(
@@ -44,7 +44,9 @@ OTHERS = re.compile(
 )
 
 #: Words between what something is and what it is of
-PREPOSITIONS = tuple("of at in by for on along from due to with under over between about onto into upon".split())
+PREPOSITIONS = tuple(
+    "of at in by for on along from due to with under over below above between about onto into upon".split()
+)
 _PREPOSITION = re.compile(rf"\b(?:{'|'.join(PREPOSITIONS)}|and|or)\b|[,;($/]")
 _DONE = re.compile(r"\s+(?:acting|exerted|applied|added|transmitted|delivered|absorbed|required|needed|lost)\s*$")
 _RATIO = re.compile(
