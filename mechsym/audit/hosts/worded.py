@@ -59,6 +59,8 @@ class Worded:
         """Every side of a letter's equation is a claim, the letter's name in the text its comment."""
         paper = self.world.paper
         values = {d.letter: d.tree for d in self.world.defined}
+        # a speed of the table is none that its angular velocity gives
+        solved = {d.letter for d in self.world.defined if not d.side and d.letter in paper.named}
         # the angle that turns is the one that the text's motion goes by, and follows from nothing
         plain = {k for k, words in paper.called.items() if words == "angle"}
         vague = {k for k in plain if k in values or self.world.angle in plain - {k}}
@@ -92,7 +94,7 @@ class Worded:
                         abouts=called | {_SUM: "resulting force"}, ruled_out=_ruled_out(said.before, paper.prose),
                         whole=said.about if said.about.startswith(about) else "",
                         parameters=tuple(called), from_top=from_top,
-                        written={name: tree for name, tree in values.items() if name != left},
+                        written={name: tree for name, tree in values.items() if name not in (left, *solved)},
                     )  # fmt: skip
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}
         names |= {word for name in names for word in called.get(name, "").split()}

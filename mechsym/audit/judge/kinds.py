@@ -81,8 +81,7 @@ class Kinds:
             if above is None or below is None:
                 return None
             return tuple(a - slope.order * b for a, b in zip(above, below, strict=True))
-        rate = RATE.fullmatch(letter) if letter not in self.indexed else None
-        if rate and (still := self.of(rate[1])) is not None:
+        if (rate := self._is_rate(letter)) and (still := self.of(rate[1])) is not None:
             # the dot on a mass or a heat may mean the angle
             return (*still[:2], still[2] - len(rate[2]), *still[3:]) if still in (PURE, _LENGTH) else None
         if within := _MARKED.fullmatch(letter) or _STEP.fullmatch(letter):
@@ -107,10 +106,13 @@ class Kinds:
         }
         return kind if like <= {kind[:4]} else None
 
+    def _is_rate(self, letter: str) -> re.Match[str] | None:
+        return RATE.fullmatch(letter) if letter not in self.indexed else None
+
     def is_lent(self, letter: str) -> bool:
         """Whether a letter with an index has its kind from the one without it; a number for an index is lent less."""
         within = _MARKED.fullmatch(letter)
-        if letter in self.printed or letter in self.inferred or RATE.fullmatch(letter) or slope_in(letter):
+        if letter in self.printed or letter in self.inferred or self._is_rate(letter) or slope_in(letter):
             return False
         base = _INDEX.fullmatch(within[1] if within else letter)
         if base is None or base[2][0].isdigit() and base[1] not in self.spoken:
@@ -277,7 +279,7 @@ def infer(kinds: Kinds, said: Said) -> None:
     over = left is not None and is_operation(left, ast.Div) and value_of(left.left) == 1
     letter = left.right if over and isinstance(left, ast.BinOp) else left
     alike = {side.id for side in said.sides if isinstance(side, ast.Name)}
-    if len(alike) == len(said.sides) > 2 and len({n[0] for n in alike}) == 1:  # m_1 = m_2 = m
+    if len(alike) == len(said.sides) > 1 and len({n[0] for n in alike}) == 1:  # m_1 = m_2 = m
         shared = {kind for n in alike if (kind := kinds.of(n)) is not None}
         if len(shared) == 1:
             kinds.inferred |= dict.fromkeys((n for n in alike if kinds.of(n) is None), *shared)

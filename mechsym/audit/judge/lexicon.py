@@ -208,7 +208,6 @@ _SAME = (
     (("walls",), ("wall",)),
     (("liner",), ("cylinder", "wall")),
     (("crankshaft",), ("crank",)),
-    (("crankshafts",), ("crank",)),
     (("brake", "power"), ("effective", "power")),
     (("brake", "torque"), ("effective", "torque")),
     (("stroke", "volume"), ("swept", "volume")),
