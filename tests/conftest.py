@@ -1,6 +1,7 @@
 """Shared fixtures: seeded random numbers, the built-in parameters; settings of hypothesis and of the compiler."""
 
 import contextlib
+import gc
 import os
 from pathlib import Path
 
@@ -22,12 +23,20 @@ if "CC" not in os.environ:
         os.environ["CC"] = f"{compiler.find().command[0]} -O1"
         os.environ[_QUICK] = "1"
 
+# what a test process keeps is looked through less often, which took a twelfth of the time
+gc.set_threshold(200_000, 50, 50)
+
 settings.register_profile("mechsym", deadline=None, derandomize=True, max_examples=30)
 settings.load_profile("mechsym")
 
 
 def pytest_addoption(parser):
     parser.addoption("--update", action="store_true", help="rewrite the golden files instead of comparing with them")
+
+
+def pytest_collection_modifyitems(items):
+    """The longest come first, those of the site and the wheel: at the end one process would wait for them."""
+    items.sort(key=lambda item: item.path.parent != Path(__file__).parent)
 
 
 @pytest.fixture(autouse=True)

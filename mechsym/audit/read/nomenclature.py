@@ -163,7 +163,7 @@ def _each(meaning: str, count: int) -> list[str]:
     # indicated and effective power; moments of inertia of the engine and of the propeller
     if count == 2 and (of_both := re.fullmatch(r"([a-z]+) and ([a-z]+) ([a-z ]+)", meaning, re.IGNORECASE)):
         return [f"{of_both[1]} {of_both[3]}", f"{of_both[2]} {of_both[3]}"]
-    if count == 2 and (both := re.fullmatch(r"(.+?) (of .+?) and (of .+)", meaning)):
+    if count == 2 and (both := re.fullmatch(r"(.+) (of .+?) and (of .+)", meaning)):
         head = " ".join(_PLURALS.get(word, word) for word in both[1].split())
         return [f"{head} {both[2]}", f"{head} {both[3]}"]
     return [meaning] * count
