@@ -237,6 +237,27 @@ def kinds_of(paper: Text) -> Kinds:
             kinds.turns.add(letter)
         elif about.unit and scale(about.unit) != 1:
             kinds.scaled.add(letter)
+    _by_use(kinds, paper)
+    beside = Counter(said.shown.begins for said in paper.said)
+    for said in paper.said:  # the ratio of two speeds, of which one turns, is a length
+        if len(said.sides) == 2 and "ratio" in paper.called.get(getattr(said.sides[0], "id", ""), ""):
+            ratio, kind = said.sides[1], kind_in(kinds, said.sides[1])
+            if is_operation(ratio, ast.Div) and kind is not None and all(map(RATE.fullmatch, letters(ratio))):
+                kinds.printed[getattr(said.sides[0], "id", "")] = kind
+    for _ in range(3):
+        for said in paper.said:
+            # numbers in a row are data, in units that stand elsewhere
+            data = beside[said.shown.begins] > 1 and said.sides and value_of(said.sides[-1]) is not None
+            if not data:
+                infer(kinds, said)
+    _numbers_of_turns(kinds, paper.said)
+    for said in paper.said if kinds.turns else ():
+        infer(kinds, said)
+    return kinds
+
+
+def _by_use(kinds: Kinds, paper: Text) -> None:
+    # angles by the sines that they stand under, letters whose index is a unit, units behind an equation
     used = {n for said in paper.said for side in said.sides for n in letters(side)}
     for side in (side for said in paper.said for side in said.sides):
         for _, node in walk(side):
@@ -255,22 +276,6 @@ def kinds_of(paper: Text) -> Kinds:
     for said in paper.said:
         if said.shown.unit and said.sides and isinstance(said.sides[0], ast.Name):
             kinds.printed.setdefault(said.sides[0].id, of_unit(said.shown.unit))
-    beside = Counter(said.shown.begins for said in paper.said)
-    for said in paper.said:  # the ratio of two speeds, of which one turns, is a length
-        if len(said.sides) == 2 and "ratio" in paper.called.get(getattr(said.sides[0], "id", ""), ""):
-            ratio, kind = said.sides[1], kind_in(kinds, said.sides[1])
-            if is_operation(ratio, ast.Div) and kind is not None and all(map(RATE.fullmatch, letters(ratio))):
-                kinds.printed[getattr(said.sides[0], "id", "")] = kind
-    for _ in range(3):
-        for said in paper.said:
-            # numbers in a row are data, in units that stand elsewhere
-            data = beside[said.shown.begins] > 1 and said.sides and value_of(said.sides[-1]) is not None
-            if not data:
-                infer(kinds, said)
-    _numbers_of_turns(kinds, paper.said)
-    for said in paper.said if kinds.turns else ():
-        infer(kinds, said)
-    return kinds
 
 
 def infer(kinds: Kinds, said: Said) -> None:
