@@ -268,7 +268,7 @@ def _by_use(kinds: Kinds, paper: Text) -> None:
                 alone = isinstance(argument, ast.Name)  # cos 3 x of a way x has a number in 1/m
                 angles = [n for n in letters(argument) if alone or n not in _WAYS]
                 kinds.printed |= {n: PURE for n in angles if kinds.of(n) is None}
-    for letter in used:
+    for letter in sorted(used):
         unit = next((u for u in _SCALED if letter.endswith(u) and len(letter) > len(u)), "")
         if unit:
             kinds.printed[letter] = (*map(Fraction, dimension(unit)), Fraction(0), Fraction(-_SCALED[unit], 3))
