@@ -144,6 +144,7 @@ def site(tmp_path_factory):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_a_machine_moves_on_the_first_screen_of_the_site_and_no_page_scrolls_sideways(site):
     playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     if (chromium := shutil.which("chromium") or shutil.which("chromium-browser")) is None:

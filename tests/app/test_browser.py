@@ -265,7 +265,7 @@ def test_a_foreign_page_in_the_same_browser_learns_nothing(browser, address, pag
     assert not learnt["opened"] and learnt["read"] == "" and not inside
 
 
-@pytest.mark.parametrize("size", [(1400, 900), (375, 812)])
+@pytest.mark.parametrize("size", [(1400, 900), pytest.param((375, 812), marks=pytest.mark.heavy)])
 @pytest.mark.parametrize("tab", ["hinge", "forces", "simulate", "cycle", "size", "codesign"])
 def test_the_machine_turns_on_the_first_screen_of_a_tab(browser, address, tab, size):
     made = browser.new_page()

@@ -34,8 +34,8 @@ BY_LENGTH = sorted(PLANTED, key=lambda name: max(path.stat().st_size for path in
 def _long(mark):
     # the names of all texts, the longer ones marked, and the longest left to the heavy tests
     heavy = [pytest.mark.slow, pytest.mark.heavy]
-    longer = [pytest.param(name, marks=mark) for name in BY_LENGTH[40:80]]
-    return [*BY_LENGTH[:40], *longer, *(pytest.param(name, marks=heavy) for name in BY_LENGTH[80:])]
+    longer = [pytest.param(name, marks=mark) for name in BY_LENGTH[40:55]]
+    return [*BY_LENGTH[:40], *longer, *(pytest.param(name, marks=heavy) for name in BY_LENGTH[55:])]
 
 
 @pytest.mark.parametrize("name", _long(pytest.mark.slow))

@@ -90,7 +90,11 @@ def files_in(folder, differs):
     return found
 
 
-@pytest.mark.parametrize("name", [*FAST, *(pytest.param(name, marks=pytest.mark.slow) for name in LONG)])
+def _marks(name):
+    return [pytest.mark.slow, *[pytest.mark.heavy] * (name == "codesign")]
+
+
+@pytest.mark.parametrize("name", [*FAST, *(pytest.param(name, marks=_marks(name)) for name in LONG)])
 def test_a_second_run_leaves_what_it_leaves_in_a_new_folder(monkeypatch, tmp_path, name):
     if name in ("page", "fmu"):
         pytest.importorskip("ziglang", reason="the extra web is not installed")

@@ -42,7 +42,7 @@ def moved(pose, step):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.heavy) if n == "jansen" else n for n in NAMES])
 def test_a_mechanism_from_one_pose_closes_and_obeys_newton_and_euler(name):
     assert (*linkages(),) == NAMES
     equations, mechanism, values, pose = derived(name)

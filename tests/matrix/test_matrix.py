@@ -28,6 +28,7 @@ QUICK = {
     "nunes-hypocycloid/sweep", "nunes-slider-crank/cycle", "opposed-pistons/flywheel", "zotov-89/hinge",
     "zotov-89/sweep-guides", "v-twin/simulate", "none/audit-formula", "none/no-unit", "none/new-v-8", "none/sections",
 }  # fmt: skip
+LONG = ("none/audit-zotov", "none/reproduce-nunes")  # what CI has no time for
 ENTRIES = [entry for entry in entries() if not entry.heavy]
 RECORDS = {entry.name: read(RECORDED, entry) for entry in ENTRIES if kept(RECORDED, entry).exists()}
 
@@ -37,7 +38,7 @@ def marks(name):
         return []
     if name.startswith("valve"):  # a valve that lifts off its cam answers to the last bit
         return [pytest.mark.slow, pytest.mark.as_users]
-    return [pytest.mark.slow, pytest.mark.heavy] if name == "none/audit-zotov" else [pytest.mark.slow]
+    return [pytest.mark.slow, pytest.mark.heavy] if name in LONG else [pytest.mark.slow]
 
 
 @pytest.mark.parametrize("entry", [pytest.param(e, id=e.name, marks=marks(e.name)) for e in ENTRIES])

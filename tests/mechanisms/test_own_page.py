@@ -12,6 +12,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "own-mechanism.md"
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_every_block_of_the_page_runs(tmp_path):
     blocks = re.findall(r"```(\w+)(?: file=(\S+))?\n(.*?)```", PAGE.read_text(), re.S)
     ran = 0

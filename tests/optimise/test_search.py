@@ -151,6 +151,7 @@ def test_gas_phase_and_dead_volume_of_the_adiabatic_engine(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_valves_of_an_engine_that_breathes():
     spark = {"cycle.ignition": {"low": "-40 deg", "high": "5 deg"}}
     case = cases.load("generator-breathing", {"optimise.objective": "efficiency", "optimise.variables": spark})

@@ -141,6 +141,7 @@ def test_counts():
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_the_whole_reproduction_is_the_recorded_one(tmp_path, monkeypatch):
     figures = drawn(monkeypatch)
     result = run("--json", "--out", str(tmp_path))

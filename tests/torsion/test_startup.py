@@ -94,6 +94,7 @@ def test_hundred_seconds_converge():
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_capture_by_the_second_order_and_what_damping_does():
     runs = startup_map(case(backend="sundials", simulation__tolerance="1e-11"), (0.0, 0.2, 1.0, 5.0))
     assert all(r.result.status == "converged" for r in runs)

@@ -63,7 +63,7 @@ def _at(way: str, share: Node, node: Node) -> Node | None:
 
 
 def halved(world: World, said: Said) -> Iterator[Expected]:
-    """A kinetic energy with one half before each square of a speed, where it has one before some."""
+    """A kinetic energy with one half before each square of a speed, where it is one alone or has one before some."""
     printed = world.plain(said.sides[1])
     terms = summands(printed)
     before = [_number_before(term) if _has_square_of_rate(term) else None for term in terms]

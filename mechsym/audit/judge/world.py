@@ -294,7 +294,7 @@ class World:
             source = said[one.order]
             holds = one.order < 0 or source.section == said[order].section and not source.equates
             case = source.equates and _CASE.search(source.before) and "equal" not in said[order].before[-120:]
-            over_it = case and any(not other.inline for other in said[one.order + 1 : order])
+            over_it = one.order >= 0 and case and any(not other.inline for other in said[one.order + 1 : order])
             if one.order <= order and not over_it or holds and one.letter not in latest:
                 latest[one.letter] = index
         key = tuple(sorted(latest.values()))

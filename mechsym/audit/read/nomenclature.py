@@ -161,12 +161,13 @@ def nomenclature(text: str) -> dict[str, Named]:
 
 def _each(meaning: str, count: int) -> list[str]:
     # indicated and effective power; moments of inertia of the engine and of the propeller
-    if count == 2 and (of_both := re.fullmatch(r"([a-z]+) and ([a-z]+) ([a-z ]+)", meaning, re.IGNORECASE)):
+    if count == 2 and (of_both := re.fullmatch(r"([a-z]+) and ([a-z]+) ((?!of (?:inertia|area))[a-z ]+)", meaning, re.I)):
         return [f"{of_both[1]} {of_both[3]}", f"{of_both[2]} {of_both[3]}"]
     if count == 2 and (both := re.fullmatch(r"(.+) (of .+?) and (of .+)", meaning)):
         head = " ".join(_PLURALS.get(word, word) for word in both[1].split())
         return [f"{head} {both[2]}", f"{head} {both[3]}"]
-    return [meaning] * count
+    apart = meaning.split(" and ")  # crank radius and rod length
+    return apart if count == len(apart) == 2 else [meaning] * count
 
 
 def _item(match: re.Match[str], measured: bool) -> tuple[str, str, str]:
