@@ -2,7 +2,7 @@
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from functools import partial, reduce
 from typing import TypeGuard
@@ -11,6 +11,7 @@ from mechsym.audit.judge.kinds import kind_in, of_unit
 from mechsym.audit.judge.motion import ANGLES, KINETIC
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
+from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import SPEEDS
 from mechsym.audit.read.tree import (
     Node,
@@ -68,9 +69,8 @@ def halved(world: World, said: Said) -> Iterator[Expected]:
     terms = summands(printed)
     before = [_number_before(term) if _has_square_of_rate(term) else None for term in terms]
     whole = [term for c, term in zip(before, terms, strict=True) if c == 1]
-    if ({*before} == {Fraction(1, 2), Fraction(1)} or before == [1]) and not any(
-        _has_twins(world, term) for term in whole
-    ):
+    alone = before == [1] and sum(is_operation(n, ast.Pow) for _, n in walk(printed)) == 1  # m v^2, no m r^2 omega^2
+    if (alone or {*before} == {Fraction(1, 2), Fraction(1)}) and not any(_has_twins(world, term) for term in whole):
         mended = [over(term, number(2)) if c == 1 else term for c, term in zip(before, terms, strict=True)]
         yield Expected(tree=reduce(plus, mended), printed=printed, note="half of each mass by the square of its speed")
 
@@ -103,13 +103,25 @@ def reduced(world: World, order: int, said: Said) -> Iterator[Expected]:
         for d in world.defined
         if d.letter in used and is_operation(d.tree, ast.Div) and _is_rate(d.tree.left) and _is_rate(d.tree.right)
     }
-    for note, whole in _kinetic(world, order):
-        energy = substitute(whole, lambda n: ratios.get(n.id) if isinstance(n, ast.Name) else None)
+    own = getattr(said.sides[0], "id", "")
+    for note, whole in ((note, whole) for note, whole in _kinetic(world, order) if own not in letters(whole)):
+        energy = substitute(whole, partial(_put_in, ratios))
         rates = {k: rate_in(k.removesuffix("d"), used) or k for k in letters(energy) if k.endswith("d")}
         energy = renamed(energy, rates)
         for rate in dict.fromkeys(rates.values()):
             tree = over(times(number(2), energy), times(name(rate), name(rate)))
             yield Expected(tree=tree, printed=printed, note=note)
+        turning = f"{world.angle}d"
+        ways = {k: k.removesuffix("d") for k in rates.values() if k != turning and world.turns(k.removesuffix("d"))}
+        if ways and turning in rates.values():  # of what moves with the angle its rate is the slope by the angle
+            by_angle = {k: times(name(Slope(way, world.angle).name), name(turning)) for k, way in ways.items()}
+            moved = substitute(energy, partial(_put_in, by_angle))
+            tree = over(times(number(2), moved), times(name(turning), name(turning)))
+            yield Expected(tree=tree, printed=printed, note=note, whole=True)
+
+
+def _put_in(trees: Mapping[str, Node], node: Node) -> Node | None:
+    return trees.get(node.id) if isinstance(node, ast.Name) else None
 
 
 def _is_rate(tree: Node) -> TypeGuard[ast.Name]:
@@ -122,11 +134,13 @@ def _kinetic(world: World, order: int) -> Iterator[tuple[str, Node]]:
     for source in world.paper.said[:order]:
         letter = getattr(source.sides[0], "id", "") if len(source.sides) > 1 else ""
         whole = world.plain(source.sides[-1]) if letter else None
-        if whole is not None and letter in KINETIC:
+        sums_up = letter in KINETIC or world.phrase(letter) == "kinetic energy"
+        base = letter.rstrip("0123456789")
+        if whole is not None and sums_up:
             yield f"by the energy of ({source.name})", whole
         elif (
             whole is not None
-            and letter.rstrip("0123456789") in KINETIC
+            and (base in KINETIC or world.phrase(base) == "kinetic energy")
             and any(k.endswith("d") for k in letters(whole))
         ):
             parts[letter] = (source.name, whole)

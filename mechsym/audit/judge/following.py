@@ -54,7 +54,8 @@ _AT_A_VALUE = re.compile(
     rf"\b(?:At|For|With|Where)\s+\$({SIGN})\s*=\s*([^$=]+)\$\s+(?:this|that|it)\s+(?:is|becomes|gives)\s*$"
 )
 _MEAN = re.compile(
-    r"\b(?:mean|average)\b|\b(?:over|in|during) (?:a|one|each|every|the whole) (?:revolution|turn)\b[^.]*\bwork\b[^.]*\b(?:that of|equals?|same)\b",
+    r"\b(?:mean|average)\b"
+    r"|\b(?:over|in|during) (?:a|one|each|every) (?:revolution|turn)\b[^.]*\bwork\b[^.]*\b(?:that of|equals?|same)\b",
     re.IGNORECASE,
 )
 _SEVERAL = re.compile(

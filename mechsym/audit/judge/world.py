@@ -40,6 +40,7 @@ from mechsym.audit.theory.tape import TheoryTape, over, times
 from mechsym.quantities import record
 
 _OPAQUE = re.compile(r"integral\w{8}|constant|function")
+_SLENDER = re.compile(r"\bratio\b.*\bcrank\b.*\brod\b|\b(?:crank[- ]to[- ]|connecting |^)rod ratio\b")
 _CASE = re.compile(r"\b(?:for|if|when|where)\b[^.;:$]*$", re.IGNORECASE)  # for equal masses m_1 = m_2
 
 
@@ -134,7 +135,7 @@ class World:
             about = self.paper.named.get(usual)
             fits = usual != "w" or about and about.unit == "rad/s"
             # beside the dotted angle it is the constant speed, where it is called a speed of what turns
-            beside = f"{self.angle}d" in written and not re.match("angular (?:velocity|speed)", self.phrase(usual))
+            beside = f"{self.angle}d" in written and not re.search("angular (?:velocity|speed)", self.phrase(usual))
             if (
                 self.angle
                 and f"{self.angle}d" not in self.aliases.values()
@@ -317,19 +318,18 @@ class World:
         return self._made({})
 
     def _made(self, tape: Mapping[str, Node]) -> Theory:
-        used = (
-            self.used
-            | {n for tree in tape.values() for n in letters(tree)}
-            | ({self.angle, f"{self.angle}d", f"{self.angle}dd"} if self.angle else set())
-        )
+        used = self.used | {n for tree in tape.values() for n in letters(tree)}
+        used |= {self.angle, f"{self.angle}d", f"{self.angle}dd"} if self.angle else set()
         bare = {n for n in used if n not in tape and not self._derivative(n, tape) and n != "pi"}
         known = all(self.kinds.of(n) is not None for n in bare)
         rods = tuple(sorted(self._rods(tape) & bare))
         values = {n: self._letter(n, known, n in rods) for n in sorted(bare)}
+        small = tuple(n for n in values if self.kinds.of(n) == PURE and _SLENDER.search(self.phrase(n)))
+        values |= {n: replace(values[n], value=0.27) for n in small}
         ordered = {letter: self._rated(tree, tape) for letter, tree in _in_order(tape)}
         return Theory(
             name="paper", letters=values, tape=TheoryTape(ordered, values, self.angle, declared=True),
-            results=tuple(ordered), angle=self.angle, rods=rods,
+            results=tuple(ordered), angle=self.angle, rods=rods, small=small,
         )  # fmt: skip
 
     def _rated(self, tree: Node, tape: Mapping[str, Node]) -> Node:

@@ -161,7 +161,9 @@ def nomenclature(text: str) -> dict[str, Named]:
 
 def _each(meaning: str, count: int) -> list[str]:
     # indicated and effective power; moments of inertia of the engine and of the propeller
-    if count == 2 and (of_both := re.fullmatch(r"([a-z]+) and ([a-z]+) ((?!of (?:inertia|area))[a-z ]+)", meaning, re.I)):
+    if count == 2 and (
+        of_both := re.fullmatch(r"([a-z]+) and ([a-z]+) ((?!of (?:inertia|area))[a-z ]+)", meaning, re.I)
+    ):
         return [f"{of_both[1]} {of_both[3]}", f"{of_both[2]} {of_both[3]}"]
     if count == 2 and (both := re.fullmatch(r"(.+) (of .+?) and (of .+)", meaning)):
         head = " ".join(_PLURALS.get(word, word) for word in both[1].split())

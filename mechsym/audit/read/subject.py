@@ -110,7 +110,9 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if place := _AT_DEAD_CENTRE.search(bare):
         return f"{phrase} at {place[1].lower()} dead centre", tail
     if phrase.endswith(" one"):  # the tangential force, and the radial one
-        kinds = [word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in KINDS]
+        kinds = [
+            word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in (*KINDS, "speed")
+        ]
         phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
     whole = of_what.replace("-of-", " of ")
     return phrase, whole if whole.startswith(phrase) else phrase or tail
