@@ -151,3 +151,34 @@ def test_what_a_letter_stands_under_is_no_name():
 )
 def test_slopes_with_a_stroke(text, used):
     assert sorted(letters(read_latex(text)[0])) == sorted(used)
+
+
+SLENDER = (
+    "| $r$ | crank radius | m |\n|---|---|---|\n| $\\lambda$ | ratio of crank radius and rod length | - |\n"
+    "| $\\theta$ | crank angle from top dead centre | rad |\n| $\\omega$ | angular velocity | rad/s |\n\nThe way is\n"
+    "$$ x = r\\left(1 + \\frac{1}{\\lambda} - \\cos\\theta"
+    " - \\frac{1}{\\lambda}\\sqrt{1-\\lambda^2\\sin^2\\theta}\\right) $$\n\n"
+    "and, nearly,\n$$ \\ddot x \\approx r\\omega^2(\\cos\\theta + %s\\cos 2\\theta) $$"
+)
+
+
+@pytest.mark.parametrize(("share", "found"), [(r"\lambda", False), (r"\frac{\lambda}{2}", True)])
+def test_a_ratio_is_small_by_its_name(tmp_path, share, found):
+    rows = blamed(judged(tmp_path, SLENDER % share, "text.md"))
+    assert [row["verdict"] for row in rows] == ["misprint"] * found
+    assert all(same(row["correction"], r"r\omega^2(\cos\theta + \lambda\cos 2\theta)") for row in rows)
+
+
+INERTIA = (
+    "| $r$ | throw | m |\n|---|---|---|\n| $m$ | mass of the piston | kg |\n| $J_0$ | moment of inertia of the crank | "
+    "kg m^2 |\n| $E$ | kinetic energy | J |\n| $\\varphi$ | crank angle | rad |\n\n$$ s = 2r(1-\\cos\\varphi) $$\n\n"
+    "$$ E_1 = \\frac12 m\\dot s^2 $$\n\n$$ E_2 = \\frac12 J_0\\dot\\varphi^2 $$\n\n"
+    "The reduced moment of inertia is\n$$ J = J_0 + %s m r^2\\sin^2\\varphi $$"
+)
+
+
+@pytest.mark.parametrize(("factor", "found"), [("4", False), ("2", True)])
+def test_an_inertia_by_what_moves_with_the_angle(tmp_path, factor, found):
+    rows = blamed(judged(tmp_path, INERTIA % factor, "text.md"))
+    assert [row["verdict"] for row in rows] == ["misprint"] * found
+    assert all(same(row["correction"], r"J_0 + 4 m r^2\sin^2\varphi") for row in rows)

@@ -134,8 +134,8 @@ def _kinetic(world: World, order: int) -> Iterator[tuple[str, Node]]:
     for source in world.paper.said[:order]:
         letter = getattr(source.sides[0], "id", "") if len(source.sides) > 1 else ""
         whole = world.plain(source.sides[-1]) if letter else None
-        sums_up = letter in KINETIC or world.phrase(letter) == "kinetic energy"
         base = letter.rstrip("0123456789")
+        sums_up = letter in KINETIC or letter == base and world.phrase(letter) == "kinetic energy"
         if whole is not None and sums_up:
             yield f"by the energy of ({source.name})", whole
         elif (
