@@ -90,8 +90,10 @@ class Judge:
         if own.verdict in (*FINDINGS, CARRIED) or own.verdict not in ("", DEFINED) and not odd:
             return own
         if odd:
-            if (slip := self._by_words(order, said)) is not None and slip.verdict == "misprint":
-                return slip  # which mends the units, too
+            slip, about = self._by_words(order, said), self.world.paper.named.get(getattr(said.sides[0], "id", ""))
+            again = slip is not None and slip.verdict == "exact" and not (about and about.unit)
+            if slip is not None and (slip.verdict == "misprint" or again):
+                return slip  # which mends the units, too; T was a temperature, and is a torque here
             return Judged(verdict="wrong", matched="units", note="; ".join(dict.fromkeys(o.why for o in odd)))
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:
