@@ -16,6 +16,7 @@ from mechsym.audit.judge import misfits as of_units
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved, with_frequency
 from mechsym.audit.judge.forms import (
     has_sense,
+    is_another,
     is_one_of_several,
     is_still,
     known,
@@ -90,10 +91,9 @@ class Judge:
         if own.verdict in (*FINDINGS, CARRIED) or own.verdict not in ("", DEFINED) and not odd:
             return own
         if odd:
-            slip, about = self._by_words(order, said), self.world.paper.named.get(getattr(said.sides[0], "id", ""))
-            again = slip is not None and slip.verdict == "exact" and not (about and about.unit)
-            if slip is not None and (slip.verdict == "misprint" or again):
-                return slip  # which mends the units, too; T was a temperature, and is a torque here
+            slip, telling = self._by_words(order, said), {"misprint", "exact" if is_another(self.world, said) else ""}
+            if slip is not None and slip.verdict in telling:
+                return slip  # which mends the units, too
             return Judged(verdict="wrong", matched="units", note="; ".join(dict.fromkeys(o.why for o in odd)))
         for fit in self.fits:
             if (slip := self._slip(fit, order, said)) is not None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cache
 
 from mechsym.audit.hosts.neighbours import Neighbours
+from mechsym.audit.judge.forms import is_another
 from mechsym.audit.judge.kinds import kind_in, of_unit
 from mechsym.audit.judge.lexicon import Lexicon
 from mechsym.audit.judge.sampled import vanishes
@@ -35,8 +36,8 @@ from mechsym.audit.theory.record import Theory
 
 _ALONE = 4  # operations of a formula of one letter that is held against theories: (2/(k + 1))^(k/(k - 1))
 _SUM = "forcesum"  # letter for a sum of forces
-# slider cranks are counted from the other dead centre in every theory
 _FROM_TOP = re.compile(r"\b(?:from|after|past)\s+(?:the\s+|its\s+)?(?:top|inner|upper)\s+dead\s+cent", re.IGNORECASE)
+# slider cranks are counted from the other dead centre in every theory
 _FROM_BOTTOM = re.compile(r"\b(?:counted|measured|taken)\s+from\s+(?:the\s+|its\s+)?(?:bottom|outer|lower)\s+dead")
 
 
@@ -79,7 +80,7 @@ class Worded:
             if not isinstance(letter, ast.Name):
                 continue
             left = letter.id
-            about = called.get(left) or said.about
+            about = said.about if is_another(self.world, said) else called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
                 if (
                     (len(letters(side)) > 1 or sum(isinstance(n, ast.BinOp) for _, n in walk(side)) > _ALONE)

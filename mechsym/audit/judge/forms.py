@@ -4,11 +4,13 @@ import ast
 from collections.abc import Iterator
 from dataclasses import replace
 
+from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.primes import PRIMED, primed, rated, slope_of, stems_of
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.tree import Node, letters, substitute, value_of, walk
+from mechsym.audit.read.units import usual_unit
 from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import slope_by
 
@@ -62,6 +64,13 @@ def is_still(world: World, letter: str) -> bool:
     stems = [] if letter in world.paper.named else stems_of(letter)
     given = {d.letter for d in world.defined}
     return letter not in given and any(stem in given and not world.turns(stem) for stem in stems)
+
+
+def is_another(world: World, said: Said) -> bool:
+    """Whether the left side is called here what is measured otherwise: a T that was a temperature, and is a torque."""
+    left = getattr(said.sides[0], "id", "")
+    here, known = usual_unit(left, said.about), world.kinds.of(left)
+    return bool(here) and known is not None and of_unit(here)[:4] != known[:4]
 
 
 def has_sense(world: World, said: Said) -> bool:

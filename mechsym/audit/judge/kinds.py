@@ -81,7 +81,7 @@ class Kinds:
             if above is None or below is None:
                 return None
             return tuple(a - slope.order * b for a, b in zip(above, below, strict=True))
-        if (rate := self._is_rate(letter)) and (still := self.of(rate[1])) is not None:
+        if (rate := self.as_rate(letter)) and (still := self.of(rate[1])) is not None:
             # the dot on a mass or a heat may mean the angle
             return (*still[:2], still[2] - len(rate[2]), *still[3:]) if still in (PURE, _LENGTH) else None
         if within := _MARKED.fullmatch(letter) or _STEP.fullmatch(letter):
@@ -106,13 +106,14 @@ class Kinds:
         }
         return kind if like <= {kind[:4]} else None
 
-    def _is_rate(self, letter: str) -> re.Match[str] | None:
+    def as_rate(self, letter: str) -> re.Match[str] | None:
+        """A letter taken apart that is the rate of another one; None for all others."""
         return RATE.fullmatch(letter) if letter not in self.indexed else None
 
     def is_lent(self, letter: str) -> bool:
         """Whether a letter with an index has its kind from the one without it; a number for an index is lent less."""
         within = _MARKED.fullmatch(letter)
-        if letter in self.printed or letter in self.inferred or self._is_rate(letter) or slope_in(letter):
+        if letter in self.printed or letter in self.inferred or self.as_rate(letter) or slope_in(letter):
             return False
         base = _INDEX.fullmatch(within[1] if within else letter)
         if base is None or base[2][0].isdigit() and base[1] not in self.spoken:
@@ -240,10 +241,11 @@ def kinds_of(paper: Text) -> Kinds:
     _by_use(kinds, paper)
     beside = Counter(said.shown.begins for said in paper.said)
     for said in paper.said:  # the ratio of two speeds, of which one turns, is a length
-        if len(said.sides) == 2 and "ratio" in paper.called.get(getattr(said.sides[0], "id", ""), ""):
-            ratio, kind = said.sides[1], kind_in(kinds, said.sides[1])
-            if is_operation(ratio, ast.Div) and kind is not None and all(map(RATE.fullmatch, letters(ratio))):
-                kinds.printed[getattr(said.sides[0], "id", "")] = kind
+        left, ratio = said.sides if len(said.sides) == 2 else (None, None)
+        if isinstance(left, ast.Name) and ratio is not None and "ratio" in paper.called.get(left.id, ""):
+            kind = kind_in(kinds, ratio) if is_operation(ratio, ast.Div) else None
+            if kind is not None and all(map(kinds.as_rate, letters(ratio))):
+                kinds.printed[left.id] = kind
     for _ in range(3):
         for said in paper.said:
             # numbers in a row are data, in units that stand elsewhere

@@ -4,7 +4,7 @@ import ast
 from collections import Counter
 from collections.abc import Sequence
 
-from mechsym.audit.judge.kinds import PURE, RATE, SIXTY, THOUSAND, Clash, Kind, Kinds, Unknown, letters_of, text
+from mechsym.audit.judge.kinds import PURE, SIXTY, THOUSAND, Clash, Kind, Kinds, Unknown, letters_of, text
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.tree import letters, value_of
@@ -72,7 +72,7 @@ def _unlike(kinds: Kinds, one: Said, sides: Sequence[tuple[int, Kind]]) -> list[
 
 
 def _is_only_time(kinds: Kinds, letter: str) -> bool:
-    slope, rate = slope_in(letter), RATE.fullmatch(letter)
+    slope, rate = slope_in(letter), kinds.as_rate(letter)
     of = slope.of if slope and slope.by == "t" else rate[1] if rate else letter
     kind = kinds.inferred.get(of)
     followed = kind is not None and not any((*kind[:2], kind[3]))  # omega = d theta/dt of such a text

@@ -5,6 +5,7 @@ import re
 from mechsym.audit.read.nomenclature import ENDS
 from mechsym.audit.read.units import KINDS
 
+_REFERS = re.compile(r"\s+(?:refers|relates) to\s.*$")  # the mean pressure refers to the projected area
 _PUT_IN = re.compile(
     r"(\s(?:is|are|becomes|reads))\s*,\s+(?:to|in|for|with|at|by|as|up)\s[^,]*$"
 )  # the travel is, to the second order,
@@ -77,10 +78,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     words, spoken, sentence = _sentence(before)
     sentence = re.sub(r"\s*\([^()]*\)$", "", sentence)
     sentence = re.sub(r"(?:^|\s*,\s+)that is\s*,\s+", " ", sentence)
-    sentence = re.sub(
-        r"\s+(?:refers|relates) to\s.*$", " is", sentence
-    )  # the mean pressure refers to the projected area
-    sentence = _PUT_IN.sub(r"\1", sentence)
+    sentence = _PUT_IN.sub(r"\1", _REFERS.sub(" is", sentence))
     if _LEFT.search(sentence):
         return "", ""  # of a quantity another one is left
     if (place := _AT_PIN.search(sentence)) and _TWO_MASSES.search(words[-_NEAR:]):
@@ -110,9 +108,8 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if place := _AT_DEAD_CENTRE.search(bare):
         return f"{phrase} at {place[1].lower()} dead centre", tail
     if phrase.endswith(" one"):  # the tangential force, and the radial one
-        kinds = [
-            word for word in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0]) if word in (*KINDS, "speed")
-        ]
+        before_it = re.findall(r"[a-z]+", words.lower().rpartition(" one")[0])
+        kinds = [word for word in before_it if word in (*KINDS, "speed")]
         phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
     whole = of_what.replace("-of-", " of ")
     return phrase, whole if whole.startswith(phrase) else phrase or tail
