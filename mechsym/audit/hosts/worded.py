@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from functools import cache
 
 from mechsym.audit.hosts.neighbours import Neighbours
-from mechsym.audit.judge.forms import is_another
 from mechsym.audit.judge.kinds import kind_in, of_unit
 from mechsym.audit.judge.lexicon import Lexicon
 from mechsym.audit.judge.sampled import vanishes
@@ -80,7 +79,7 @@ class Worded:
             if not isinstance(letter, ast.Name):
                 continue
             left = letter.id
-            about = said.about if is_another(self.world, said) else called.get(left) or said.about
+            about = called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
                 if (
                     (len(letters(side)) > 1 or sum(isinstance(n, ast.BinOp) for _, n in walk(side)) > _ALONE)
