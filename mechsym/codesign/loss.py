@@ -19,9 +19,7 @@ from mechsym.codesign import running
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running, TimeRun, ripple_of_last_turn
 from mechsym.codesign.task import CoDesign, Path, Track, fine_path, path_of
-from mechsym.hinge import rollers as law
-from mechsym.hinge.guide import with_setting
-from mechsym.hinge.rollers import HingeLosses, LossTorques, contact_force
+from mechsym.hinge.rollers import HingeLosses, LossTorques, friction_torques
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.machine.loads import load_torque
@@ -30,7 +28,7 @@ from mechsym.periodic.roots import minimum
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Newton, RadPerSecond, Scalar
 
-KINDS = ("bearing", "seal", "guide", "rolling", "gas")
+KINDS = tuple(field.name for field in dataclasses.fields(LossTorques))
 
 
 @record
@@ -45,32 +43,19 @@ def friction(
     track: Track, path: Path, force: Newton[Scalar], omega: RadPerSecond[Scalar], given: HingeLosses
 ) -> dict[str, Scalar]:
     """Torques on the crank that bearings, seals and guides take [N*m]. force: of the spring on each roller."""
-    h = track.hardware
-    speed = h.shaft_ratio * omega
-    N = contact_force(force, path.rho, path.drho, path.d2rho, h.moving_mass, speed)
-    side = law.side_force(force, path.rho, path.drho, path.d2rho, h.moving_mass, speed)
-    r_b = given.bearing_radius or h.radius / 2
-    bearing = law.bearing_torque(N, path.rho, path.drho, given.bearing_mu, r_b, h.radius, h.count)
-    return {
-        "bearing": h.shaft_ratio * bearing,
-        "seal": h.shaft_ratio * law.seal_torque(force, path.drho, given.seal_mu, h.count),
-        "guide": h.shaft_ratio * law.guide_torque(side, path.drho, given.guide_mu, h.count),
-    }
-
-
-def spring_with_heat(track: Track, p0: float, omega: float, given: HingeLosses) -> AirThermal | None:
-    """The spring of a guide, filled to p0 [Pa], with a wall at the speed omega [rad/s]; None if its law has none."""
-    walled: AirThermal | None = with_setting(track.hardware.spring, p0).with_wall(given, omega)
-    return walled
+    h, at = track.hardware, (path.rho, path.drho, path.d2rho)
+    torques = friction_torques(force, at, h.shaft_ratio * omega, h, h.count, given)
+    return {kind: h.shaft_ratio * torque for kind, torque in torques.items()}
 
 
 def gas_turn(track: Track, p0: float, point: Point, given: HingeLosses) -> GasTurn | None:
     """The gas of one spring, filled to p0 [Pa], over a period; None of a law without heat."""
     phi, path = fine_path(track, point.period)
-    walled = spring_with_heat(track, p0, point.omega, given)
-    if walled is None:
-        return None
-    return walled.turn(path.z, np.full(phi.size, point.period / phi.size), point.omega)
+    walled = track.hardware.walled(p0, given, point.omega)
+    turn: GasTurn | None = (
+        None if walled is None else walled.turn(path.z, np.full(phi.size, point.period / phi.size), point.omega)
+    )
+    return turn
 
 
 def real(machine: Running, given: HingeLosses, fill: float = 1.0) -> Real:
@@ -165,7 +150,7 @@ def with_losses(design: CoDesign, k: int, given: HingeLosses) -> Lossy:
 def in_time(machine: Running, given: HingeLosses, speed: RadPerSecond, periods: int) -> TimeRun:
     """Run a machine of `real` from dead centre for some periods, each gas a state. speed: at the start."""
     point = machine.point
-    gases = [spring_with_heat(t, p, point.omega, given) for t, p in zip(machine.tracks, machine.pressures, strict=True)]
+    gases = [t.hardware.walled(p, given, point.omega) for t, p in zip(machine.tracks, machine.pressures, strict=True)]
     turns = [gas_turn(t, p, point, given) for t, p in zip(machine.tracks, machine.pressures, strict=True)]
     starts = [1.0 if turn is None else turn.warmth[0] for turn in turns]
     springs = [gas or t.hardware.charged(p) for t, gas, p in zip(machine.tracks, gases, machine.pressures, strict=True)]

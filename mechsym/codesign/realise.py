@@ -41,8 +41,8 @@ class Realised:
 
 
 def _bearing_loss(at: Station) -> float:
-    radius = at.rollers.radius
-    torque = bearing_torque(at.reaction, at.rho, at.drho, HingeLosses().bearing_mu, radius / 2, radius, at.count)
+    radius, given = at.rollers.radius, HingeLosses()
+    torque = bearing_torque(at.reaction, at.rho, at.drho, given.bearing_mu, given.bearing_at(radius), radius, at.count)
     return float(np.mean(torque))
 
 

@@ -6,11 +6,12 @@ import numpy as np
 
 from mechsym.codesign.certificate import Floor, proving, rollers_inertia
 from mechsym.codesign.front import CutForOne, RippleMap, Rival
-from mechsym.codesign.loss import Lossy
+from mechsym.codesign.loss import KINDS, Lossy
 from mechsym.codesign.rank import Bound
 from mechsym.codesign.scenarios import Scenario
 from mechsym.codesign.task import Active, CoDesign
 from mechsym.codesign.verify import GuideLoads, Spread, Verified
+from mechsym.hinge.guide import setting_of
 from mechsym.hinge.result import Target, design_words
 from mechsym.hinge.rollers import HingeLosses, LossTorques
 from mechsym.page import Shown
@@ -294,15 +295,14 @@ def _losses(result: CoDesignResult) -> CoDesignLosses:
     design, assumed = result.design, result.assumed
     points, hardware = design.task.points, design.tracks[0].hardware
     loads = np.array([abs(p.load_torque) for p in points])
-    kinds = ("bearing", "seal", "guide", "rolling", "gas")
-    torques = {kind: np.array([getattr(at, kind) for at in result.losses]) for kind in kinds}
+    torques = {kind: np.array([getattr(at, kind) for at in result.losses]) for kind in KINDS}
     total = np.sum(list(torques.values()), axis=0)
     taken = AssumedFriction(
         bearing_mu=assumed.bearing_mu,
-        bearing_radius=assumed.bearing_radius or hardware.radius / 2,
+        bearing_radius=assumed.bearing_at(hardware.radius),
         seal_mu=assumed.seal_mu,
         guide_mu=assumed.guide_mu,
-        tau=tuple(getattr(hardware.spring.with_wall(assumed, p.omega), "tau", None) for p in points),
+        tau=tuple(getattr(hardware.walled(setting_of(hardware.spring), assumed, p.omega), "tau", None) for p in points),
     )
     return CoDesignLosses(
         **{kind: tuple(values.tolist()) for kind, values in torques.items()},

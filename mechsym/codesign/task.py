@@ -56,6 +56,10 @@ class Hardware:
         own = {name: value for name, value in letters.items() if hasattr(self.spring, name)}
         return lettered(self.spring, {self.spring.setting[0]: setting, **own})
 
+    def walled(self, setting: Scalar, losses: HingeLosses, omega: RadPerSecond) -> Any:
+        """Its spring with a setting and a wall that takes heat; omega of the crank. None of a law without heat."""
+        return self.charged(setting).with_wall(losses, self.shaft_ratio * omega)
+
     def station(self, path: Any, spring: Spring, omega: RadPerSecond[Scalar], **letters: Scalar) -> Station:
         """A guide at the angles of a path, for its limits; omega of the crank, other numbers [SI]."""
         rollers = lettered(self, letters)

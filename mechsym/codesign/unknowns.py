@@ -22,10 +22,9 @@ import scipy
 from mechsym.codesign.points import Point, Samples
 from mechsym.codesign.settings import FREE
 from mechsym.codesign.task import MOST_MASS, CoDesignTask, Hardware, Path, path_of, roller_inertia
-from mechsym.hinge import rollers as law
 from mechsym.hinge.choices import ROOM
 from mechsym.hinge.guide import setting_of
-from mechsym.hinge.rollers import HingeLosses, contact_force
+from mechsym.hinge.rollers import HingeLosses, friction_torques
 from mechsym.hinge.springs.air_thermal import AirThermal, gas_temperature, relaxation
 from mechsym.hinge.springs.face import lettered
 from mechsym.periodic.pieces import PPoly
@@ -212,7 +211,7 @@ def warmths(
     by_guide: list[Warmth | None]
     by_guide, started = [], shapes(task, samples)
     for point in task.points:
-        walled = task.hardware.spring.with_wall(given, point.omega)
+        walled = task.hardware.walled(setting_of(task.hardware.spring), given, point.omega)
         if walled is None:
             by_guide.append(None)
             continue
@@ -272,19 +271,11 @@ def _warmth(
 
 def _friction(task: CoDesignTask, guide: GuideSymbols, force: Scalar, omega: float, given: HingeLosses) -> Scalar:
     """Torque on the crank that bearings, seals and guides take [N*m]; spring force of each roller in [N]."""
-    h, path, values = task.hardware, guide.path, guide.values
-    speed, radius, mass = h.shaft_ratio * omega, values["radius"], values["moving_mass"]
-    N = contact_force(force, path.rho, path.drho, path.d2rho, mass, speed)
-    swing = ca.sqrt(path.drho**2 + (_SMOOTH * path.rho) ** 2)
-    side = law.side_force(force, path.rho, path.drho, path.d2rho, mass, speed)
-    bearing = law.bearing_torque(
-        N, path.rho, path.drho, given.bearing_mu, given.bearing_radius or radius / 2, radius, h.count
-    )
-    return h.shaft_ratio * (
-        bearing
-        + law.seal_torque(force, swing, given.seal_mu, h.count)
-        + law.guide_torque(side, path.drho, given.guide_mu, h.count)
-    )
+    h, path = task.hardware, guide.path
+    steep = ca.sqrt(path.drho**2 + (_SMOOTH * path.rho) ** 2)
+    at, rollers = (path.rho, path.drho, path.d2rho), lettered(h, guide.values)
+    torques = friction_torques(force, at, h.shaft_ratio * omega, rollers, h.count, given, steep)
+    return h.shaft_ratio * sum(torques.values())
 
 
 _SECOND = (0.15, 0.05)  # closing of a second spring at the start and its swing, by the height of its column

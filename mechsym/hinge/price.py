@@ -13,10 +13,9 @@ import dataclasses
 import numpy as np
 
 from mechsym.cycle.pressure import unfired, unfired_kinks
-from mechsym.hinge import rollers as law
 from mechsym.hinge.guide import Guide, fitted
 from mechsym.hinge.limits import Contact, at_angles
-from mechsym.hinge.rollers import HingeLosses, LossTorques, RollerParameters
+from mechsym.hinge.rollers import HingeLosses, LossTorques, RollerParameters, friction_torques
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.face import GasTurn
 from mechsym.hinge.torque import Hinge
@@ -75,20 +74,9 @@ def price(machine: Machine, wanted: Hinge, guide: Guide, rollers: RollerParamete
 
 def friction(contact: Contact, guide: Guide, rollers: RollerParameters, given: HingeLosses) -> dict[str, np.ndarray]:
     """Torques on the crank that are lost to friction over a turn of the guide, each of shape (n,) [N*m]."""
-    ratio, c = guide.parameters.shaft_ratio, guide.rollers
-    side = law.side_force(
-        contact.force, contact.rho, contact.drho, contact.d2rho, rollers.moving_mass, guide.omega * ratio
-    )
-    r_b = given.bearing_radius or rollers.radius / 2
-    bearing = law.bearing_torque(
-        contact.reaction_1, contact.rho, contact.drho, given.bearing_mu, r_b, rollers.radius, c
-    )
-    return {
-        "bearing": ratio * bearing,
-        "seal": ratio * law.seal_torque(contact.force, contact.drho, given.seal_mu, c),
-        "guide": ratio * law.guide_torque(side, contact.drho, given.guide_mu, c),
-        "rolling": ratio * contact.loss_torque,
-    }
+    ratio, path = guide.parameters.shaft_ratio, (contact.rho, contact.drho, contact.d2rho)
+    taken = friction_torques(contact.force, path, guide.omega * ratio, rollers, guide.rollers, given)
+    return {kind: ratio * torque for kind, torque in {**taken, "rolling": contact.loss_torque}.items()}
 
 
 def gas_turn(contact: Contact, guide: Guide, walled: AirThermal) -> GasTurn:

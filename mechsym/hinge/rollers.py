@@ -243,6 +243,10 @@ class HingeLosses:
     gamma: float = quantity("-", default=1.4, above=1, below=2, about="ratio of specific heats of the gas")
     wall_temperature: float = quantity("K", default=320.0, above=200, below=800, about="wall of the gas spring")
 
+    def bearing_at(self, radius: Metre[Scalar]) -> Metre[Scalar]:
+        """Where the friction of the bearings acts in a roller."""
+        return self.bearing_radius or radius / 2
+
 
 @record
 class LossTorques:
@@ -334,3 +338,40 @@ def guide_torque(side: Newton[Scalar], drho: MetrePerRadian[Scalar], mu: Pure, c
     100.0
     """
     return count * mu * abs(side * drho)
+
+
+class Moving(Protocol):
+    """Numbers of a roller that moves with its part of the spring."""
+
+    @property
+    def radius(self) -> Scalar:
+        """Of the roller [m]."""
+
+    @property
+    def moving_mass(self) -> Scalar:
+        """That moves with it [kg]."""
+
+
+def friction_torques(
+    force: Newton[Scalar],
+    path: tuple[Metre[Scalar], MetrePerRadian[Scalar], MetrePerRadian2[Scalar]],
+    omega: RadPerSecond[Scalar],
+    rollers: Moving,
+    count: int,
+    given: HingeLosses,
+    steep: MetrePerRadian[Scalar] | None = None,
+) -> dict[str, NewtonMetre[Scalar]]:
+    """Torques that bearings, seals and guides take from the guide's shaft, by kind.
+
+    force: of the spring on each roller; path: rho and its derivatives; omega: speed of the guide's shaft; rollers: each
+    of `count`; steep: |drho| of the seals, where it has to be smooth.
+    """
+    rho, drho, d2rho = path
+    N = contact_force(force, rho, drho, d2rho, rollers.moving_mass, omega)
+    side = side_force(force, rho, drho, d2rho, rollers.moving_mass, omega)
+    acts, radius = given.bearing_at(rollers.radius), rollers.radius
+    return {
+        "bearing": bearing_torque(N, rho, drho, given.bearing_mu, acts, radius, count),
+        "seal": seal_torque(force, drho if steep is None else steep, given.seal_mu, count),
+        "guide": guide_torque(side, drho, given.guide_mu, count),
+    }

@@ -180,7 +180,7 @@ class HingeNumbers:
         load = abs(self.design.hinge.load_torque) or None  # no share of a load where there is none
         kinds = [field.name for field in dataclasses.fields(torques)]
         assumed = {field.name: getattr(price.assumed, field.name) for field in dataclasses.fields(price.assumed)}
-        radius = price.assumed.bearing_radius or self.design.rollers.radius / 2
+        radius = price.assumed.bearing_at(self.design.rollers.radius)
         return HingeLossNumbers(
             torques=torques,
             total=torques.total,

@@ -19,16 +19,15 @@ from the table it was designed from. `steady.py` finds steady motions without ru
 """
 
 import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from mechsym.hinge import rollers as laws
 from mechsym.hinge.guide import Guide, fitted, path, warmth
 from mechsym.hinge.limits import at_angles
 from mechsym.hinge.price import friction
-from mechsym.hinge.rollers import HingeLosses, RollerParameters, contact_force, loss_torque
+from mechsym.hinge.rollers import HingeLosses, RollerParameters, contact_force, friction_torques, loss_torque
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad
 from mechsym.machine.record import Machine, kinks_of, period_of
@@ -141,35 +140,20 @@ def _friction(hinge: RealHinge) -> dict[str, Along]:
     r, given, c = hinge.rollers, hinge.losses, hinge.guide.rollers
     ratio = hinge.guide.parameters.shaft_ratio
 
-    def taken(of: Callable[..., Scalar]) -> Along:
+    def lost(kind: str, F: Scalar, path: tuple[Scalar, Scalar, Scalar], omega: Scalar) -> Scalar:
+        if kind == "rolling" or given is None:
+            return c * loss_torque(contact_force(F, *path, r.moving_mass, omega), path[0], path[1], r)
+        return friction_torques(F, path, omega, r, c, given)[kind]
+
+    def taken(kind: str) -> Along:
         def value(u: Scalar, curves: Sequence[Scalar], states: Sequence[Scalar]) -> Scalar:
             rho, drho, d2rho, omega = _path_at(hinge, u, curves)
-            return -ratio * of(_force(hinge, rho, states), rho, drho, d2rho, omega)
+            return -ratio * lost(kind, _force(hinge, rho, states), (rho, drho, d2rho), omega)
 
         return Along(function=value)
 
-    def contact(F: Scalar, rho: Scalar, drho: Scalar, d2rho: Scalar, omega: Scalar) -> Scalar:
-        return contact_force(F, rho, drho, d2rho, r.moving_mass, omega)
-
-    torques = {}
-    if given is not None:
-        r_b = given.bearing_radius or r.radius / 2
-        torques["bearing"] = taken(
-            lambda F, rho, drho, *more: laws.bearing_torque(
-                contact(F, rho, drho, *more), rho, drho, given.bearing_mu, r_b, r.radius, c
-            )
-        )
-        torques["seal"] = taken(lambda F, rho, drho, *more: laws.seal_torque(F, drho, given.seal_mu, c))
-        torques["guide"] = taken(
-            lambda F, rho, drho, d2rho, omega: laws.guide_torque(
-                laws.side_force(F, rho, drho, d2rho, r.moving_mass, omega), drho, given.guide_mu, c
-            )
-        )
-    if r.friction != "none":
-        torques["rolling"] = taken(
-            lambda F, rho, drho, *more: c * loss_torque(contact(F, rho, drho, *more), rho, drho, r)
-        )
-    return torques
+    rubbing = () if given is None else ("bearing", "seal", "guide")
+    return {kind: taken(kind) for kind in (*rubbing, *(() if r.friction == "none" else ("rolling",)))}
 
 
 def _gas(hinge: RealHinge, phi: float) -> tuple[State, ...]:
