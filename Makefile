@@ -1,11 +1,11 @@
-# Every target sets up what it needs. CI calls lint, check-derive, test and test-slow, in that order; a slow test builds the site.
+# Every target sets up what it needs. CI calls setup-all, lint and check-derive, and test with SLOW=1; a slow test builds the site.
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 # without compiled modules every start takes twice as long
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: setup setup-all record compare records derive check-derive pictures audit certificates reproduce proof demo docs test test-slow test-heavy test-step bench fuzz nearby slips hostile mutate faults interrupts audit-deps house dist lint format clean
+.PHONY: setup setup-all record compare records derive check-derive pictures audit certificates reproduce proof demo docs test test-heavy test-step bench fuzz nearby slips hostile mutate faults interrupts audit-deps house dist lint format clean
 
 setup: $(READY)
 
@@ -57,11 +57,9 @@ proof: | $(READY)
 demo: | $(READY)
 	$(BIN)/mechsym hinge zotov-89 --out demo
 
-test: | $(READY)
-	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m "not slow"
-
-test-slow: | .venv/ready-all
-	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m "slow and not heavy"
+# SLOW=1: what takes longer too, as CI runs it; together they share what they compute
+test: | $(if $(SLOW),.venv/ready-all,$(READY))
+	$(BIN)/python -m pytest -n 2 --dist worksteal -q -m "$(if $(SLOW),not heavy,not slow)"
 
 # what CI has no time for: sanitizers, a compiler for another system, sympy's bicycle, fine grids, 200 dead centres, intervals of fits
 test-heavy: | .venv/ready-all
