@@ -20,7 +20,7 @@ from mechsym.cycle.kinds import kind_of
 from mechsym.cycle.pressure import unfired, unfired_kinks
 from mechsym.errors import BadInput, shown
 from mechsym.files.inputs import read_text
-from mechsym.hinge.choices import ROLLERS, GuideParameters
+from mechsym.hinge.choices import GuideParameters
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import EngineTorques, Hinge, engine_torques, torque
@@ -143,7 +143,7 @@ def hardware(spring: Spring, guide: GuideParameters, rollers: RollerParameters, 
             "air_absolute, and give the heat as [losses]"
         )
     return Hardware(
-        spring=spring, rho0=guide.rho0, z_margin=guide.z_margin, count=ROLLERS[guide.arrangement],
+        spring=spring, rho0=guide.rho0, z_margin=guide.z_margin, count=guide.rollers,
         shaft_ratio=guide.shaft_ratio, radius=rollers.radius, width=rollers.width, E=rollers.E, nu=rollers.nu,
         moving_mass=moving_mass,
     )  # fmt: skip

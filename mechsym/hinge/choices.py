@@ -251,6 +251,11 @@ class GuideParameters:
     #: Part of the torque to balance, `whole_cycle` or `every_turn`
     balance: str = choice(*BALANCES, default="whole_cycle", about="part of the torque to balance")
 
+    @property
+    def rollers(self) -> int:
+        """Rollers c that move the spring."""
+        return ROLLERS[self.arrangement]
+
 
 @record
 class Limits:

@@ -32,7 +32,7 @@ import numpy as np
 from mechsym import periodic
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.choices import ROLLERS, GuideParameters, refuse_open_track
+from mechsym.hinge.choices import GuideParameters, refuse_open_track
 from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import settle
@@ -54,11 +54,15 @@ class Guide:
     parameters: GuideParameters
     spring: Spring  #: Spring in it: the one it was cut for, or another (see `refit`)
     omega: float  #: Crank speed that it was made for [rad/s]
-    rollers: int  #: Rollers c that move the spring
     status: str  #: `cut`, or why not, see `TrackPath`
     reason: str
     rho: PPoly | None  #: Path over the angle theta of the guide's shaft [m]; None unless cut
     closure: float  #: Gap of the path after a period, before it is closed [m]
+
+    @property
+    def rollers(self) -> int:
+        """Rollers c that move the spring."""
+        return self.parameters.rollers
 
 
 def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) -> Guide:
@@ -76,7 +80,6 @@ def cut(wanted: Hinge | Balance, spring: Spring, parameters: GuideParameters) ->
         parameters=parameters,
         spring=spring,
         omega=wanted.omega,
-        rollers=ROLLERS[parameters.arrangement],
         status=track.status,
         reason=track.reason,
         rho=track.rho,

@@ -25,7 +25,7 @@ import numpy as np
 from mechsym import periodic
 from mechsym.errors import BadInput, suggest
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.choices import CENTRE, ROLLERS, ROOM, GuideLimit, GuideParameters, Limits, Station, asked
+from mechsym.hinge.choices import CENTRE, ROOM, GuideLimit, GuideParameters, Limits, Station, asked
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Formulas, Spring, lettered
 from mechsym.hinge.springs.law_path import FULL
@@ -149,7 +149,7 @@ def _parts(
     p: list[ca.SX],
     free: list[ca.SX],
 ) -> _KernelParts:
-    ratio, c = choices.shaft_ratio, ROLLERS[choices.arrangement]
+    ratio, c = choices.shaft_ratio, choices.rollers
     phi, stages = _stages(wanted, ratio)
     law, of = spring.symbolic(), letters["torque"]
     zm = letters["guide"].z_margin

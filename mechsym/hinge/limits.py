@@ -9,7 +9,7 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.hinge import rollers
-from mechsym.hinge.choices import CENTRE, ROLLERS, ROOM, GuideLimit, GuideParameters, Limits, Station, asked
+from mechsym.hinge.choices import CENTRE, ROOM, GuideLimit, GuideParameters, Limits, Station, asked
 from mechsym.hinge.guide import Guide, path, warmth
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Spring
@@ -71,7 +71,7 @@ def station_of(
     values: Sequence[Metre[Array]], warm: Pure[Array] | None = None,
 ) -> Station:  # fmt: skip
     """A guide at angles of its track. omega: of the crank. values: path and derivatives. warm: state of the gas."""
-    count = ROLLERS[choices.arrangement]
+    count = choices.rollers
     rho, drho, d2rho = values
     z = count * (choices.rho0 - rho)
     return Station(

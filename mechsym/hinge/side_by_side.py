@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.choices import ROLLERS, GuideParameters, Limits, refuse_open_track
+from mechsym.hinge.choices import GuideParameters, Limits, refuse_open_track
 from mechsym.hinge.limits import Verdict, station_of, verdict
 from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.springs.face import Spring, lettered
@@ -111,7 +111,7 @@ def _can_be_cut(wanted: Balance, designs: list[GuideDesign]) -> np.ndarray:
         _, least, most = _energies(wanted, springs, choices)
         held = (choices.z_margin < springs.H) & (most < springs.energy_high) & (least > springs.energy_low)
         z_max = springs.closing(np.where(held, most, 0.0))
-    return held & (z_max < FULL * springs.H) & (choices.rho0 - z_max / ROLLERS[choices.arrangement] > 0)
+    return held & (z_max < FULL * springs.H) & (choices.rho0 - z_max / choices.rollers > 0)
 
 
 def _judged(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict]:
@@ -119,7 +119,7 @@ def _judged(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict]:
     springs, choices = _springs([d.spring for d in designs]), _columns([d.choices for d in designs])
     _, least, most = _energies(wanted, springs, choices)
     z = np.stack([springs.closing(least), springs.closing(most)])
-    extremes = choices.rho0 - z / ROLLERS[choices.arrangement]
+    extremes = choices.rho0 - z / choices.rollers
     tracks = _tracks(wanted, springs, choices, designs[0].choices.shaft_ratio)
     cuts = np.append(np.flatnonzero(np.diff(tracks.who, prepend=-1)), len(tracks.who))
     judged = []
@@ -134,7 +134,7 @@ def _judged(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict]:
 
 def _tracks(wanted: Balance, springs: Spring, choices: SimpleNamespace, ratio: float) -> _Tracks:
     """Paths as `law_path`: the slope is fitted, the path is its exact integral and closed."""
-    c, count, period = ROLLERS[choices.arrangement], len(choices.rho0), wanted.period * ratio
+    c, count, period = choices.rollers, len(choices.rho0), wanted.period * ratio
     at_start = _energies(wanted, springs, choices)[0]
 
     def z(theta: np.ndarray, who: np.ndarray) -> np.ndarray:

@@ -30,8 +30,7 @@ def guide(arrangement="two_tracks", ratio=1.0, spring=COIL, **more):
     parameters = GuideParameters(arrangement=arrangement, rho0=RHO0, shaft_ratio=ratio)
     path = periodic.fit(lambda theta: a + e * np.cos(theta), (), 2 * np.pi, 1e-13)
     made = {"status": "cut", "reason": "", "closure": 0.0} | more
-    rollers = 1 if arrangement == "one_roller" else 2
-    return Guide(parameters=parameters, spring=spring, omega=OMEGA, rollers=rollers, rho=path, **made)
+    return Guide(parameters=parameters, spring=spring, omega=OMEGA, rho=path, **made)
 
 
 def outside(theta):

@@ -28,7 +28,7 @@ import scipy
 
 from mechsym.errors import BadInput
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.choices import ROLLERS, GuideParameters
+from mechsym.hinge.choices import GuideParameters
 from mechsym.hinge.rollers import HingeLosses
 from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.hinge.springs.law_path import FULL, TrackPath, can_be_given, crossing, takes_work
@@ -272,7 +272,7 @@ def _path(wanted: Hinge | Balance, spring: AirThermal, parameters: GuideParamete
     """
     if not can_be_given(wanted):
         return TrackPath(status="takes_work", reason=takes_work(wanted))
-    ratio, count = parameters.shaft_ratio, ROLLERS[parameters.arrangement]
+    ratio, count = parameters.shaft_ratio, parameters.rollers
     x, placed = wanted.omega * ratio * spring.tau, parameters.start == "placed"
     if x < _FASTEST:
         raise BadInput(

@@ -7,7 +7,7 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.hinge.balance import Balance
-from mechsym.hinge.choices import ROLLERS, GuideParameters
+from mechsym.hinge.choices import GuideParameters
 from mechsym.hinge.torque import Hinge, exists
 from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
@@ -87,7 +87,7 @@ def law_path(wanted: Hinge | Balance, spring: ByClosing, parameters: GuideParame
     status, reason = _status(wanted, spring, parameters, at_start - high, at_start - low)
     if status != "cut":
         return TrackPath(status=status, reason=reason)
-    ratio, rollers = parameters.shaft_ratio, ROLLERS[parameters.arrangement]
+    ratio, rollers = parameters.shaft_ratio, parameters.rollers
 
     def z(theta: np.ndarray) -> np.ndarray:
         return np.asarray(spring.closing(at_start - wanted.work(theta / ratio)))
@@ -130,7 +130,7 @@ def _status(
 
 def crossing(parameters: GuideParameters, z_max: float) -> tuple[str, str]:
     """Status and reason of a path by the largest closing [m]: it stays on its side of the shaft, or not."""
-    rho_min = parameters.rho0 - z_max / ROLLERS[parameters.arrangement]
+    rho_min = parameters.rho0 - z_max / parameters.rollers
     if rho_min > 0:
         return "cut", ""
     return "crosses_axis", (
