@@ -13,7 +13,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym import mechanisms
-from mechsym.app.sliders import numbers
+from mechsym.app.sliders import REACH, numbers
 from mechsym.cases import Case
 from mechsym.cycle.friction import MechanismFriction
 from mechsym.cycle.kinds import kind_of
@@ -119,7 +119,7 @@ def _kept(case: Case, data: object) -> str | None:
 
 def _fine(case: Case, data: Any) -> str | None:
     wanted = case.sections.get("sizing")
-    return "sizing.speed_step is wider" if wanted and _REACH * data.step <= wanted.speed_step else None
+    return "sizing.speed_step is wider" if wanted and REACH * data.step <= wanted.speed_step else None
 
 
 def _weighed(case: Case, data: object) -> str | None:
@@ -136,7 +136,6 @@ def _designed(case: Case, data: object) -> str | None:
     return "designed at the speeds of [codesign]" if "codesign" in case.sections else None
 
 
-_REACH = 2.0  # as far as sliders go, times the value
 _NO_PLACE = "the mechanism has no such place that rubs"
 
 # section, keys (none: all of it), tabs (none: all of them), reason while it holds

@@ -13,7 +13,7 @@ from mechsym.quantities import quantity, record
 from mechsym.quantities.display import key_words
 from mechsym.quantities.records import Field, Record
 
-_REACH = 2.0  # times a value, and its inverse, are as far as its slider goes
+REACH = 2.0  # times a value, and its inverse, are as far as its slider goes
 _STEPS = 200
 #: how far the slider of a zero goes by its unit; else as far as the largest value of its section with that unit, or 1
 _FROM_ZERO = {"Pa": 2e5, "m/s^2": 20.0}
@@ -41,7 +41,7 @@ def sliders(case: Case) -> tuple[Slider, ...]:
     for section, data in case.sections.items():
         for field in numbers(case, section):
             value = float(getattr(data, field.name))
-            reach = _REACH * abs(value) or _from_zero(data, field.metadata["unit"])
+            reach = REACH * abs(value) or _from_zero(data, field.metadata["unit"])
             shown.append(_slider(case, f"{section}.{field.name}", field, value, reach))
     return tuple(shown)
 
@@ -88,7 +88,7 @@ def _from_zero(data: Record, unit: str) -> float:
 def _slider(case: Case, key: str, field: Field, value: float, reach: float) -> Slider:
     """The slider of a value, as far as a reach in its unit on the side away from zero [unit of the key]."""
     meta = field.metadata
-    low, high = sorted((value / _REACH, math.copysign(reach, value))) if value else (-reach, reach)
+    low, high = sorted((value / REACH, math.copysign(reach, value))) if value else (-reach, reach)
     low = max(x for x in (low, meta.get("low"), meta.get("above")) if x is not None)
     high = min(x for x in (high, meta.get("high"), meta.get("below")) if x is not None)
     whole = value == round(value) and meta["unit"] == "-" and not _accepted(case, key, value + 0.5)

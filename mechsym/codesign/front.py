@@ -21,13 +21,13 @@ import numpy as np
 import scipy
 
 from mechsym.codesign.certificate import rollers_inertia
-from mechsym.codesign.points import Function, Point, bare_flywheel, motion, sample
+from mechsym.codesign.points import Function, Point, bare_flywheel, motion, sample, speed
 from mechsym.codesign.programme import ReadyProgramme, programme, solve
 from mechsym.codesign.running import added_inertia
 from mechsym.codesign.task import CoDesign, CoDesignTask
 from mechsym.codesign.unknowns import closing
 from mechsym.errors import BadInput
-from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, propeller_load_squares, ripple
+from mechsym.hinge.balance import STOPPED, or_stopped, propeller_load_squares, ripple
 from mechsym.hinge.guide import setting_of
 from mechsym.hinge.springs.face import affine_energy
 from mechsym.periodic.roots import minimum, root
@@ -39,7 +39,6 @@ _ANGLES = 180
 _GOLDEN = (5**0.5 - 1) / 2
 _STEPS = 30  # of the golden section
 _SCHEDULE_FAR = (0.4, 2.5)  # pressures that are tried, by the ratio of the works
-_SCHEDULE_STOPPED = 2.0
 
 
 @record
@@ -101,11 +100,10 @@ def _ripples(
     squares = propeller_load_squares(missing, inertia, speed, torque[:, None], period) / speed**2
     u = np.sqrt(np.maximum(squares, 1e-12))
     lowest, weak = squares.min(axis=1), np.ptp(u, axis=1) * np.mean(1 / u, axis=1)
-    return np.where(lowest <= 0, _SCHEDULE_STOPPED - lowest, weak)
+    return np.where(lowest <= 0, STOPPED - lowest, weak)
 
 
 _EVEN = 720
-_STOPPED = 10.0
 _FAR = (0.5, 2.0)  # pressures that are tried, by the ratio of the works
 
 
@@ -195,12 +193,8 @@ def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
 
 def _ripple(point: Point, missing: np.ndarray, inertia: np.ndarray) -> float:
     """Ripple [-]; where the shaft stops a number that is larger than any and grows with the missing work."""
-    if point.law == "constant":
-        speed = constant_load_speed(missing, inertia, point.omega)
-    else:
-        speed = propeller_load_speed(missing, inertia, point.omega, point.load_torque, point.period)
-    value = ripple(speed)
-    return _STOPPED + float(np.ptp(missing)) / (float(inertia.max()) * point.omega**2) if value is None else value
+    beyond = float(np.ptp(missing)) / (float(inertia.max()) * point.omega**2)
+    return or_stopped(ripple(speed(point, missing, inertia)), beyond)
 
 
 _RATIO = 3.0  # largest by smallest ratio of noncircular gears (assumed)

@@ -19,6 +19,8 @@ from mechsym.codesign import running
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running, TimeRun, ripple_of_last_turn
 from mechsym.codesign.task import CoDesign, Path, Track, fine_path, path_of
+from mechsym.hinge.balance import or_stopped
+from mechsym.hinge.price import FILLS
 from mechsym.hinge.rollers import HingeLosses, LossTorques, friction_torques
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.face import GasTurn, Spring
@@ -109,8 +111,6 @@ def _periodic(phi: np.ndarray, values: np.ndarray, period: float) -> PPoly:
     return PPoly.spline(np.append(phi, period), np.append(values, values[0]), periodic=True)
 
 
-_RESET = (0.7, 1.3)  # fills that are tried, by that of the schedule
-_STOPPED = 2.0
 _TURNS, _PER_TURN = 2, 1440
 
 
@@ -133,10 +133,9 @@ def with_losses(design: CoDesign, k: int, given: HingeLosses) -> Lossy:
         return Lossy(ripple=None, time_ripple=None, energy_residual=None, fill=1.0)
 
     def ripple(fill: float) -> float:
-        motion = running.steady(real(machine, assumed, fill).machine)
-        return _STOPPED if motion.speed_ripple is None else motion.speed_ripple
+        return or_stopped(running.steady(real(machine, assumed, fill).machine).speed_ripple)
 
-    fill = 1.0 if inside else minimum(ripple, *_RESET, 1e-4)[0]
+    fill = 1.0 if inside else minimum(ripple, *FILLS, 1e-4)[0]
     lossy = real(machine, assumed, fill).machine
     motion = running.steady(lossy)
     if motion.speed_ripple is None:

@@ -13,13 +13,12 @@ import numpy as np
 
 from mechsym import periodic
 from mechsym.errors import BadInput
-from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
+from mechsym.hinge.balance import constant_load_speed, or_stopped, propeller_load_speed, ripple
 from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import root
 from mechsym.quantities import choice, quantity, record
 from mechsym.quantities.units import Array, Inertia, Joule, Pure, Radian
 
-_STOPPED = 10.0  # stands for the ripple of a shaft that stops
 _EVEN = 1440  # angles for the closed forms of the motion
 
 Function = Callable[[np.ndarray], np.ndarray]
@@ -123,8 +122,7 @@ def bare_flywheel(points: Sequence[Point], wanted: Pure) -> Inertia:
     """
 
     def excess(flywheel: float) -> float:
-        ripples = [bare_ripple(point, flywheel) for point in points]
-        return max(_STOPPED if r is None else r for r in ripples) - wanted
+        return max(or_stopped(bare_ripple(point, flywheel)) for point in points) - wanted
 
     if excess(0.0) <= 0:
         return 0.0

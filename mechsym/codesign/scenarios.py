@@ -17,6 +17,7 @@ from mechsym.codesign.manoeuvres import hold
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
+from mechsym.hinge.balance import or_stopped
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.periodic.pieces import PPoly
 from mechsym.periodic.roots import minimum, root
@@ -222,7 +223,6 @@ def _heavier(load: ConstantLoad | PropellerLoad, factor: float) -> ConstantLoad 
 _LEAK, _OFF = 0.10, 0.10  # share of the pressure that is lost, or off when a controller begins
 _TURNS = 10.0  # turns in which a leak is watched
 _PUSH = 1.2  # starting torque by the one that just turns the shaft
-_STOPPED = 2.0
 _COAST = 60.0  # most turns of a stop
 
 
@@ -250,10 +250,8 @@ def _scavenge_step(design: CoDesign, machine: Running, scavenged: Point, k: int)
     run = running.run(other, start[0], _TURNS)
 
     def ripple(share: float) -> float:
-        motion = running.steady(
-            dataclasses.replace(other, pressures=tuple(share * p for p in other.pressures))
-        ).speed_ripple
-        return _STOPPED if motion is None else motion
+        charged = dataclasses.replace(other, pressures=tuple(share * p for p in other.pressures))
+        return or_stopped(running.steady(charged).speed_ripple)
 
     best, least = minimum(ripple, 0.8, 1.2, 1e-4)
     words = f"ripple {per_cent(ripple(1.0))}, with {per_cent(best)} of the pressures {per_cent(least)}"
@@ -267,7 +265,7 @@ def _leak(machine: Running, k: int) -> Scenario:
         return not_running(name, about, k)
     low = dataclasses.replace(machine, pressures=tuple((1 - _LEAK) * p for p in machine.pressures))
     run = running.run(low, start[0], _TURNS)
-    ripple = running.ripple_of_last_turn(run, machine.point.period) or _STOPPED
+    ripple = or_stopped(running.ripple_of_last_turn(run, machine.point.period))
     return told(name, about, k, start[1], run, lambda r: f"ripple {per_cent(ripple)} after {_TURNS:g} turns")
 
 

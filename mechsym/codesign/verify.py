@@ -15,7 +15,7 @@ from mechsym.codesign.loss import in_time, machine_at
 from mechsym.codesign.points import Point, even_angles, speed
 from mechsym.codesign.running import inertia_of
 from mechsym.codesign.task import CoDesign, Track, fine_path
-from mechsym.hinge.balance import ripple
+from mechsym.hinge.balance import STOPPED, or_stopped, ripple
 from mechsym.hinge.choices import CENTRE, GuideLimit, Station, asked
 from mechsym.hinge.rollers import side_force
 from mechsym.quantities import quantity, record
@@ -26,7 +26,6 @@ from mechsym.simulate.steady import Steady
 _ERRORS = {"load": 0.01, "moving_mass": 0.05, "flywheel": 0.01}
 _SETTING, _OTHER = 0.005, 0.01  # of the setting of a spring, and of what else it is sensitive to
 _SEED = 12
-_UNCERTAINTY_STOPPED = 2.0  # ripple of a shaft that stops
 
 
 @record
@@ -102,8 +101,8 @@ class _Seen:
             for track, (z, _) in zip(tracks, self.closed, strict=True):
                 p0 = float(track.p0[k]) * (1 + off.get(track.hardware.spring.setting[0], 0.0))
                 missing = missing + track.hardware.charged(p0).energy(z)
-            uneven = ripple(speed(point, missing - missing.mean(), self.inertia[k] + flywheel + rollers))
-            largest = max(largest, _UNCERTAINTY_STOPPED if uneven is None else uneven)
+            motion = speed(point, missing - missing.mean(), self.inertia[k] + flywheel + rollers)
+            largest = max(largest, or_stopped(ripple(motion)))
         return largest
 
 
@@ -117,7 +116,6 @@ def _changed(track: Track, off: dict[str, float]) -> Track:
 
 
 PERIODS = 2  # of each run in time; it starts in the steady motion
-_STOPPED = 2.0  # ripple of a shaft that stops
 _SLACK = 5e-3  # a limit between the angles of the programme may be passed by this share
 
 
@@ -155,7 +153,7 @@ class Verified:
     def difference(self) -> float:
         """Largest difference of the three ripples, by the largest ripple [-]."""
         three = np.array([self.programme_ripple, self.steady_ripple, self.time_ripple])
-        three = np.nan_to_num(three, nan=_STOPPED)
+        three = np.nan_to_num(three, nan=STOPPED)
         return float(np.max(np.ptp(three, axis=0)) / max(float(np.max(three)), 1e-12))
 
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mechsym.cycle.source import GasSource
+from mechsym.cycle.source import SHARES, GasSource
 from mechsym.files import Json
 from mechsym.page import Shown, ShownFigures
 from mechsym.quantities import results
@@ -111,7 +111,6 @@ WORDS: Mapping[str, str] = {
 #: What is known of friction only
 AFTER_FRICTION = ("friction_mep_kpa", "brake_mep_kpa", "brake_torque", "brake_power_kw", "brake_sfc_g_kwh",
                   "brake_efficiency", "mechanical_efficiency")  # fmt: skip
-SHARES = ("heat", "work", "exhaust", "unburnt")  #: Where the fuel's heat goes
 #: By name, those inside `per_cylinder` and `pistons` too, and of the shares as tables name them
 UNITS: Mapping[str, str] = units_of(CycleColumns) | {f"fraction_{name}": "-" for name in SHARES}
 
@@ -125,9 +124,8 @@ class CycleFigures(ShownFigures):
 
 
 _PEAKS = ("torque_avg", "torque_max", "power_kw", "mep_kpa", "efficiency", "p_max_mpa", "force_max", "brake_torque")
-_SHARES = ("heat", "work", "exhaust", "unburnt")
-_ALONG = ("torque_avg", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa", *_SHARES)
-_UNITS = {**UNITS, **dict.fromkeys(_SHARES, UNITS["fractions"])}
+_ALONG = ("torque_avg", "power_kw", "mep_kpa", "sfc_g_kwh", "efficiency", "p_max_mpa", *SHARES)
+_UNITS = {**UNITS, **dict.fromkeys(SHARES, UNITS["fractions"])}
 _SPEEDS_IN_TABLE = 9
 
 

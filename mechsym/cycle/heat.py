@@ -20,6 +20,7 @@ from mechsym.quantities.units import Kelvin, Pascal, Pure, Scalar, Viscosity
 
 UNIVERSAL = 8.31446261815324  # [J/(mol K)], CODATA 2018, exact
 T_REFERENCE = 298.15  # zero of the sensible energies [K]
+MOTORED_EXPONENT = 1.35  #: Polytropic exponent of the motored cycle in Woschni's term [-]
 _T_SPLIT, _T_BLEND = 1000.0, 100.0
 
 # NASA seven-coefficient fits cp/R = a1 + a2 T + ... + a5 T^4 of GRI-Mech 3.0 (thermo30.dat): (below, above 1000 K)

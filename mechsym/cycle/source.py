@@ -113,8 +113,8 @@ class GasSource(Protocol):
         """Efficiency that no such cycle exceeds; None where there is none [-]."""
 
 
-_SHARES = ("heat", "work", "exhaust", "unburnt")
-_UNKNOWN = dict.fromkeys(("sfc_g_kwh", "efficiency", "energy_residual", *_SHARES), math.nan)  # without fuel
+SHARES = ("heat", "work", "exhaust", "unburnt")  #: Of the heat of the fuel: where it goes
+_UNKNOWN = dict.fromkeys(("sfc_g_kwh", "efficiency", "energy_residual", *SHARES), math.nan)  # without fuel
 _POINTS = 1441
 _COLD_AIR = 1.4  # no mixture of air, fuel and products has more
 
@@ -185,7 +185,7 @@ class CylinderGas:
             rows.append(self._row(speed))
             progress(1)
         columns = {key: np.array([row[key] for row in rows]) for key in rows[0]}
-        fractions = {name: columns.pop(name) for name in _SHARES}
+        fractions = {name: columns.pop(name) for name in SHARES}
         return {"speed_rpm": omega / RPM} | columns | {"fractions": fractions, "loads": {}}
 
     def curves(self, omega: np.ndarray, operating: float) -> dict[str, np.ndarray]:

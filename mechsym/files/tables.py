@@ -13,7 +13,7 @@ from mechsym.quantities import parse
 
 _DELIMITERS = (";", "\t", ",")
 _COMMA = re.compile(r"^[+-]?\d+,\d+([eE][+-]?\d+)?$")
-_BEYOND = 1e30  # no sensor reads it in any unit: a logger's mark of a value that is not there
+BEYOND = 1e30  # no sensor reads it in any unit: a logger's mark of a value that is not there
 
 
 def text_of(path: str | Path) -> str:
@@ -76,7 +76,7 @@ def numbers_of(file: str, rows: list[tuple[int, list[str]]], names: list[str], a
                     f"{file}, line {line}: {names[column]} = {cells[column]!r} is not a number; mend the line"
                 )
             values[row, k] = float(cells[column])
-            if not abs(values[row, k]) < _BEYOND:
+            if not abs(values[row, k]) < BEYOND:
                 raise BadInput(
                     f"{file}, line {line}: {names[column]} = {cells[column]} is not finite, or no measured value; "
                     "cut the record so that no sample is missing"

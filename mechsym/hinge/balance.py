@@ -185,3 +185,11 @@ def ripple(phid: RadPerSecond[Array] | None) -> Pure | None:
     if phid is None or phid.min() <= 0:
         return None
     return Speed(mean=mean_speed(phid), min=float(phid.min()), max=float(phid.max())).ripple
+
+
+STOPPED = 10.0  #: Stands for the ripple of a shaft that stops: more than that of any that turns
+
+
+def or_stopped(ripple: Pure | None, beyond: Pure = 0.0) -> Pure:
+    """A ripple to compare with others; of a shaft that stops the more, the more work it misses `beyond` what it has."""
+    return STOPPED + beyond if ripple is None else ripple

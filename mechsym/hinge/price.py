@@ -13,6 +13,7 @@ import dataclasses
 import numpy as np
 
 from mechsym.cycle.pressure import unfired, unfired_kinks
+from mechsym.hinge.balance import or_stopped
 from mechsym.hinge.guide import Guide, fitted
 from mechsym.hinge.limits import Contact, at_angles
 from mechsym.hinge.rollers import HingeLosses, LossTorques, RollerParameters, friction_torques
@@ -30,8 +31,7 @@ from mechsym.simulate.engine import reduced
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
 
 _POINTS = 1440  # angles of a turn of the guide
-_RESET = (0.8, 1.3)  # fills that are tried, by that of the design
-_STOPPED = 2.0
+FILLS = (0.7, 1.3)  #: Fills that are tried, by that of the design
 
 
 @record
@@ -169,7 +169,7 @@ def _best_fill(
 
     if gas is None:
         return 1.0, motion(1.0).speed_ripple
-    best, _ = minimum(lambda f: motion(f).speed_ripple or _STOPPED, *_RESET, 1e-4)
+    best, _ = minimum(lambda f: or_stopped(motion(f).speed_ripple), *FILLS, 1e-4)
     return best, motion(best).speed_ripple
 
 

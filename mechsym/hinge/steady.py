@@ -23,7 +23,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.hinge.balance import constant_load_speed, propeller_load_speed, ripple
+from mechsym.hinge.balance import constant_load_speed, or_stopped, propeller_load_speed, ripple
 from mechsym.hinge.guide import Affine, Guide, affine, fitted, missing_work, refit, setting_of, with_setting, work_swing
 from mechsym.hinge.springs.face import Spring
 from mechsym.hinge.torque import Hinge
@@ -203,6 +203,10 @@ def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
     def least_of(cost: Callable[[float], float]) -> float:
         return minimum(cost, near / 2, near * 2, 1e-9 * near)[0]
 
+    def least_uneven(ripple: Callable[[Affine, float], float | None]) -> float:
+        energy = float(parts.inertia.max()) * parts.omega**2 / 2
+        return least_of(lambda s: or_stopped(ripple(parts, s), work_swing(parts, s) / energy))
+
     match criterion:
         case "least_squares_torque":
             setting = max(_projection(parts.torque_wanted - parts.torque_0, parts.torque_1), least)
@@ -211,9 +215,9 @@ def retune(guide: Guide, hinge: Hinge, criterion: str) -> Retuning:
         case "least_work_swing":
             setting = least_of(lambda s: work_swing(parts, s))
         case "least_ripple_constant_load":
-            setting = least_of(lambda s: _or_more(_ripple_constant(parts, s), parts, s))
+            setting = least_uneven(_ripple_constant)
         case "least_ripple_propeller_load":
-            setting = least_of(lambda s: _or_more(_ripple_propeller(parts, s), parts, s))
+            setting = least_uneven(_ripple_propeller)
         case _:
             raise BadInput(f"criterion {criterion!r} is not an option; options are {', '.join(CRITERIA)}")
     return at_setting(guide, hinge, setting, criterion)
@@ -250,9 +254,3 @@ def _ripple_constant(parts: Affine, setting: float) -> float | None:
 def _ripple_propeller(parts: Affine, setting: float) -> float | None:
     missing = missing_work(parts, setting)
     return ripple(propeller_load_speed(missing, parts.inertia, parts.omega, parts.load_torque, parts.period))
-
-
-def _or_more(ripple: float | None, parts: Affine, setting: float) -> float:
-    """Where the crank would stop, something that is larger than any ripple and still falls with the missing work."""
-    energy = float(parts.inertia.max()) * parts.omega**2 / 2
-    return 10 + work_swing(parts, setting) / energy if ripple is None else ripple

@@ -13,13 +13,13 @@ import numpy as np
 
 from mechsym.errors import BadInput
 from mechsym.files.inputs import read_text
+from mechsym.files.tables import BEYOND
 from mechsym.quantities import record
 from mechsym.quantities.units import exponents, scale
 
 _HEADER = re.compile(r"^(?P<name>\w+?)\s*(?:[\[(]\s*(?P<bracketed>[^\])]*?)\s*[\])]|_(?P<plain>rpm|rad_s|s|ms|nm|n))$")
 _PLAIN = {"rad_s": "rad/s", "nm": "N*m", "n": "N"}
 _FEWEST, _WIDEST_GAP = 50, 5.0
-_BEYOND = 1e30  # no sensor reads it in any unit: a logger's mark of a value that is not there
 _LARGEST = 20e6  # of a file: half a million samples, read in three seconds
 _AROUND = 5  # steps on either side that say how wide a step usually is
 
@@ -102,7 +102,7 @@ def _table(file: str) -> tuple[list[str], np.ndarray]:
             rows[i] = [float(cell) for cell in row]
         except ValueError:
             raise BadInput(f"{file}, line {n}: {len(header)} numbers are wanted, one a column; found {row}") from None
-        if not (np.abs(rows[i]) < _BEYOND).all():
+        if not (np.abs(rows[i]) < BEYOND).all():
             raise BadInput(
                 f"{file}, line {n}: a value is not finite, or no measured one: {', '.join(row)}; leave such samples out"
             )

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 
 _LEAST, _SPAN = 1e-3, 0.02  # of the speed: what swings less is round-off, and drawn over so much
-_PLANNED = ("turns", "t_end")  # ends that a run was made for
 
 
 _KINDS = {"hit": RED, "touch": RED, "rest": VIOLET, "release": GREEN, "stick": BLUE, "slip": ORANGE, "turn": TEAL}
@@ -113,7 +112,7 @@ def speed(result: Result, coordinate: str, period: Radian, wanted: RadPerSecond,
     if high - low < _LEAST * wanted * factor:  # round-off is no ripple
         whole.set_ylim(np.array([-0.5, 0.5]) * _SPAN * wanted * factor + (low + high) / 2)
     whole.set(xlabel="time [s]", ylabel=f"speed [{unit}]")
-    heading(whole, f"speed of the {words or 'shaft'}{'' if result.end in _PLANNED else f', ended by {result.end}'}")
+    heading(whole, f"speed of the {words or 'shaft'}{'' if result.as_planned else f', ended by {result.end}'}")
     legend(whole, width=5.0)
     keep = t >= last_period(result, coordinate, period)
     angle = over_angle(last, period, "angle", steps=4)

@@ -93,6 +93,11 @@ class Result:
     #: Coordinates and velocities at any ascending times within the run; None where only the samples are known
     dense: Callable[[np.ndarray], Mapping[str, np.ndarray]] | None = field(default=None, repr=False, compare=False)
 
+    @property
+    def as_planned(self) -> bool:
+        """Whether it went on to the end that it was made for."""
+        return self.end in ("turns", "t_end")
+
 
 def write_series(result: Result, path: Path) -> Path:
     """Write the time series as CSV; the first column is t, units in the headings."""

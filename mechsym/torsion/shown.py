@@ -125,7 +125,6 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
 NEAR = 0.1  #: A critical speed so close to the speed of operation is told before any figure [-]
 ON = 0.02  #: One so close to it is run at [-]
 DRIFT = 1e-4  #: Change of the mean speed from one period to the next beyond which a run has not settled [-]
-_PLANNED = ("turns", "t_end")
 
 
 def criticals(train: TrainVibration | None) -> Iterator[Finding]:
@@ -138,7 +137,7 @@ def criticals(train: TrainVibration | None) -> Iterator[Finding]:
 
 def drift(run: FinishedRun) -> Finding | None:
     """A run of an engine whose mean speed has not settled, or that is too short to tell."""
-    if run.engine is None or run.result.end not in _PLANNED:
+    if run.engine is None or not run.result.as_planned:
         return None
     means = period_means(run.result, run.engine.coordinate, run.engine.period)
     if len(means) < 3:

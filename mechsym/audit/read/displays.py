@@ -7,6 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from mechsym.audit.read.matrices import entrywise
+from mechsym.audit.read.statement import LABEL
 from mechsym.audit.read.units import unit_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -29,7 +30,6 @@ _INNER = re.compile(
     r"(?:\[\w\]|\{\d+\})?"
 )
 _NESTED = re.compile(r"\\(begin|end)\{|\\\\(?:\s*\[[\d.]+\s*\w+\])?")
-_LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _TAG = re.compile(r"\\tag\*?\s*\{\s*\(?([^{}()]*)\)?\s*\}|\\eqno\s*\(?([\w.]+)\)?")
 _MARGIN = re.compile(r"[ \t]*(?:\n[ \t]*)?\(?[ \t]*\(?(\d+(?:[.\-]\d+)*[a-z]?)\)[ \t.;,]*(?=\n|$)")
 _TRAILING = re.compile(r"(?:\\q?quad|\\[,;:! ]|~|\s|\.)+\((\d+(?:\.\d+)*[a-z]?)\)\s*$")
@@ -94,7 +94,7 @@ def displayed(text: str) -> list[Displayed]:
     for block in _blocks(text, max(text.find(r"\begin{document}"), 0)):
         before = len(equations)
         for start, row in _rows(block.body) if block.rows else [(0, block.body)]:
-            tag, label = _TAG.search(row), _LABEL.search(row)
+            tag, label = _TAG.search(row), LABEL.search(row)
             counts = block.numbered and not _UNNUMBERED.search(row) and not tag and bool(row.strip())
             count += counts
             plain = _plain(row)
@@ -168,7 +168,7 @@ def _rows(body: str) -> Iterator[tuple[int, str]]:
 
 
 def _plain(row: str) -> str:
-    for pattern in (_TAG, _LABEL, _UNNUMBERED, _INNER):
+    for pattern in (_TAG, LABEL, _UNNUMBERED, _INNER):
         row = pattern.sub(" ", row)
     if r"\begin{" not in row:
         row = re.sub(r"\\\\(?:\s*\[[\d.]+\s*\w+\])?", " ", row)

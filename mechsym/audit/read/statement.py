@@ -12,7 +12,7 @@ _NUMBER = (
     re.compile(r"\\(?:tag|eqno|leqno)\*?\s*\{?\s*\(?([0-9A-Za-z][\w.\-']*)\)?\s*\}?"),
     re.compile(r"(?:\\qquad|\\quad|\\hfill|\s{2,}|[.,;]\s+)\s*\(([0-9]+(?:[.\-][0-9]+)*[a-z]?)\)\s*\.?\s*\$*\s*$"),
 )
-_LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
+LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _SILENT = re.compile(r"\\(?:nonumber|notag|displaystyle|textstyle|centering)\b")
 _ALMOST = re.compile(r"\\approx|\\simeq|\\cong|\\sim\b|\\doteq|≈|≃|≅|~=")
 _EQUALS = re.compile(r"\\equiv|≡|(?<=\w) *:=|\\coloneqq|\\triangleq")
@@ -45,8 +45,8 @@ def statement(text: str, of: str = "") -> Statement:
     of: the quantity that it tells, where letters may be told beside it.
     """
     text = typed(text) if of else text
-    label = _LABEL.search(text)
-    text, number, claim = _SILENT.sub(" ", _LABEL.sub(" ", text)), "", ""
+    label = LABEL.search(text)
+    text, number, claim = _SILENT.sub(" ", LABEL.sub(" ", text)), "", ""
     for pattern in _NUMBER:
         margin = pattern.search(text)
         if margin is not None and text[: margin.start()].strip(" $"):

@@ -41,7 +41,7 @@ from mechsym.cycle.breathing.flow import (
 )
 from mechsym.cycle.chamber import piston_area
 from mechsym.cycle.closed.run import METHOD
-from mechsym.cycle.heat import Adiabatic, GasAtWall, heat_flux, motored_swirl
+from mechsym.cycle.heat import MOTORED_EXPONENT, Adiabatic, GasAtWall, heat_flux, motored_swirl
 from mechsym.errors import BadInput
 from mechsym.native.march import Fold, folder
 from mechsym.quantities import record
@@ -56,7 +56,6 @@ GIVEN = ("omega", "fresh", "p_closed", "T_closed", "p_in", "T_in", "p_out")
 # a stretch between two events: where it begins and how long it is [rad]; 1 where gas burns, where burning stirs it,
 # and in the two strokes about the dead centre of exchange [-]
 STRETCH = ("begins", "length", "burns", "stirs", "exchanges")
-_MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
 
 
 @record
@@ -121,7 +120,7 @@ def _to_walls(cylinder: Cylinder, inside: tuple[ca.SX, ca.SX], room: ca.SX, z: d
         return 0.0
     closed = cylinder.volume(cylinder.breathing.inlet_closes)
     scale = walls.displacement * z["T_closed"] / (z["p_closed"] * closed)
-    motored = z["p_closed"] * (closed / room) ** _MOTORED_EXPONENT
+    motored = z["p_closed"] * (closed / room) ** MOTORED_EXPONENT
     swirl = z["stirs"] * motored_swirl(walls.law, inside[0], motored, scale)
     state = GasAtWall(
         p=inside[0], t=inside[1], v=room, gas_constant=cylinder.charge.R, bore=walls.bore,

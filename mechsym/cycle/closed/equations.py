@@ -15,13 +15,21 @@ from typing import Annotated, Any, NamedTuple
 import casadi as ca
 
 from mechsym.cycle.chamber import Chamber, volume, volume_and_slope, wall_area
-from mechsym.cycle.heat import ConstantGamma, GasAtWall, Law, NasaMixture, heat_flux, motored_swirl, properties
+from mechsym.cycle.heat import (
+    MOTORED_EXPONENT,
+    ConstantGamma,
+    GasAtWall,
+    Law,
+    NasaMixture,
+    heat_flux,
+    motored_swirl,
+    properties,
+)
 from mechsym.cycle.wiebe import ddouble_wiebe_dy, double_wiebe
 from mechsym.quantities import record
 from mechsym.quantities.units import Kelvin, Pascal, Radian, Scalar
 
 PHASES = ("before", "during", "after")
-_MOTORED_EXPONENT = 1.35  # polytropic exponent of the motored cycle in Woschni's term
 # energies in J (exchange_work: of the ideal gas exchange), masses in kg, angles in rad, omega in rad/s, m^3, m
 SCALARS = ("heat_released", "fuel_heat", "latent_heat", "fuel_energy", "energy_start", "energy_end", "exchange_work",
            "mass", "fuel", "omega", "closes", "starts", "ends", "opens", "displacement", "stroke")  # fmt: skip
@@ -111,7 +119,7 @@ def rates(
     swirl: Scalar = 0.0
     if phase != "before":
         v_ref = volume(chamber, closed.closes)
-        motored = closed.pressure * (v_ref / v) ** _MOTORED_EXPONENT
+        motored = closed.pressure * (v_ref / v) ** MOTORED_EXPONENT
         scale = chamber.displacement * closed.temperature / (closed.pressure * v_ref)
         swirl = motored_swirl(closed.law, p, motored, scale)
     speed = chamber.stroke * closed.omega / ca.pi

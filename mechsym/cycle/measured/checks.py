@@ -20,7 +20,7 @@ from mechsym.cycle.measured.joint_fit import (
     mean_exponent,
 )
 from mechsym.cycle.measured.measure import USUAL_SCALE, MeasuredCycles, around_compression
-from mechsym.cycle.measured.signal import noise
+from mechsym.cycle.measured.signal import SIGMAS_95, noise
 from mechsym.plausible import Doubt
 from mechsym.quantities.units import NewtonMetre, Pascal, Pure, Radian, RadPerSecond, Volume
 
@@ -40,7 +40,6 @@ _SPEED = (0.75, 1.25)  # a record of the same operation; a run-down falls below
 _FLOOR = 75 * _DEG  # inlet valves close at most 70 degrees behind the dead centre, then the pressure rises
 _BURNT, _OPENS = 0.97, 110 * _DEG
 _FREE = (0.2, 2.5)  # an engine that breathes freely, or with a small charger [bar]
-_Z = 1.96
 _BENT, _SHEET = 2.25, 0.03  # standard deviations; of the clearance: what data sheets leave, 0.2 of a ratio of 8.5
 
 
@@ -133,7 +132,7 @@ def _free(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doub
     # up to where the line ends that is compared: it may burn before the end that the case names
     fit = joint_fit(phi, mean, cylinder, measured.alignment.fit.between, noise(mean), free, [0.0])
     spread = math.sqrt(float(fit.covariance[0, 0] + measured.alignment.fit.covariance[0, 0]))
-    limit = _Z * spread / _DEG
+    limit = SIGMAS_95 * spread / _DEG
     why = "with the exponent free the dead centre is elsewhere: drift, early burning, or another compression ratio"
     quantity = "dead centre with a free exponent less the one used [deg]"
     return _doubt("free_exponent", quantity, fit.tdc / _DEG, (-limit, limit), why)
@@ -147,7 +146,7 @@ def _geometry(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> 
     """
     alignment, prior, half = measured.alignment, line_prior(diagram), measured.tdc_uncertainty
     if alignment.own is not None:
-        prior = dataclasses.replace(prior, tdc=(0.0, ENCODER if half is None else half / _Z))
+        prior = dataclasses.replace(prior, tdc=(0.0, ENCODER if half is None else half / SIGMAS_95))
     phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
     if alignment.motored:
         _, fit = from_motored(phi, mean, cylinder, prior, "")
@@ -192,7 +191,7 @@ def _expansion(phi: np.ndarray, p: np.ndarray, q: np.ndarray, cylinder: Chamber,
         return None
     n = polytropic_fit(phi, p, cylinder, first, float(phi[-1]))
     why = "behind burning the gas expands with 1.2 to 1.35: dead centre, offset or scale is wrong, or the sensor drifts"
-    by = _Z * _by_sensor(line, cylinder, np.array([first, phi[-1]]), np.interp([first, phi[-1]], phi, p))
+    by = SIGMAS_95 * _by_sensor(line, cylinder, np.array([first, phi[-1]]), np.interp([first, phi[-1]], phi, p))
     usual = (_EXPANSION[0] - by, _EXPANSION[1] + by)
     return _doubt("expansion_exponent", "exponent of the expansion behind burning [-]", n, usual, why)
 

@@ -27,6 +27,7 @@ import scipy
 from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.heat import Hohenberg
 from mechsym.cycle.measured.heat_release import (
+    EARLIEST,
     Combustion,
     CombustionFigures,
     Walls,
@@ -38,6 +39,7 @@ from mechsym.cycle.measured.heat_release import (
 )
 from mechsym.cycle.measured.joint_fit import log_pressure, mean_exponent
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression, weak_cycles
+from mechsym.cycle.measured.signal import SIGMAS_95
 from mechsym.cycle.wiebe import wiebe
 from mechsym.page import Shown
 from mechsym.quantities import quantity, record
@@ -169,9 +171,7 @@ def _variances(jacobian: np.ndarray) -> np.ndarray:
 
 
 _DEGREE = math.radians(1.0)
-_EARLIEST = math.radians(-45.0)
 _BEFORE_COMBUSTION = math.radians(-30.0)
-_Z = 1.96
 _WALL = 430.0  # of walls: usual [K]
 
 
@@ -236,7 +236,7 @@ def diagram_combustion(
     inside = (phi >= ends[0]) & (phi <= ends[1])
     at = phi[inside]
     burnt = burnt_fraction(at, heat_release(at, average[inside], cylinder, analysis.gamma))
-    burning = at >= _EARLIEST
+    burning = at >= EARLIEST
     line = _line(measured, cylinder, analysis.inlet_closes)
     v_closed = float(volume(cylinder, analysis.inlet_closes))
     slopes = sensitivity(phi, average, cylinder, analysis)
@@ -293,7 +293,7 @@ def _line(measured: MeasuredCycles, cylinder: Chamber, closed: float) -> Fit:
         names=("n", "tdc", "pressure"),
         units=("-", "rad", "Pa"),
         values=(mean_exponent(cylinder, fit.shape, closed, _BEFORE_COMBUSTION), 0.0, pressure),
-        confidence=(_Z * exponent, measured.tdc_uncertainty or 0.0, _Z * level * pressure),
+        confidence=(SIGMAS_95 * exponent, measured.tdc_uncertainty or 0.0, SIGMAS_95 * level * pressure),
         rms=measured.scale * fit.rms,
         unit="Pa",
     )

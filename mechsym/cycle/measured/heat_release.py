@@ -27,7 +27,7 @@ from mechsym.quantities.results import quantity, result
 from mechsym.quantities.units import Array, Joule, Pascal, Pure, Radian
 
 LEVELS = (0.1, 0.5, 0.9)
-_EARLIEST = math.radians(-45.0)  # drift of the pressure earlier in compression is no combustion
+EARLIEST = math.radians(-45.0)  # drift of the pressure earlier in compression is no combustion
 _COMPRESSION = (math.radians(-90.0), math.radians(-30.0))
 _EXPANSION = (math.radians(60.0), math.radians(110.0))
 
@@ -80,7 +80,7 @@ def burnt_fraction(phi: Radian[Array], q: Joule[Array]) -> Pure[Array]:
     the highest one, 1 there, held outside.
     """
     top = int(np.argmax(q))
-    first = min(int(np.searchsorted(phi, _EARLIEST)), top)
+    first = min(int(np.searchsorted(phi, EARLIEST)), top)
     bottom = first + int(np.argmin(q[first : top + 1]))
     if q[top] <= q[bottom]:  # nothing burns
         return np.zeros_like(q)
@@ -135,7 +135,7 @@ def combustion(
     at, pressure = phi[inside], p[inside]
     q = heat_release(at, pressure, cylinder, gamma, walls)
     top = int(np.argmax(q))
-    first = min(int(np.searchsorted(at, _EARLIEST)), top)
+    first = min(int(np.searchsorted(at, EARLIEST)), top)
     return Combustion(
         work=work,
         mean_indicated=work / cylinder.displacement,

@@ -43,7 +43,7 @@ from mechsym.cycle.measured.diagram import Diagram, line_prior, period_of
 from mechsym.cycle.measured.file import recorded_speed
 from mechsym.cycle.measured.joint_fit import JointFit, Prior, information, joint_fit, pulls
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
-from mechsym.cycle.measured.signal import noise
+from mechsym.cycle.measured.signal import SIGMAS_95, noise
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Pascal, Pure, Radian, RadPerSecond
 
@@ -105,7 +105,7 @@ def by_state(speed: Pure, pressure: Pure) -> tuple[Pure, Pure]:
     return speed**HEAT_BY_SPEED * pressure**HEAT_BY_PRESSURE, speed**LEAK_BY_SPEED
 
 
-_Z, _LEVEL = 1.96, 0.975
+_LEVEL = 0.975
 _FEWEST = 4
 _SEEN = math.radians(0.05)  # cycles whose lines a usual lag moves by less are of one speed: no line is known so well
 #: 19 lags in 20 lie between 0 and 0.1 ms: 20 mm of passage at 500 m/s take 0.04 ms, a filter of 3 kHz 0.05 ms [s]
@@ -192,7 +192,7 @@ def sensor_lag(fits: Sequence[JointFit], speeds: RadPerSecond[Array], prior: Pri
     scatter = float(weight @ left**2) / (len(fits) - 2) / float(weight @ (speeds - middle) ** 2)
     pulled = np.array([pulls(fit, prior) for fit in fits]) * _BY_SPEED * np.log(speeds / middle)[:, None]
     half = math.hypot(
-        scipy.special.stdtrit(len(fits) - 2, _LEVEL) * math.sqrt(scatter), _Z * np.linalg.norm(b @ pulled)
+        scipy.special.stdtrit(len(fits) - 2, _LEVEL) * math.sqrt(scatter), SIGMAS_95 * np.linalg.norm(b @ pulled)
     )
     return SensorLag(lag=lag, half=half, omega=middle, speeds=(float(speeds.min()), float(speeds.max())))
 
@@ -202,7 +202,7 @@ _EACH = (0.01, 0.01, 0.15, 0.15)  # n0, n1, loss (as a share of it), sharpness: 
 # standard deviation about the exponent to expect, known to 0.06 for mixture or air; a record alone allows for more
 _EXPONENT = 0.03
 _ROUNDS, _TURN = 5, 2 * math.pi
-_LAG = (sum(USUAL) / 2, (USUAL[1] - USUAL[0]) / (2 * 1.96))
+_LAG = (sum(USUAL) / 2, (USUAL[1] - USUAL[0]) / (2 * SIGMAS_95))
 
 
 @record
@@ -288,7 +288,7 @@ def _before(
         rows[3, 3], rows[3, 4] = by_heat, by_leak
         loss = by_heat * heat[0] + by_leak * leak[0]
         ways.append(rows)
-        own.append(np.array([max(one.spread / 1.96, 1e-5), *_EACH]) * [1, 1, 1, loss, 1])
+        own.append(np.array([max(one.spread / SIGMAS_95, 1e-5), *_EACH]) * [1, 1, 1, loss, 1])
     way = np.vstack(ways)
     spread = np.diag(shared[:, 1] ** 2)
     known = way @ spread @ way.T + np.diag(np.maximum(np.concatenate(own), 1e-6) ** 2)

@@ -24,7 +24,7 @@ import numpy as np
 from mechsym.quantities.units import Metre, Radian
 
 #: State of a throw, and the letters of a slave rod
-_STATE = ("phi", "phid", "phidd", "F")
+STATE = ("phi", "phid", "phidd", "F")
 LETTERS = (
     "r", "l", "offset_m", "a", "kappa", "v", "l1", "l2", "offset", "m_rod", "I_rod", "m_piston", "g", "axis_tilt",
     "top",
@@ -46,7 +46,7 @@ class _Hung:
     """A slave rod with its piston, in symbols."""
 
     def __init__(self) -> None:
-        self.state, self.letters = ca.SX.sym("state", len(_STATE)), ca.SX.sym("letters", len(LETTERS) + 1)
+        self.state, self.letters = ca.SX.sym("state", len(STATE)), ca.SX.sym("letters", len(LETTERS) + 1)
         self.q, self.u, self.qdd, self.F = ca.vertsplit(self.state)
         self.d = ca.SX.sym("d", len(_JOINTS))
         d = dict(zip(_JOINTS, ca.vertsplit(self.d), strict=True))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import casadi as ca
 
 from mechsym.mechanisms.crank_train import throws as summed
-from mechsym.mechanisms.crank_train.articulated import LETTERS, OUTPUTS, hung
+from mechsym.mechanisms.crank_train.articulated import LETTERS, OUTPUTS, STATE, hung
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, Numbers, each
 from mechsym.mechanisms.crank_train.throws import Instances, Outputs, ThrowPart, parts
 from mechsym.mechanisms.record import LazyFunctions, Mechanism, generated
@@ -18,7 +18,6 @@ from mechsym.quantities.units import Scalar
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
 
-_STATE = ("phi", "phid", "phidd", "F")
 # the dynamics, and the torque of each section of the shaft
 _Joined = tuple[Outputs, ca.SX]
 
@@ -76,9 +75,9 @@ def _symbols(names: tuple[str, ...], discs: int, cylinders: int) -> _Symbols:
 def _throw(group: str) -> ca.Function:
     """A function of the derived throw, from its state and its letters, no torque on it, to all outputs."""
     module = generated("crank_throw")
-    state, letters = ca.SX.sym("state", len(_STATE)), ca.SX.sym("letters", len(module.PARAMETERS) + 1)
+    state, letters = ca.SX.sym("state", len(STATE)), ca.SX.sym("letters", len(module.PARAMETERS) + 1)
     symbols = [*ca.vertsplit(state), *ca.vertsplit(letters)]
-    given = dict(zip((*_STATE, *module.PARAMETERS, "shift"), symbols, strict=True)) | {"M": ca.SX(0)}
+    given = dict(zip((*STATE, *module.PARAMETERS, "shift"), symbols, strict=True)) | {"M": ca.SX(0)}
     given["phi"] += given["shift"]
     arguments, _ = module.FUNCTIONS[group]
     values: list[ca.SX] = list(getattr(module, group)(**{n: given[n] for n in arguments}))
@@ -96,7 +95,7 @@ def _tables(
     rows = [
         (p.throw, n + p.throw, 2 * n + p.throw, 3 * n + p.cylinder - 1 if p.cylinder else nothing) for p in all_parts
     ]
-    state = ca.reshape(every[[place for row in rows for place in row]], len(_STATE), len(rows))
+    state = ca.reshape(every[[place for row in rows for place in row]], len(STATE), len(rows))
     return lambda group: function(group).map(len(rows))(state, letters)
 
 

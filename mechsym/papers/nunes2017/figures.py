@@ -15,13 +15,13 @@ from mechsym.cycle.chamber import Chamber, travel, volume
 from mechsym.cycle.chamber import chamber as make_chamber
 from mechsym.cycle.closed.model import ClosedEngine
 from mechsym.cycle.kinds.printed import March, crank_torque, marched
+from mechsym.cycle.source import SHARES
 from mechsym.jobs.cycle import engine
-from mechsym.papers.nunes2017.numbers import MODELS, curves_of
+from mechsym.papers.nunes2017.numbers import MODELS, TOP_SPEED, curves_of
 from mechsym.papers.page import turn_axis
 from mechsym.quantities import RPM
 from mechsym.style import BLUE, GREEN, ORANGE, RED, legend, panels
 
-_TOP_SPEED = 8000 * RPM
 _SPEEDS_RPM = (2000, 4000, 6000, 8000)
 _COLORS = (BLUE, RED, GREEN, ORANGE)
 _ENGINES = {"OPSCE": "nunes-slider-crank", "OPGHE": "nunes-hypocycloid"}
@@ -33,7 +33,6 @@ _PERFORMANCE = (
     ("", "share of the fuel's energy [-]"),
     ("efficiency_percent", "thermal efficiency [%]"),
 )
-_SHARES = ("heat", "work", "exhaust", "unburnt")
 
 
 def figures() -> dict[str, Figure]:
@@ -48,7 +47,7 @@ def _kinematics(machines: Mapping[str, ClosedEngine]) -> dict[str, Figure]:
     theta = np.linspace(0, 2 * np.pi, 721)
     rooms = {name: make_chamber(m.chamber, m.motion) for name, m in machines.items()}
     moved = {name: travel(room.motion, theta) for name, room in rooms.items()}
-    rate = (1e3, _TOP_SPEED, _TOP_SPEED**2)
+    rate = (1e3, TOP_SPEED, TOP_SPEED**2)
     both = {name: [np.asarray(y) * k for y, k in zip(m, rate, strict=True)] for name, m in moved.items()}
     volumes = {name: 1e6 * volume(room, theta) for name, room in rooms.items()}
     drawn = {"3.1": _over_turn("3.1", {n: m[0] for n, m in both.items()}, "piston position [mm]")}
@@ -134,7 +133,7 @@ def _maps() -> dict[str, Figure]:
 def _over_speeds(number: str, engines: Mapping[str, Mapping[str, np.ndarray]], key: str, label: str) -> Figure:
     figure, (axis,) = panels(6.4, 3.8)
     for (name, curves), line in zip(engines.items(), ("-", "--"), strict=False):
-        for quantity, color in zip((key,) if key else _SHARES, _COLORS, strict=False):
+        for quantity, color in zip((key,) if key else SHARES, _COLORS, strict=False):
             shade = color if key == "" or line == "-" else RED
             axis.plot(
                 curves["speed_rpm"], curves[quantity], line, color=shade, label=f"{name} {quantity if not key else ''}"

@@ -130,7 +130,7 @@ def difference(item: Item, curves: Mapping[str, Curves]) -> float:
     return value(item, {item.engine: gap})
 
 
-_TOP_SPEED = 8000 * RPM
+TOP_SPEED = 8000 * RPM
 _G = 9.81
 # table 3.1, columns exchanged as the values demand: speed [rpm], start and duration of combustion [deg]
 TIMINGS = np.array([
@@ -149,7 +149,7 @@ def _chamber(cases: Mapping[str, Case], name: str) -> Chamber:
 def _largest(name: str, derivative: int) -> Fact:
     def fact(cases: Mapping[str, Case]) -> float:
         moved = travel(_chamber(cases, name).motion, np.radians(np.arange(361.0)))[derivative]
-        return float(np.abs(moved).max() * _TOP_SPEED**derivative)
+        return float(np.abs(moved).max() * TOP_SPEED**derivative)
 
     return fact
 
