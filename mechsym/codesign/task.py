@@ -57,7 +57,7 @@ class Hardware:
         return lettered(self.spring, {self.spring.setting[0]: setting, **own})
 
     def walled(self, setting: Scalar, losses: HingeLosses, omega: RadPerSecond) -> Any:
-        """Its spring with a setting and a wall that takes heat; omega of the crank. None of a law without heat."""
+        """Its spring, set [Pa, or N of a coil], with a wall at a crank speed [rad/s]; None of a law without heat."""
         return self.charged(setting).with_wall(losses, self.shaft_ratio * omega)
 
     def station(self, path: Any, spring: Spring, omega: RadPerSecond[Scalar], **letters: Scalar) -> Station:

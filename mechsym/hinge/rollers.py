@@ -340,7 +340,7 @@ def guide_torque(side: Newton[Scalar], drho: MetrePerRadian[Scalar], mu: Pure, c
     return count * mu * abs(side * drho)
 
 
-class Moving(Protocol):
+class MovingRoller(Protocol):
     """Numbers of a roller that moves with its part of the spring."""
 
     @property
@@ -356,7 +356,7 @@ def friction_torques(
     force: Newton[Scalar],
     path: tuple[Metre[Scalar], MetrePerRadian[Scalar], MetrePerRadian2[Scalar]],
     omega: RadPerSecond[Scalar],
-    rollers: Moving,
+    rollers: MovingRoller,
     count: int,
     given: HingeLosses,
     steep: MetrePerRadian[Scalar] | None = None,

@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import pairwise
 
 from mechsym.audit.read.matrices import entrywise
-from mechsym.audit.read.statement import LABEL
 from mechsym.audit.read.units import unit_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -30,6 +29,7 @@ _INNER = re.compile(
     r"(?:\[\w\]|\{\d+\})?"
 )
 _NESTED = re.compile(r"\\(begin|end)\{|\\\\(?:\s*\[[\d.]+\s*\w+\])?")
+LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _TAG = re.compile(r"\\tag\*?\s*\{\s*\(?([^{}()]*)\)?\s*\}|\\eqno\s*\(?([\w.]+)\)?")
 _MARGIN = re.compile(r"[ \t]*(?:\n[ \t]*)?\(?[ \t]*\(?(\d+(?:[.\-]\d+)*[a-z]?)\)[ \t.;,]*(?=\n|$)")
 _TRAILING = re.compile(r"(?:\\q?quad|\\[,;:! ]|~|\s|\.)+\((\d+(?:\.\d+)*[a-z]?)\)\s*$")

@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import field
 
+from mechsym.audit.read.displays import LABEL
 from mechsym.audit.read.typed import typed
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -12,7 +13,6 @@ _NUMBER = (
     re.compile(r"\\(?:tag|eqno|leqno)\*?\s*\{?\s*\(?([0-9A-Za-z][\w.\-']*)\)?\s*\}?"),
     re.compile(r"(?:\\qquad|\\quad|\\hfill|\s{2,}|[.,;]\s+)\s*\(([0-9]+(?:[.\-][0-9]+)*[a-z]?)\)\s*\.?\s*\$*\s*$"),
 )
-LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _SILENT = re.compile(r"\\(?:nonumber|notag|displaystyle|textstyle|centering)\b")
 _ALMOST = re.compile(r"\\approx|\\simeq|\\cong|\\sim\b|\\doteq|≈|≃|≅|~=")
 _EQUALS = re.compile(r"\\equiv|≡|(?<=\w) *:=|\\coloneqq|\\triangleq")
