@@ -36,6 +36,11 @@ _MENDABLE = (FileExistsError, FileNotFoundError, IsADirectoryError, NotADirector
 Json = dict[str, Any]  # what JSON has by name: numbers, texts, lists and more of the same
 
 
+def is_ours(status: os.stat_result) -> bool:
+    """Whether nobody else may write into a file or a folder."""
+    return not hasattr(os, "getuid") or (status.st_uid == os.getuid() and not status.st_mode & 0o022)
+
+
 def user_cache() -> Path:
     """What the program keeps for a user, under XDG_CACHE_HOME or what the platform has; it need not exist."""
     home = Path.home()

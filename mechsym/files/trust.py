@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from mechsym.errors import BadInput
-from mechsym.files import user_cache
+from mechsym.files import is_ours, user_cache
 
 _commands: list[tuple[frozenset[Path], bool]] = []  # files typed, and whether --trust was, of the command that runs
 
@@ -84,7 +84,6 @@ def _known() -> set[Path]:
     try:
         status, lines = _list().stat(), _list().read_bytes().split(b"\n")
         # a list that others may write into says nothing
-        ours = not hasattr(os, "getuid") or (status.st_uid == os.getuid() and not status.st_mode & 0o022)
-        return {Path(os.fsdecode(line)) for line in lines if line} if ours else set()
+        return {Path(os.fsdecode(line)) for line in lines if line} if is_ours(status) else set()
     except OSError:
         return set()

@@ -31,7 +31,7 @@ from mechsym.simulate.engine import reduced
 from mechsym.simulate.steady import Steady, mean_torque, steady_state
 
 _POINTS = 1440  # angles of a turn of the guide
-FILLS = (0.7, 1.3)  #: Fills that are tried, by that of the design
+FILLS = (0.8, 1.3)  #: Fills that are tried, by that of the design
 
 
 @record

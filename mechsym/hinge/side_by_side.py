@@ -4,9 +4,8 @@ Every guide has its own pieces, halved as in `periodic.fit`; what differs from o
 of sums, so the numbers agree to about 1e-10 of theirs.
 """
 
-import dataclasses
 from collections.abc import Sequence
-from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -14,11 +13,10 @@ from mechsym.hinge.balance import Balance
 from mechsym.hinge.choices import GuideParameters, Limits, refuse_open_track
 from mechsym.hinge.limits import Verdict, station_of, verdict
 from mechsym.hinge.rollers import RollerParameters
-from mechsym.hinge.springs.face import Spring, lettered
+from mechsym.hinge.springs.face import Lettered, Spring, lettered
 from mechsym.hinge.springs.law_path import FULL, can_be_given, work_range
 from mechsym.periodic import DEGREE, first_edges, halved
 from mechsym.quantities import record
-from mechsym.quantities.records import Record
 
 _SHARES = (1 - np.cos(np.linspace(0, np.pi, 65))) / 2  # of a piece, as in `contact.at_pieces`
 _CACHED = 30_000  # points of all guides at once that stay in the cache
@@ -77,25 +75,18 @@ def _alike(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict | None]:
     return results
 
 
-def _columns(records: Sequence[Record]) -> SimpleNamespace:
-    """The numbers of records of one kind as arrays of shape (n,), anything else as the first has it."""
-    first = records[0]
-    return SimpleNamespace(**{
-        f.name: np.array([getattr(r, f.name) for r in records]) if isinstance(getattr(first, f.name), float)
-        else getattr(first, f.name) for f in dataclasses.fields(first)
-    })  # fmt: skip
-
-
-def _springs(springs: Sequence[Spring]) -> Spring:
-    """Many springs of one law as one, whose numbers are arrays."""
-    return lettered(springs[0], {name: np.array([getattr(s, name) for s in springs]) for name in vars(springs[0])})
+def _stacked(records: Sequence[Lettered]) -> Lettered:
+    """Many records of one kind as one, its numbers arrays of shape (n,), anything else as the first has it."""
+    first = vars(records[0])
+    numbers = [name for name, value in first.items() if not isinstance(value, str)]
+    return lettered(records[0], {name: np.array([getattr(r, name) for r in records]) for name in numbers})
 
 
 def _chosen(springs: Spring, who: np.ndarray) -> Spring:
     return lettered(springs, {name: values[who] for name, values in vars(springs).items()})
 
 
-def _energies(wanted: Balance, springs: Spring, choices: SimpleNamespace) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _energies(wanted: Balance, springs: Spring, choices: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Stored energy at the start, the smallest, the largest [J]."""
     low, high = work_range(wanted)
     at_start = 0.0 * choices.rho0
@@ -106,7 +97,7 @@ def _energies(wanted: Balance, springs: Spring, choices: SimpleNamespace) -> tup
 
 def _can_be_cut(wanted: Balance, designs: list[GuideDesign]) -> np.ndarray:
     """As `law_path.status`, for the springs of a group."""
-    springs, choices = _springs([d.spring for d in designs]), _columns([d.choices for d in designs])
+    springs, choices = _stacked([d.spring for d in designs]), _stacked([d.choices for d in designs])
     with np.errstate(all="ignore"):  # what cannot be cut need not have a closing
         _, least, most = _energies(wanted, springs, choices)
         held = (choices.z_margin < springs.H) & (most < springs.energy_high) & (least > springs.energy_low)
@@ -116,7 +107,7 @@ def _can_be_cut(wanted: Balance, designs: list[GuideDesign]) -> np.ndarray:
 
 def _judged(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict]:
     """Verdicts on guides that can be cut."""
-    springs, choices = _springs([d.spring for d in designs]), _columns([d.choices for d in designs])
+    springs, choices = _stacked([d.spring for d in designs]), _stacked([d.choices for d in designs])
     _, least, most = _energies(wanted, springs, choices)
     z = np.stack([springs.closing(least), springs.closing(most)])
     extremes = choices.rho0 - z / choices.rollers
@@ -132,7 +123,7 @@ def _judged(wanted: Balance, designs: list[GuideDesign]) -> list[Verdict]:
     return judged
 
 
-def _tracks(wanted: Balance, springs: Spring, choices: SimpleNamespace, ratio: float) -> _Tracks:
+def _tracks(wanted: Balance, springs: Spring, choices: Any, ratio: float) -> _Tracks:
     """Paths as `law_path`: the slope is fitted, the path is its exact integral and closed."""
     c, count, period = choices.rollers, len(choices.rho0), wanted.period * ratio
     at_start = _energies(wanted, springs, choices)[0]

@@ -19,6 +19,7 @@ from mechsym.jobs.cycle import cycle, engine
 from mechsym.mechanisms import roles_of
 from mechsym.optimise.search import FigureProgramme, search
 from mechsym.optimise.solver import (
+    SIGN,
     Limit,
     Optimise,
     Optimised,
@@ -59,9 +60,7 @@ def programme(case: Case, section: Optimise, asked: Mapping[str, Json]) -> Figur
     names = [v.name for v in variables]
     start = np.array([_value(case, name) for name in names])
     units = {name: unit for name, (_, unit) in _figures(case).items()}
-    for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
-        if name not in units:
-            raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(units)}")
+    section.require(units)
     limits = {name: limit for name, limit in asked.items() if name in units} | section.constraints
 
     def at(values: np.ndarray) -> dict[str, float]:
@@ -70,7 +69,7 @@ def programme(case: Case, section: Optimise, asked: Mapping[str, Json]) -> Figur
 
     return FigureProgramme(
         figures=at, start=start, noise=kind_of(case.need("cycle")).noise, units=units, objective=section.objective,
-        sign=1.0 if section.goal == "maximise" else -1.0, variables=variables,
+        sign=SIGN[section.goal], variables=variables,
         constraints=tuple(limit_of("constraints", n, spec, units) for n, spec in limits.items()),
     )  # fmt: skip
 
@@ -166,7 +165,7 @@ def optimise(case: Case) -> Optimised:
     for words in itertools.product(*section.choices.values()):
         chosen = dict(zip(section.choices, words, strict=True))
         tried.append((chosen, _one(load(case.path, {**case.overrides, **chosen}))))
-    sign = 1.0 if section.goal == "maximise" else -1.0
+    sign = SIGN[section.goal]
     chosen, best = max(tried, key=lambda pair: (pair[1].best.status == "optimal", sign * pair[1].best.objective))
     rows = []
     for taken, done in tried:

@@ -22,7 +22,7 @@ import tempfile
 from pathlib import Path
 from types import ModuleType
 
-from mechsym.files import user_cache
+from mechsym.files import is_ours, user_cache
 from mechsym.native import compiler
 from mechsym.quantities import record
 from mechsym.transaction import hidden, sweep_up
@@ -102,8 +102,7 @@ def writable() -> Path:
             folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         status = folder.stat()
         # what others may write into is not a place to load code from
-        ours = not hasattr(os, "getuid") or status.st_uid == os.getuid() and not status.st_mode & 0o022
-        if os.access(folder, os.W_OK | os.X_OK) and ours:
+        if os.access(folder, os.W_OK | os.X_OK) and is_ours(status):
             return folder
     except OSError:
         pass

@@ -13,7 +13,7 @@ a limit, turned back into SI, is what it costs: the change of the objective by t
 """
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar
 
 import casadi as ca
@@ -30,13 +30,15 @@ from mechsym.quantities.display import quantity_text
 from mechsym.quantities.results import Columns, part, result
 from mechsym.quantities.units import RadPerSecond
 
+SIGN = {"maximise": 1.0, "minimise": -1.0}  #: Of what is made large, by the goal [-]
+
 
 @record
 class Optimise:
     """Section `[optimise]` of a case."""
 
     objective: str = "efficiency"  #: Figure to make large or small
-    goal: str = choice("maximise", "minimise", default="maximise", about="what is best of the objective")
+    goal: str = choice(*SIGN, default="maximise", about="what is best of the objective")
     #: Dotted name of an engine's value to `{low = .., high = ..}`
     variables: dict[str, Any] = dataclasses.field(default_factory=dict)
     #: Figure to `{low = ..}`, `{high = ..}`, both, or `{equal = ..}`
@@ -44,7 +46,7 @@ class Optimise:
     #: Dotted name of a word of the case to the list of words that are tried, for example "cycle.gas"
     choices: dict[str, Any] = dataclasses.field(default_factory=dict)
     against: str = ""  #: Second figure of a Pareto front, empty for none
-    against_goal: str = choice("maximise", "minimise", default="minimise", about="what is best of `against`")
+    against_goal: str = choice(*SIGN, default="minimise", about="what is best of `against`")
     points: float = quantity("-", default=9, low=3, high=101, about="points of the front")
 
     def __post_init__(self) -> None:
@@ -62,6 +64,12 @@ class Optimise:
                 "variables is empty; name at least one, for example "
                 '"cycle.ignition" = { low = "-40 deg", high = "0 deg" }'
             )
+
+    def require(self, figures: Collection[str]) -> None:
+        """Refuse an objective, or a second one, that is none of the figures at hand."""
+        for key, name in (("objective", self.objective), ("against", self.against or self.objective)):
+            if name not in figures:
+                raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(figures)}")
 
 
 @record
@@ -100,9 +108,7 @@ def problem(engine: ClosedEngine, omega: RadPerSecond, section: Optimise) -> Pro
     """Check a section against the engine and turn its texts into numbers."""
     units = design_units(engine)
     figures = figure_units(engine)
-    for key, name in (("objective", section.objective), ("against", section.against or section.objective)):
-        if name not in figures:
-            raise BadInput(f"optimise.{key} = {name!r} is not a figure; figures are {', '.join(figures)}")
+    section.require(figures)
     for name, spec in section.constraints.items():
         peak = name in figures and name not in SCALAR_UNITS
         if peak and np.isfinite(limit_of("constraints", name, spec, figures).low):
@@ -114,7 +120,7 @@ def problem(engine: ClosedEngine, omega: RadPerSecond, section: Optimise) -> Pro
         omega=omega,
         units=figures,
         objective=section.objective,
-        sign=1.0 if section.goal == "maximise" else -1.0,
+        sign=SIGN[section.goal],
         variables=tuple(limit_of("variables", name, spec, units) for name, spec in section.variables.items()),
         constraints=tuple(limit_of("constraints", name, spec, figures) for name, spec in section.constraints.items()),
     )
@@ -230,7 +236,7 @@ def pareto(
     that of the second figure alone; figures tell both values.
     """
     best: Callable[[Any], Optimum] = one or solve
-    sign = 1.0 if goal == "maximise" else -1.0
+    sign = SIGN[goal]
     ends = [best(task), best(dataclasses.replace(task, objective=against, sign=sign))]
     if any(end.status != "optimal" for end in ends):
         return ends

@@ -264,3 +264,11 @@ def test_pressures_of_other_hardware_are_those_whose_works_are_nearest():
     # twice the area at half of both pressures is the same spring
     assert made.p0 == pytest.approx(old.p0 / 2, rel=1e-6) and made.z(phi) == pytest.approx(old.z(phi), abs=1e-9)
     assert made.hardware.spring.p0 == pytest.approx(old.p0.max() / 2, rel=1e-6)
+
+
+def test_the_wall_of_a_gas_spring_knows_the_speed_of_its_own_shaft():
+    whole, losses = task().hardware, HingeLosses()
+    half = dataclasses.replace(whole, shaft_ratio=0.5)
+    # the index of the spring says omega tau of the shaft that closes it: at half the speed it takes twice the time
+    assert half.walled(5e6, losses, 20.0).tau == pytest.approx(2 * whole.walled(5e6, losses, 20.0).tau)
+    assert half.walled(5e6, HingeLosses(tau=0.3), 20.0).tau == 0.3

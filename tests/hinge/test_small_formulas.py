@@ -1,15 +1,14 @@
 """Formulas of a line or two that designs stand on, by other ways."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
+from codesigns import constant_load
 
+from mechsym.hinge.balance import or_stopped
 from mechsym.hinge.limits import _closure_check
 from mechsym.hinge.springs.air import AirAbsolute
 from mechsym.hinge.springs.coil import Coil
 from mechsym.hinge.springs.face import affine_energy
-from mechsym.hinge.steady import _or_more
 
 Z = np.array([0.0, 0.2, 0.5])
 
@@ -30,11 +29,8 @@ def test_a_path_closes_within_a_billionth_of_its_radius(gap, kept):
     assert check.kept is kept and check.margin == pytest.approx(1 - gap / 1e-9)
 
 
-def test_where_the_crank_stops_the_missing_work_counts():
-    parts = SimpleNamespace(
-        inertia=np.array([3.0, 5.0]), omega=4.0, work_wanted=np.array([0.0, 70.0]), work_0=np.zeros(2),
-        work_1=np.array([0.0, -3.0]),
-    )  # fmt: skip
-    assert _or_more(0.3, parts, 2.0) == 0.3
-    # 70 + 2 * 3 by the energy of the heaviest moment, 5 * 4^2 / 2
-    assert _or_more(None, parts, 2.0) == pytest.approx(10 + 76 / 40)
+def test_a_shaft_that_stops_is_worse_than_any_that_turns_and_the_worse_the_more_it_misses():
+    assert or_stopped(0.3, 5.0) == 0.3
+    # the ripple of a shaft that all but stops, see test_points_closed_form
+    assert or_stopped(None) > 3 * constant_load(200.0, 1.001)[1]
+    assert or_stopped(None, 1.9) == or_stopped(None) + 1.9

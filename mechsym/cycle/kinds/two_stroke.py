@@ -94,6 +94,11 @@ def scavenging_pressure(p_s: Pascal) -> Pascal:
     return 0.9749 * p_s - 0.1029e5
 
 
+def blown_down(cycle: Any, p_evo: Pascal, phi: Scalar) -> Scalar:
+    """Pressure from the opening of the exhaust, p_evo, to that of the ports: a straight line over the angle [Pa]."""
+    return p_evo + (scavenging_pressure(cycle.p_s) - p_evo) * (phi - cycle.evo) / (cycle.spo - cycle.evo)
+
+
 def back_pressure(cycle: TwoStrokeMarine) -> Pascal:
     """Absolute pressure under the piston. Returns p_back: p_back, or p_s for `crank_side = "scavenge"`."""
     return cycle.p_s if cycle.crank_side == "scavenge" else cycle.p_back
@@ -154,13 +159,10 @@ def formulas(
 
     p_evo = float(closed(cycle.evo))
 
-    def line(phi: Scalar) -> Scalar:
-        return p_evo + (p_evc - p_evo) * (phi - cycle.evo) / (cycle.spo - cycle.evo)
-
     return (
         (cycle.evc, cycle.soc, lambda phi: p_comp * (volume(cylinder, phi) / v_c) ** -cycle.n_c),
         (cycle.soc, cycle.evo, closed),
-        (cycle.evo, cycle.spo, line),
+        (cycle.evo, cycle.spo, lambda phi: blown_down(cycle, p_evo, phi)),
         (cycle.spo, cycle.evc + 2 * math.pi, lambda phi: p_evc + 0 * phi),
     )
 

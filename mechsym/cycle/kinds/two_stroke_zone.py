@@ -20,7 +20,7 @@ from mechsym.cycle.chamber import Chamber, volume
 from mechsym.cycle.closed.equations import Closed
 from mechsym.cycle.closed.run import ClosedRun, run
 from mechsym.cycle.heat import T_REFERENCE, ConstantGamma, Law, NasaMixture, Woschni, properties
-from mechsym.cycle.kinds.two_stroke import burnt_angles, scavenging_pressure
+from mechsym.cycle.kinds.two_stroke import blown_down, burnt_angles, scavenging_pressure
 from mechsym.cycle.pressure import ATMOSPHERE, Pressure, mean_indicated_pressure, peak, periodic, wrapped
 from mechsym.cycle.source import CylinderGas
 from mechsym.errors import BadInput
@@ -177,8 +177,8 @@ def _absolute(cycle: TwoStrokeZone, result: ClosedRun) -> Callable[[Scalar], Sca
     p_evo, p_evc = float(p[-1]), scavenging_pressure(cycle.p_s)
 
     def one_turn(phi: Scalar) -> Scalar:
-        line = p_evo + (p_evc - p_evo) * (phi - cycle.evo) / (cycle.spo - cycle.evo)
-        return np.where(phi <= cycle.evo, closed(phi), np.where(phi < cycle.spo, line, p_evc))[()]
+        open_ = np.where(phi < cycle.spo, blown_down(cycle, p_evo, phi), p_evc)
+        return np.where(phi <= cycle.evo, closed(phi), open_)[()]
 
     return periodic(one_turn, _TURN, start=cycle.evc)
 
