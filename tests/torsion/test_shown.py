@@ -40,10 +40,10 @@ def test_a_critical_speed_is_told_by_its_distance_and_its_torque(monkeypatch):
 def test_a_run_has_settled_when_its_mean_speed_stays(means, words, monkeypatch):
     monkeypatch.setattr(shown, "period_means", lambda *_: np.array(means))
     engine = SimpleNamespace(coordinate="phi", period=2 * np.pi)
-    run = SimpleNamespace(engine=engine, result=SimpleNamespace(end="turns"))
+    run = SimpleNamespace(engine=engine, result=SimpleNamespace(as_planned=True))
     finding = shown.drift(run)
     assert finding is None if words is None else words in finding.words
-    for other in ({"engine": None}, {"result": SimpleNamespace(end="stall")}):
+    for other in ({"engine": None}, {"result": SimpleNamespace(as_planned=False)}):
         assert shown.drift(SimpleNamespace(**vars(run) | other)) is None
 
 
