@@ -150,7 +150,8 @@ def sample(expected, text, against, more):
     # what is refused is searched first, but for that of the smallest theory
     searched = expected == "refused" and not against.startswith("tiny.") and text not in QUICK
     name = f"{half(text)} {expected} {against} {text[:30]}"
-    heavy = [pytest.mark.heavy] if half(text) == "early" else []
+    # that of the four bar takes as long as all others together
+    heavy = [pytest.mark.heavy] if half(text) == "early" or against.startswith("four_bar") else []
     marks = [pytest.mark.slow, *heavy] if searched else []
     return pytest.param(expected, text, against, more, id=name, marks=marks)
 

@@ -31,14 +31,11 @@ def test_every_text_has_its_list():
 BY_LENGTH = sorted(PLANTED, key=lambda name: max(path.stat().st_size for path in TEXTS.glob(f"{name}.*")))
 
 
-def _long(mark):
-    # the names of all texts, the longer ones marked, and the longest left to the heavy tests
-    heavy = [pytest.mark.slow, pytest.mark.heavy]
-    longer = [pytest.param(name, marks=mark) for name in BY_LENGTH[40:55]]
-    return [*BY_LENGTH[:40], *longer, *(pytest.param(name, marks=heavy) for name in BY_LENGTH[55:])]
+# the names of all texts, the longer ones left to the heavy tests
+TEXT = [*BY_LENGTH[:40], *(pytest.param(name, marks=[pytest.mark.slow, pytest.mark.heavy]) for name in BY_LENGTH[40:])]
 
 
-@pytest.mark.parametrize("name", _long(pytest.mark.slow))
+@pytest.mark.parametrize("name", TEXT)
 def test_planted_slips_are_found_and_nothing_else_is_blamed(name):
     (path,) = (p for p in TEXTS.glob(f"{name}.*"))
     rows, cover = check_texts(read_texts(path))
@@ -83,7 +80,7 @@ FOLLOWING = {"marine": {122}, "rodless_dynamics": {55}}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", _long(pytest.mark.heavy))
+@pytest.mark.parametrize("name", TEXT)
 def test_a_text_with_its_slips_corrected_is_left_in_peace(name, tmp_path):
     (path,) = (p for p in TEXTS.glob(f"{name}.*"))
     text, mended = corrected(path.read_text(), PLANTED[name])

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from codesigns import OMEGA, constant_load, design, point, ready, task
 
-from mechsym.codesign import programme
+from mechsym.codesign import programme, running
 from mechsym.codesign.loss import friction, gas_turn
-from mechsym.codesign.points import sample
+from mechsym.codesign.points import even_angles, sample, speed
 from mechsym.codesign.realise import _closing, _track
 from mechsym.codesign.task import Track, fine_path
 from mechsym.codesign.unknowns import (
@@ -27,6 +27,7 @@ from mechsym.codesign.unknowns import (
     taken,
     warmths,
 )
+from mechsym.hinge.balance import ripple
 from mechsym.hinge.rollers import HingeLosses
 from mechsym.hinge.springs.air_thermal import gas_temperature
 
@@ -272,3 +273,30 @@ def test_the_wall_of_a_gas_spring_knows_the_speed_of_its_own_shaft():
     # the index of the spring says omega tau of the shaft that closes it: at half the speed it takes twice the time
     assert half.walled(5e6, losses, 20.0).tau == pytest.approx(2 * whole.walled(5e6, losses, 20.0).tau)
     assert half.walled(5e6, HingeLosses(tau=0.3), 20.0).tau == 0.3
+
+
+def test_the_ripple_of_the_programme_is_that_of_its_motion_by_the_closed_form():
+    for k in (0, 5):
+        (track,), one = design().tracks, design().task.points[k]
+        phi = even_angles(one)
+        rollers = running.added_inertia(track, phi)
+        missing = one.work(phi) + running.spring_energy(track, track.p0[k], phi) + one.omega**2 / 2 * rollers
+        uneven = ripple(speed(one, missing - missing.mean(), one.inertia(phi) + design().flywheel + rollers))
+        # the programme has 180 angles, and the ends of the speed may lie between them
+        assert design().ripple[k] == pytest.approx(uneven, rel=3e-3)
+        assert np.ptp(rollers) > 1.0  # they count
+
+
+def test_free_hardware_is_paid_with_the_inertia_of_its_rollers_and_stays_where_nothing_asks():
+    asked = dataclasses.replace(task(at=(2,)), free=("A",), knots=20, angles=60)
+    prepared = programme.programme(asked)
+    objective = prepared.solver.get_function("nlp_f")
+    values, start = programme._values(asked), prepared.start.copy()
+    flywheel = float(prepared.read(start)[3])
+    z = curve(prepared.basis, np.asarray(prepared.read(start)[0].full()).ravel())
+    phi = np.arange(7200) * asked.points[0].period / 7200
+    rollers = running.inertia_of(asked.hardware, z(phi), z.derivative()(phi)).mean()
+    assert flywheel == pytest.approx(3000.0)
+    assert float(objective(start, values)) == pytest.approx((flywheel + rollers) / 1000, rel=1e-4)
+    start[0] *= 3.0  # the share of the piston's area stands first
+    assert float(objective(start, values) - objective(prepared.start, values)) == pytest.approx(4e-6, rel=1e-3)

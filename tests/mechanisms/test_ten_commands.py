@@ -99,6 +99,7 @@ def test_two_letters_are_found_again_in_its_own_trace(name, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_an_interval_holds_what_lies_behind_a_ridge(tmp_path, monkeypatch):
     """Over 0.4 s the trace fits two starts of the crank nearly alike, and a search may end in the wrong one."""
     moves, torque, _, free = TEN["chebyshev"]

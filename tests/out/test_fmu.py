@@ -384,7 +384,7 @@ def test_a_missing_compiler_is_one_line_and_the_sources_are_written(tmp_path, mo
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("held", ["constraint", "dead point", "bifurcation"])
+@pytest.mark.parametrize("held", ["constraint", *(pytest.param(h, marks=HEAVY) for h in ("dead point", "bifurcation"))])
 def test_loops_by_constraint_run_as_the_simulation(tmp_path, monkeypatch, held):
     monkeypatch.chdir(tmp_path)
     if held == "constraint":

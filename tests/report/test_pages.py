@@ -40,7 +40,7 @@ def browser():
 
 @pytest.mark.parametrize(
     "line",
-    [one if re.search("zotov-89|watt|scotch", one) else pytest.param(one, marks=pytest.mark.heavy) for one in FIRST],
+    [one if re.search("zotov-89|scotch", one) else pytest.param(one, marks=pytest.mark.heavy) for one in FIRST],
 )
 def test_a_machine_moves_on_the_first_screen_of_a_page_and_of_a_report(browser, tmp_path, line):
     case = line.partition(" ")[2]
@@ -65,7 +65,10 @@ def test_a_machine_moves_on_the_first_screen_of_a_page_and_of_a_report(browser, 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "cylinders"), [("inline", 6), ("v", 12), ("boxer", 12)])
+@pytest.mark.parametrize(
+    ("kind", "cylinders"),
+    [("v", 12), *(pytest.param(kind, n, marks=pytest.mark.heavy) for kind, n in (("inline", 6), ("boxer", 12)))],
+)
 def test_reports_of_many_cylinders_stay_small(tmp_path, kind, cylinders):
     words = ["new", "engine", "many", "--kind", kind, "--cylinders", str(cylinders), "--bore", "86 mm"]
     case, report = tmp_path / "many.toml", tmp_path / "many.html"
