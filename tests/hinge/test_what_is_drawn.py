@@ -204,7 +204,7 @@ def test_the_hinge_is_drawn_to_scale(angle):
     # the sleeve is as long as the gas and its pistons ever are
     sleeve = [np.array(s.points) @ [1, 1j] * np.exp(-1j * angle) for s in drawn if s.role == "frame"]
     longest = spring.H - 2 * (guide.parameters.rho0 - design().verdict.rho_max) + 2 * thick
-    assert [line.imag for line in sleeve] == pytest.approx([[k * 0.52 * sides[0]] * 2 for k in (-1, 1)])
+    assert np.array(sleeve).imag == pytest.approx(0.52 * sides[0] * np.array([[-1, -1], [1, 1]]))
     assert [np.ptp(line.real) for line in sleeve] == pytest.approx([longest] * 2, rel=1e-3)
     assert drawn[-1].radius == 0.02 * guide.parameters.rho0 and drawn[-1].centre == (0.0, 0.0)
 
