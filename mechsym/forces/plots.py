@@ -9,9 +9,9 @@ import numpy as np
 from mechsym.forces.balance import BalancedEngine, amplitudes
 from mechsym.forces.loads import Harmonics, polar, radial, tangential
 from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces
-from mechsym.forces.textbook import NORMAL_95, IndicatedPressure
+from mechsym.forces.textbook import IndicatedPressure
 from mechsym.quantities.display import quantity_text
-from mechsym.quantities.units import Radian
+from mechsym.quantities.units import NORMAL_95, Radian
 from mechsym.style import (
     BLUE,
     INK,
@@ -93,12 +93,15 @@ def polar_diagrams(forces: Forces) -> "Figure":
 
     Returns figure: one panel for the pins, one for the bearings, at most six curves each.
     """
-    figure, axes = panels(9, 5.2, 1, 2, "Polar diagrams of crank pins and main bearings")
+    # where the bearings have places of their own, what a throw leans on is shared by two of them
+    bearings = "throws" if forces.journals else "main bearings"
+    figure, axes = panels(9, 5.2, 1, 2, f"Polar diagrams of crank pins and {bearings}")
     curves = polar(forces.loads)
     of_pins = {p.name for p in forces.loads.pins}
     labels = ("radial, outwards", "tangential"), ("along x", "along y")
     for axis, is_pin, (x, y) in zip(axes, (True, False), labels, strict=True):
-        stacked = {_label(n): np.concatenate(v) for n, v in curves.items() if (n in of_pins) == is_pin}
+        own = {n.replace("main_bearing", "throw") if forces.journals else n: v for n, v in curves.items()}
+        stacked = {_label(n): np.concatenate(v) for n, v in own.items() if (n in of_pins) == is_pin}
         chosen = {n: np.split(v, 2) for n, v in list(distinct(stacked, same=same_path).items())[:_MOST_CURVES]}
         factor, unit = axis_unit("N", *(v for both in chosen.values() for v in both))
         for (name, (across, up)), color in zip(chosen.items(), SERIES, strict=False):
@@ -109,7 +112,7 @@ def polar_diagrams(forces: Forces) -> "Figure":
         axis.plot(0, 0, "+", color=INK)
         axis.set(xlabel=f"{x} [{unit}]{marks}", ylabel=f"{y} [{unit}]")
         axis.locator_params(axis="x", nbins=4)  # numbers of newtons are long
-        heading(axis, "crank pins, in the crank" if is_pin else "main bearings, in the frame")
+        heading(axis, "crank pins, in the crank" if is_pin else f"{bearings}, in the frame")
         legend(axis)
     to_scale(figure, axes)
     return figure

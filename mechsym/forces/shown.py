@@ -45,6 +45,11 @@ def forces_view(forces: Forces) -> View:
 def _cards(forces: Forces) -> tuple[Card, ...]:
     cards, units = [], forces.columns.units
     for name, start, end in _LARGEST:
+        if forces.journals and start == "main_bearing":  # the columns have what a throw leans on its neighbours with
+            heaviest = max(forces.journals, key=lambda one: float(one.load.max()))
+            value, place = (quantity_text(v, u, 4) for v, u in ((float(heaviest.load.max()), "N"), (heaviest.z, "m")))
+            cards.append(Card(name=name, value=value, about=f"largest, at z = {place} along the shaft"))
+            continue
         fitting = {k: abs(v).max() for k, v in forces.columns.items() if k.startswith(start) and k.endswith(end)}
         if fitting:
             largest = max(map(float, fitting.values()))
@@ -91,8 +96,9 @@ def _pictures(result: Forces) -> tuple[Picture, ...]:
         pin, bearing = (quantity_text(max(size for name, size in sizes.items() if (name in of_pins) == one), "N", 4)
                         for one in (True, False))  # fmt: skip
         rows.insert(1, Picture(name="polar", draw=lambda: plots.polar_diagrams(result),
-                    see=f"The load of a crank pin, {pin} at most, seen from its crank, and of a main bearing, "
-                    f"{bearing}, from the frame: where a bearing is never loaded, oil may enter."))  # fmt: skip
+                    see=f"The load of a crank pin, {pin} at most, seen from its crank, and of "
+                    f"{'a throw on its bearings' if result.journals else 'a main bearing'}, {bearing}, from the frame: "
+                    "where a bearing is never loaded, oil may enter."))  # fmt: skip
     if result.journals:
         rows.append(Picture(name="journals", draw=lambda: plots.journal_loads(result),
                     see="What the shaft presses on each main bearing; neighbours share a throw."))  # fmt: skip
@@ -212,6 +218,8 @@ def borne(forces: Forces) -> list[Json]:
         fitting = [start for start in _BEARS if pattern.startswith(start)]
         on = _BEARS[max(fitting, key=len)] if fitting and pattern not in other else joints.get(pattern, "")
         said = pattern if several else name
+        if forces.journals and pattern.startswith("main_bearing"):
+            said, on = said.replace("main_bearing", "throw"), "bearings beside the throw together, in the frame"
         said = f"force {said}" if pattern in other and said.startswith("F") else said
         table.append({
             "name": name, "quantity": said, "of": ", ".join(row["of"]) if several else "",

@@ -36,7 +36,18 @@ from mechsym.mechanisms.arrays import along
 from mechsym.mechanisms.record import Mechanism
 from mechsym.mechanisms.roles import RodRole
 from mechsym.quantities import quantity, record
-from mechsym.quantities.units import Area, Array, Joule, NewtonMetre, Pascal, Pure, Radian, RadPerSecond, Scalar
+from mechsym.quantities.units import (
+    NORMAL_95,
+    Area,
+    Array,
+    Joule,
+    NewtonMetre,
+    Pascal,
+    Pure,
+    Radian,
+    RadPerSecond,
+    Scalar,
+)
 
 _FREE_FALL = 9.81  # [m/s^2]
 
@@ -179,7 +190,6 @@ def _shares(approximate: dict[str, np.ndarray], exact: dict[str, np.ndarray]) ->
     return {n: float(np.abs(approximate[n] - v).max() / np.abs(v).max()) for n, v in exact.items()}
 
 
-NORMAL_95 = 1.959963984540054  # half width of the 95 % interval of a normal distribution, in standard deviations [-]
 _DEAD = 1e-6  # of the largest lever: below it the round-off of the torque is all that is left
 
 

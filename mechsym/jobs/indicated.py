@@ -8,7 +8,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.errors import BadInput
 from mechsym.forces import textbook as physics
-from mechsym.forces.textbook import NORMAL_95, CrankTorque, IndicatedPressure
+from mechsym.forces.textbook import CrankTorque, IndicatedPressure
 from mechsym.forces.turn import period_of as period_of_gas
 from mechsym.jobs.machine import acting_on, constants, drive_of
 from mechsym.machine.torque_curve import read_torque
@@ -16,7 +16,7 @@ from mechsym.mechanisms.record import Mechanism
 from mechsym.plausible import Doubt
 from mechsym.quantities import RPM, record
 from mechsym.quantities.results import Columns, computed, part, result, seen
-from mechsym.quantities.units import NewtonMetre
+from mechsym.quantities.units import NORMAL_95, NewtonMetre
 
 _SAME = 1e-9  # of angles that are one [rad]
 _SMOOTH = 0.005  # of the largest gas torque: what a smooth curve in coarse steps may look like noise

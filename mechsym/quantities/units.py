@@ -85,6 +85,8 @@ _SIGNS = str.maketrans(
 _CELSIUS, _ZERO_CELSIUS = ("degC", "Celsius"), 273.15
 _GAUGE = ("barg", "bar(g)", "psig", "atu", "atü")
 RPM = _BASE["rpm"][0]  #: One revolution a minute [rad/s]
+#: Half width of the 95 % interval of a normal distribution, in standard deviations [-]
+NORMAL_95 = 1.959963984540054
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 _FACTOR = re.compile(r"([A-Za-z%]+)(?:\^?(-?\d))?$")
 # no length, mass or pressure of a machine lies outside; inside, squares and products of several stay far from overflow

@@ -18,10 +18,10 @@ from mechsym.cycle.chamber import Chamber
 from mechsym.cycle.measured.diagram import Diagram, line_prior, period_of
 from mechsym.cycle.measured.file import Recording, cut_cycles, read_diagram, spread_error, turn_speeds
 from mechsym.cycle.measured.joint_fit import JointFit, Prior, joint_fit
-from mechsym.cycle.measured.signal import SIGMAS_95, noise, refuse_no_cylinder, without_drift
+from mechsym.cycle.measured.signal import noise, refuse_no_cylinder, without_drift
 from mechsym.errors import BadInput
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, Pascal, Pure, Radian
+from mechsym.quantities.units import NORMAL_95, Array, Pascal, Pure, Radian
 
 _DEG = math.radians(1.0)
 _EARLIER, _BURNS = (0.0, 8.0 * _DEG), 1.4
@@ -144,7 +144,7 @@ def interval(
     angle: Radian, spread: Radian, method: str, prior_share: Pure | None = None, loss_angle: Radian | None = None
 ) -> DeadCentre:
     """A dead centre with its 95 % interval. spread: standard deviation; the others as in `DeadCentre`."""
-    low, high = angle - SIGMAS_95 * spread, angle + SIGMAS_95 * spread
+    low, high = angle - NORMAL_95 * spread, angle + NORMAL_95 * spread
     return DeadCentre(angle=angle, low=low, high=high, method=method, prior_share=prior_share, loss_angle=loss_angle)
 
 

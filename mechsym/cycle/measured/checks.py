@@ -20,9 +20,9 @@ from mechsym.cycle.measured.joint_fit import (
     mean_exponent,
 )
 from mechsym.cycle.measured.measure import USUAL_SCALE, MeasuredCycles, around_compression
-from mechsym.cycle.measured.signal import SIGMAS_95, noise
+from mechsym.cycle.measured.signal import noise
 from mechsym.plausible import Doubt
-from mechsym.quantities.units import NewtonMetre, Pascal, Pure, Radian, RadPerSecond, Volume
+from mechsym.quantities.units import NORMAL_95, NewtonMetre, Pascal, Pure, Radian, RadPerSecond, Volume
 
 _DEG = math.radians(1.0)
 _WIDEST, _DRIFT = 3.5 * _DEG, 0.25
@@ -132,7 +132,7 @@ def _free(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> Doub
     # up to where the line ends that is compared: it may burn before the end that the case names
     fit = joint_fit(phi, mean, cylinder, measured.alignment.fit.between, noise(mean), free, [0.0])
     spread = math.sqrt(float(fit.covariance[0, 0] + measured.alignment.fit.covariance[0, 0]))
-    limit = SIGMAS_95 * spread / _DEG
+    limit = NORMAL_95 * spread / _DEG
     why = "with the exponent free the dead centre is elsewhere: drift, early burning, or another compression ratio"
     quantity = "dead centre with a free exponent less the one used [deg]"
     return _doubt("free_exponent", quantity, fit.tdc / _DEG, (-limit, limit), why)
@@ -146,7 +146,7 @@ def _geometry(diagram: Diagram, cylinder: Chamber, measured: MeasuredCycles) -> 
     """
     alignment, prior, half = measured.alignment, line_prior(diagram), measured.tdc_uncertainty
     if alignment.own is not None:
-        prior = dataclasses.replace(prior, tdc=(0.0, ENCODER if half is None else half / SIGMAS_95))
+        prior = dataclasses.replace(prior, tdc=(0.0, ENCODER if half is None else half / NORMAL_95))
     phi, mean = around_compression(measured.phi, measured.raw_mean, measured.period)
     if alignment.motored:
         _, fit = from_motored(phi, mean, cylinder, prior, "")
@@ -191,7 +191,7 @@ def _expansion(phi: np.ndarray, p: np.ndarray, q: np.ndarray, cylinder: Chamber,
         return None
     n = polytropic_fit(phi, p, cylinder, first, float(phi[-1]))
     why = "behind burning the gas expands with 1.2 to 1.35: dead centre, offset or scale is wrong, or the sensor drifts"
-    by = SIGMAS_95 * _by_sensor(line, cylinder, np.array([first, phi[-1]]), np.interp([first, phi[-1]], phi, p))
+    by = NORMAL_95 * _by_sensor(line, cylinder, np.array([first, phi[-1]]), np.interp([first, phi[-1]], phi, p))
     usual = (_EXPANSION[0] - by, _EXPANSION[1] + by)
     return _doubt("expansion_exponent", "exponent of the expansion behind burning [-]", n, usual, why)
 

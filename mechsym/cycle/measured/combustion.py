@@ -39,12 +39,11 @@ from mechsym.cycle.measured.heat_release import (
 )
 from mechsym.cycle.measured.joint_fit import log_pressure, mean_exponent
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression, weak_cycles
-from mechsym.cycle.measured.signal import SIGMAS_95
 from mechsym.cycle.wiebe import wiebe
 from mechsym.page import Shown
 from mechsym.quantities import quantity, record
 from mechsym.quantities.results import Columns, result
-from mechsym.quantities.units import Array, Kelvin, Kilogram, Pascal, Pure, Radian, RadPerSecond, Volume
+from mechsym.quantities.units import NORMAL_95, Array, Kelvin, Kilogram, Pascal, Pure, Radian, RadPerSecond, Volume
 
 _QUANTILE = 1.959963984540054  # 95 % of a normal distribution
 _DOUBLE_STARTS = ((0.3, 1.0, 0.5), (0.6, 2.0, 0.7), (0.7, 1.0, 1.5))  # b, m_p, m_d to begin with
@@ -293,7 +292,7 @@ def _line(measured: MeasuredCycles, cylinder: Chamber, closed: float) -> Fit:
         names=("n", "tdc", "pressure"),
         units=("-", "rad", "Pa"),
         values=(mean_exponent(cylinder, fit.shape, closed, _BEFORE_COMBUSTION), 0.0, pressure),
-        confidence=(SIGMAS_95 * exponent, measured.tdc_uncertainty or 0.0, SIGMAS_95 * level * pressure),
+        confidence=(NORMAL_95 * exponent, measured.tdc_uncertainty or 0.0, NORMAL_95 * level * pressure),
         rms=measured.scale * fit.rms,
         unit="Pa",
     )

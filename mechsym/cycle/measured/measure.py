@@ -15,11 +15,11 @@ from mechsym.cycle.measured.alignment import Alignment, DeadCentre, align, betwe
 from mechsym.cycle.measured.diagram import Diagram, period_of
 from mechsym.cycle.measured.file import cycle_speeds
 from mechsym.cycle.measured.joint_fit import ChargeShape, JointFit, Prior, cycle_lines, log_pressure, mean_exponent
-from mechsym.cycle.measured.signal import SIGMAS_95, noise, without_swing
+from mechsym.cycle.measured.signal import noise, without_swing
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, record
 from mechsym.quantities.display import quantity_text
-from mechsym.quantities.units import Array, Pascal, Radian
+from mechsym.quantities.units import NORMAL_95, Array, Pascal, Radian
 
 # middle and half width of where the pressure is that of the inlet, and that of the exhaust
 _INLET, _EXHAUST = (-math.pi, math.radians(10.0)), (math.radians(270.0), math.radians(30.0))
@@ -231,9 +231,9 @@ def diagram_facts(
         _alignment_fact(measured, work_per_angle(measured, cylinder) * math.radians(1.0)),
         f"pegging: {how}; {_pressures(measured.offsets)} were taken off the cycles",
         _scale_fact(diagram, measured),
-        f"compression exponent {exponent:.3f} (expected {diagram.n_c:.2f} +- {SIGMAS_95 * Prior().n0[1]:.2f}), losses "
+        f"compression exponent {exponent:.3f} (expected {diagram.n_c:.2f} +- {NORMAL_95 * Prior().n0[1]:.2f}), losses "
         f"{100 * shape.loss:.0f} % of the pressure per radian at TDC (expected {100 * Prior().loss[0]:.0f} +- "
-        f"{100 * SIGMAS_95 * Prior().loss[1]:.0f} %)",
+        f"{100 * NORMAL_95 * Prior().loss[1]:.0f} %)",
         *smoothed,
         _weak_fact(p_mi),
         f"under the piston: {_pressure(diagram.p_back)} absolute",

@@ -43,9 +43,9 @@ from mechsym.cycle.measured.diagram import Diagram, line_prior, period_of
 from mechsym.cycle.measured.file import recorded_speed
 from mechsym.cycle.measured.joint_fit import JointFit, Prior, information, joint_fit, pulls
 from mechsym.cycle.measured.measure import MeasuredCycles, around_compression
-from mechsym.cycle.measured.signal import SIGMAS_95, noise
+from mechsym.cycle.measured.signal import noise
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, Pascal, Pure, Radian, RadPerSecond
+from mechsym.quantities.units import NORMAL_95, Array, Pascal, Pure, Radian, RadPerSecond
 
 _BOTTOM, _CHARGE, _WALL = 0.9e5, 340.0, 430.0  # Pa and K of a fresh charge, K of a wall: usual
 _GAMMA, _R = 1.35, 287.0
@@ -192,7 +192,7 @@ def sensor_lag(fits: Sequence[JointFit], speeds: RadPerSecond[Array], prior: Pri
     scatter = float(weight @ left**2) / (len(fits) - 2) / float(weight @ (speeds - middle) ** 2)
     pulled = np.array([pulls(fit, prior) for fit in fits]) * _BY_SPEED * np.log(speeds / middle)[:, None]
     half = math.hypot(
-        scipy.special.stdtrit(len(fits) - 2, _LEVEL) * math.sqrt(scatter), SIGMAS_95 * np.linalg.norm(b @ pulled)
+        scipy.special.stdtrit(len(fits) - 2, _LEVEL) * math.sqrt(scatter), NORMAL_95 * np.linalg.norm(b @ pulled)
     )
     return SensorLag(lag=lag, half=half, omega=middle, speeds=(float(speeds.min()), float(speeds.max())))
 
@@ -202,7 +202,7 @@ _EACH = (0.01, 0.01, 0.15, 0.15)  # n0, n1, loss (as a share of it), sharpness: 
 # standard deviation about the exponent to expect, known to 0.06 for mixture or air; a record alone allows for more
 _EXPONENT = 0.03
 _ROUNDS, _TURN = 5, 2 * math.pi
-_LAG = (sum(USUAL) / 2, (USUAL[1] - USUAL[0]) / (2 * SIGMAS_95))
+_LAG = (sum(USUAL) / 2, (USUAL[1] - USUAL[0]) / (2 * NORMAL_95))
 
 
 @record
@@ -288,7 +288,7 @@ def _before(
         rows[3, 3], rows[3, 4] = by_heat, by_leak
         loss = by_heat * heat[0] + by_leak * leak[0]
         ways.append(rows)
-        own.append(np.array([max(one.spread / SIGMAS_95, 1e-5), *_EACH]) * [1, 1, 1, loss, 1])
+        own.append(np.array([max(one.spread / NORMAL_95, 1e-5), *_EACH]) * [1, 1, 1, loss, 1])
     way = np.vstack(ways)
     spread = np.diag(shared[:, 1] ** 2)
     known = way @ spread @ way.T + np.diag(np.maximum(np.concatenate(own), 1e-6) ** 2)

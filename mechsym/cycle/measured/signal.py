@@ -28,8 +28,6 @@ from mechsym.errors import BadInput
 from mechsym.periodic.roots import root
 from mechsym.quantities.units import Array, Pascal, Radian
 
-SIGMAS_95 = 1.96  #: Within so many standard deviations lie 95 of 100 values of a normal distribution [-]
-
 # Standard deviation of a fourth difference of white noise of deviation 1, and a median turned into a deviation
 _FOURTH = math.sqrt(70.0)
 _MEDIAN = 0.6745
