@@ -124,14 +124,17 @@ def _run_pictures(run: FinishedRun) -> tuple[Picture, ...]:
 
 NEAR = 0.1  #: A critical speed so close to the speed of operation is told before any figure [-]
 ON = 0.02  #: One so close to it is run at [-]
+_SLIGHT = 0.01  # of a rigid shaft's torque: an order that carries less swings nothing [-]
 DRIFT = 1e-4  #: Change of the mean speed from one period to the next beyond which a run has not settled [-]
 
 
 def criticals(train: TrainVibration | None) -> Iterator[Finding]:
     """Orders critical near the speed of operation; one at it, or beyond the rigid shaft's torque, is not met."""
-    for one in train.criticals if train else ():
-        if abs(one.away) <= NEAR:
-            worse = abs(one.away) <= ON or (train is not None and one.torque > train.torque_rigid)
+    if train is None:
+        return
+    for one in train.criticals:
+        if abs(one.away) <= NEAR and one.torque > _SLIGHT * train.torque_rigid:
+            worse = abs(one.away) <= ON or one.torque > train.torque_rigid
             yield Finding(rank=NOT_MET if worse else LOOK_AT, words=critical_words(one), value=one.away)
 
 

@@ -49,6 +49,19 @@ def test_cylinders_fire_evenly_and_on_their_pins(found):
         assert math.remainder(phase + fires - bank, 360) == pytest.approx(0, abs=1e-9)
 
 
+@pytest.mark.parametrize("hangs", [False, True])
+def test_a_v8_has_the_usual_crank_whose_second_orders_cancel(hangs):
+    found = in_v(8, hangs)
+    assert [(p - found.phase[0]) % 360 for p in found.phase] == pytest.approx([0, 90, 270, 180] * 2)
+    assert [1 + found.firing.index(90.0 * k) for k in range(8)] == [1, 5, 4, 2, 6, 3, 7, 8]
+    bank, pin = np.radians(found.bank), np.radians(found.phase)
+    for sign in (-1, 1):
+        assert abs(np.sum(np.exp(1j * (bank + sign * 2 * (bank - pin))))) < 1e-12
+    # the first order leaves a couple that turns with the shaft: sqrt(10) a, twice for two banks at a right angle
+    couple = np.sum(np.array(found.throw) * np.exp(1j * pin))
+    assert abs(couple) == pytest.approx(2 * math.sqrt(10))
+
+
 def test_opposed_pistons_meet():
     found = opposed(3)
     assert found.firing[:3] == found.firing[3:] and set(found.bank) == {0.0, 180.0}

@@ -25,6 +25,7 @@ def test_a_critical_speed_is_told_by_its_distance_and_its_torque(monkeypatch):
     assert told_of(0.09, 101.0) == [NOT_MET]  # it swings the shaft more than a rigid one bears
     assert told_of(0.019, 99.0) == told_of(-0.02, 99.0) == [NOT_MET]  # it is run at
     assert told_of(0.021, 99.0) == [LOOK_AT]
+    assert told_of(0.019, 1.01) == [NOT_MET] and told_of(0.019, 0.99) == []  # it swings nothing
 
 
 @pytest.mark.parametrize(
