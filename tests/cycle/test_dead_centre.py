@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy
 from click.testing import CliRunner
 from simulated_engine import DEG, bound, records, whole_cycle
 from slider_crank import slider_crank
@@ -17,6 +18,7 @@ from mechsym.cycle.measured.alignment import behind_peak, from_compression, from
 from mechsym.cycle.measured.file import spread_error
 from mechsym.cycle.measured.joint_fit import Prior
 
+NORMAL = scipy.special.ndtri(0.975)
 LINE = (-90 * DEG, -15 * DEG)
 DATA = os.environ.get("MECHSYM_TEST_DATA", "")
 measured_only = pytest.mark.skipif(not DATA, reason="the generator's files need MECHSYM_TEST_DATA, their folder")
@@ -53,7 +55,7 @@ def test_interval_holds_the_truth_as_often_as_it_says():
     r = records(np.random.default_rng(11), 200, 6)
     off, half = errors(r, by_compression)
     assert 0.90 <= np.mean(np.abs(off) < half) <= 0.98
-    limit = 1.96 * bound(r, LINE) / DEG
+    limit = NORMAL * bound(r, LINE) / DEG
     assert np.median(half) < 2 * np.median(limit)
     assert np.median(limit) > 0.3  # no method gets far below what is printed
 
@@ -75,17 +77,17 @@ def test_motored_records_tell_it_to_half_a_degree():
 
 
 def test_what_the_interval_is_made_of():
-    """1.96 times: what the fit does not know, and 0.2 degrees of the encoder, which no line tells of."""
+    """At 95 %: what the fit does not know, and 0.2 degrees of the encoder, which no line tells of."""
     r = records(np.random.default_rng(21), 1, 3)
     (angle, mean), cylinder = near_tdc(r, 0), cylinder_of(r, 0)
     found, fit = from_compression(angle, mean, cylinder, LINE, Prior())
     spread = math.hypot(math.sqrt(fit.covariance[0, 0]), 0.2 * DEG)
-    assert found.high - found.angle == pytest.approx(1.96 * spread) == pytest.approx(found.angle - found.low)
+    assert found.high - found.angle == pytest.approx(NORMAL * spread) == pytest.approx(found.angle - found.low)
     # share of the variance that is assumed: the encoder's, and of the fit's what its priors leave
     assumed = fit.prior_share * fit.covariance[0, 0] + (0.2 * DEG) ** 2
     assert found.prior_share == pytest.approx(assumed / spread**2)
     peak = behind_peak(2.0, 0.8 * DEG)
-    assert (peak.angle, peak.high - peak.angle) == (pytest.approx(2.0 + 0.8 * DEG), pytest.approx(1.96 * 0.3 * DEG))
+    assert (peak.angle, peak.high - peak.angle) == (pytest.approx(2.0 + 0.8 * DEG), pytest.approx(NORMAL * 0.3 * DEG))
     assert peak.prior_share == 1.0 and peak.loss_angle == 0.8 * DEG
 
 

@@ -5,6 +5,7 @@ import json
 
 import numpy as np
 import pytest
+import scipy
 from click.testing import CliRunner
 from simulated_engine import DEG, records
 from slider_crank import slider_crank
@@ -62,7 +63,7 @@ def test_what_is_assumed_may_change_with_speed(fit):
     only.covariance[0, 0] = fit.covariance[0, 0]  # the dead centre is free: nothing pulls it by itself
     found = sensor_lag([dataclasses.replace(only, tdc=5e-5 * w) for w in speeds], speeds, Prior())
     moved = row[3] / 0.06**2 * 0.06 * np.log(speeds)
-    assert found.half == pytest.approx(1.96 * abs(np.polyfit(speeds, moved, 1)[0]), rel=1e-6)
+    assert found.half == pytest.approx(scipy.special.ndtri(0.975) * abs(np.polyfit(speeds, moved, 1)[0]), rel=1e-6)
 
 
 def test_a_straight_line_gives_its_slope_whatever_the_weights(fit):

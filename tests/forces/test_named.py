@@ -19,9 +19,11 @@ def eight(tmp_path_factory):
 def test_a_main_bearing_is_one_place_and_not_what_a_throw_leans_on_two(eight):
     rows = {named(row): row for row in borne(eight)}
     assert not any("main bearing" in name for name in rows)
-    throw = rows["throw load"]
-    assert throw["of"] == "1, 2, 3, 4" and "beside the throw" in throw["on"]
+    throw = max(
+        (row for name, row in rows.items() if name.startswith("throw") and "load" in name), key=lambda r: r["max"]
+    )
     assert throw["max"] == pytest.approx(max(eight.columns[f"main_bearing_{k}_load"].max() for k in (1, 2, 3, 4)))
+    assert "beside the throw" in throw["on"]
     card = next(card for card in eight.view.cards if card.name == "main bearing")
     largest = max(float(np.hypot(one.x, one.y).max()) for one in eight.journals)
     assert largest < throw["max"] and card.value == f"{largest / 1e3:.4g} kN"
