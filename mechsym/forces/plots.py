@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-_MOST_CURVES = 6
+_MOST_CURVES = len(SERIES)  # each has a colour of its own
 _LOOKS = ("-", ":", "--", "-.", ":", "--")  # of curves that stand for one thing
 _BAND = 360  # points of the edge of a band: more cannot be told apart
 _SEEN = 1e-3  # of the largest bar: a lower one cannot be seen
@@ -91,7 +91,7 @@ def lumped(forces: Forces) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 def polar_diagrams(forces: Forces) -> "Figure":
     """Load on each crank pin as its crank sees it, and on each main bearing as the frame sees it.
 
-    Returns figure: one panel for the pins, one for the bearings, at most six curves each.
+    Returns figure: one panel for the pins, one for the bearings, as many curves as there are colours.
     """
     # where the bearings have places of their own, what a throw leans on is shared by two of them
     bearings = "throws" if forces.journals else "main bearings"
@@ -102,9 +102,10 @@ def polar_diagrams(forces: Forces) -> "Figure":
     for axis, is_pin, (x, y) in zip(axes, (True, False), labels, strict=True):
         own = {n.replace("main_bearing", "throw") if forces.journals else n: v for n, v in curves.items()}
         stacked = {_label(n): np.concatenate(v) for n, v in own.items() if (n in of_pins) == is_pin}
-        chosen = {n: np.split(v, 2) for n, v in list(distinct(stacked, same=same_path).items())[:_MOST_CURVES]}
+        chosen, left_out = _first(distinct(stacked, same=same_path))
         factor, unit = axis_unit("N", *(v for both in chosen.values() for v in both))
-        for (name, (across, up)), color in zip(chosen.items(), SERIES, strict=False):
+        for (name, both), color in zip(chosen.items(), SERIES, strict=False):
+            across, up = np.split(both, 2)
             axis.plot(_closed(across) * factor, _closed(up) * factor, color=color, lw=1.2, label=_short(name))
             _mark_angles(axis, forces.turn.phi, across * factor, up * factor, color, named=len(chosen) == 1)
         turns = round(forces.turn.period / (2 * np.pi))
@@ -112,28 +113,29 @@ def polar_diagrams(forces: Forces) -> "Figure":
         axis.plot(0, 0, "+", color=INK)
         axis.set(xlabel=f"{x} [{unit}]{marks}", ylabel=f"{y} [{unit}]")
         axis.locator_params(axis="x", nbins=4)  # numbers of newtons are long
-        heading(axis, "crank pins, in the crank" if is_pin else f"{bearings}, in the frame")
+        heading(axis, ("crank pins, in the crank" if is_pin else f"{bearings}, in the frame") + left_out)
         legend(axis)
     to_scale(figure, axes)
     return figure
 
 
 def journal_loads(forces: Forces) -> "Figure":
-    """Load of the shaft on at most six main bearings, seen from the block and from the shaft."""
+    """Load of the shaft on its main bearings, seen from the block and from the shaft."""
     oiled = bool(forces.orbits)
     figure, axes = panels(9, 4.2 if oiled else 5.2, 1, 3 if oiled else 2, "Loads of the main bearings at their places")
     turning = {f"{one.z}{one.sense}": np.exp(-1j * one.sense * forces.turn.phi) for one in forces.journals}
     loads = {f"{one.z}{one.sense}": one.x + 1j * one.y for one in forces.journals}
     names = {f"{one.z}{one.sense}": f"z = {quantity_text(one.z, 'm', 3)}" for one in forces.journals}
+    chosen, left_out = _first(loads)
     factor, unit = axis_unit("N", *(abs(load) for load in loads.values()))
     for axis, seen, frame in zip(axes, ({}, turning), ("in the block", "in the shaft"), strict=False):
-        for (key, load), color in zip(list(loads.items())[:_MOST_CURVES], SERIES, strict=False):
+        for (key, load), color in zip(chosen.items(), SERIES, strict=False):
             curve = _closed(load * seen.get(key, 1.0)) * factor
             axis.plot(curve.real, curve.imag, color=color, lw=1.2, label=names[key])
         axis.plot(0, 0, "+", color=INK)
         axis.set(xlabel=f"along x [{unit}]", ylabel=f"along y [{unit}]")
         axis.locator_params(axis="x", nbins=4)
-        heading(axis, frame)
+        heading(axis, frame + left_out)
     if oiled:
         _orbits(axes[2], forces)
     legend(axes[0])
@@ -316,17 +318,25 @@ def _curves(axis: "Axes", angle: np.ndarray, curves: Mapping[str, np.ndarray], n
     `a, as two masses` has the colour of `a`, and is broken.
     """
     factor, unit = axis_unit("N", *curves.values())
-    shown = list(distinct({_label(n): v for n, v in curves.items()}).items())[:_MOST_CURVES]
-    kinds = list(dict.fromkeys(label.partition(",")[0] for label, _ in shown))
+    shown, left_out = _first(distinct({_label(n): v for n, v in curves.items()}))
+    kinds = list(dict.fromkeys(label.partition(",")[0] for label in shown))
     drawn: list[str] = []
-    for label, values in shown:
+    for label, values in shown.items():
         kind = label.partition(",")[0]
         look = _LOOKS[drawn.count(kind)]
         axis.plot(angle, values * factor, ls=look, color=SERIES[kinds.index(kind)], lw=1.4, label=_short(label))
         drawn.append(kind)
     axis.set_ylabel(f"{name} [{unit}]")
+    if left_out:
+        heading(axis, left_out.removeprefix(", "))
     if len(curves) > 1:
         legend(axis)
+
+
+def _first(curves: Mapping[str, np.ndarray]) -> tuple[dict[str, np.ndarray], str]:
+    """As many curves as there are colours, and words that say how many there are where these are not all."""
+    left_out = f", the first {_MOST_CURVES} of {len(curves)}" if len(curves) > _MOST_CURVES else ""
+    return dict(list(curves.items())[:_MOST_CURVES]), left_out
 
 
 def _closed(values: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ import numpy as np
 
 import mechsym
 from mechsym.files import Json
-from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text
+from mechsym.quantities.display import figure, key_words, quantity_text, ratio_text, residual_text
 from mechsym.style import significant
 
 if TYPE_CHECKING:
@@ -54,8 +54,8 @@ def _environment() -> "jinja2.Environment":
     environment.globals["version"] = mechsym.__version__
     environment.policies["json.dumps_kwargs"] = {"sort_keys": True, "separators": (",", ":")}
     environment.filters |= {
-        "sig": significant, "figure": figure, "ratio": ratio_text, "percent": _percent, "plain": pretty,
-        "pretty": typeset, "pieces": pieces,
+        "sig": significant, "figure": figure, "ratio": ratio_text, "residual": residual_text, "percent": _percent,
+        "plain": pretty, "pretty": typeset, "pieces": pieces,
         "words": key_words, "places": lambda text, said: _KEYED.sub(lambda match: f"{said(match[1])} = ", str(text)),
         "packed": packed,
         "quantity": lambda value, unit, digits=5: typeset(quantity_text(value, unit, digits)),

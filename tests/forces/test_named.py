@@ -5,7 +5,7 @@ import pytest
 
 from mechsym import cases, jobs
 from mechsym.cases.new_engine import write_engine
-from mechsym.forces.plots import polar_diagrams
+from mechsym.forces.plots import chain, polar_diagrams
 from mechsym.forces.shown import borne, named
 
 
@@ -38,3 +38,11 @@ def test_where_the_bearing_carries_the_whole_throw_it_is_called_so():
     one = jobs.forces(cases.load("zotov-89"))
     assert one.journals == () and any(named(row) == "main bearing load" for row in borne(one))
     assert polar_diagrams(one).axes[1].get_title("left") == "main bearings, in the frame"
+
+
+def test_curves_for_which_there_is_no_colour_are_counted(eight, tmp_path):
+    whole = chain(eight).axes[0]
+    assert len(whole.lines) == 8 and whole.get_title("left") == ""
+    twelve = jobs.forces(cases.load(str(write_engine("v", 0.096, 0.092, 12, tmp_path, gas="closed")[0])))
+    gas = chain(twelve).axes[0]
+    assert len(gas.lines) == 8 and gas.get_title("left") == "the first 8 of 12"
