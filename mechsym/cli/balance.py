@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from mechsym.jobs.forces import BalanceOfEngine, WeightNumbers
 
 _SEEN = 1e-6  # of the largest order: a lower one is not listed
+_NOTHING = 1e-6  # of the largest load of a main bearing: a force that is not larger shakes nothing [-]
 
 
 @case_command("Counterweights and balancer shafts.", out_option)
@@ -67,6 +68,8 @@ def _text(balanced: "BalanceOfEngine") -> str:
     left = []
     for kind, unit in (("force", "N"), ("couple", "N*m"), ("roll", "N*m")):
         was, remains = getattr(before, kind), getattr(after, kind)
+        if kind == "force" and max(was.values(), default=0.0) <= _NOTHING * (before.main_bearing_max or 0.0):
+            continue
         for order, value in was.items():
             if max(value, remains[order]) > _SEEN * max(was.values()):
                 texts = [quantity_text(size, unit, 4) for size in (value, remains[order])]

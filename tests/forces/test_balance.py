@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from mechsym.cases.new_engine import write_engine
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 from mechsym.forces.balance import Shaken, Weight, _with, amplitudes, balance, couple, part
@@ -328,3 +329,22 @@ def test_bad_options(words: list[str], why: str) -> None:
     with pytest.raises(BadInput) as refused:
         CliRunner().invoke(mechsym, ["balance", "zotov-89", *words], catch_exceptions=False)
     assert why in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("kind", "cylinders", "words"),
+    [("inline", 4, "largest left: force of order 2, "), ("inline", 5, "largest left: couple of order 2, "),
+     ("v", 8, "largest left: force of order 4, "), ("opposed", 3, "nothing is left that shakes the frame")],
+)  # fmt: skip
+def test_what_shakes_is_said_and_a_millionth_of_a_bearing_s_load_is_nothing(tmp_path, kind, cylinders, words):
+    case = str(write_engine(kind, 0.09, 0.11 if kind == "opposed" else 0.088, cylinders, tmp_path)[0])
+    text = CliRunner().invoke(mechsym, ["balance", case], catch_exceptions=False).output
+    assert text.splitlines()[1].startswith(words)
+
+
+def test_counterweights_of_a_new_v8_take_the_whole_first_order(tmp_path):
+    case = str(write_engine("v", 0.096, 0.092, 8, tmp_path, gas="closed")[0])
+    told = json.loads(CliRunner().invoke(mechsym, ["balance", case, "--json"], catch_exceptions=False).output)["before"]
+    # it is written to six digits
+    assert told["couple"].get("1", 0.0) < 1e-5 * told["main_bearing_max"] * 0.1
+    assert told["force"].get("1", 0.0) == told["force"].get("2", 0.0) == 0.0
