@@ -1,5 +1,6 @@
 """`mechsym size`: the parts of an engine for the loads of its cycle, or a check of the parts that a source printed."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -7,6 +8,7 @@ import click
 
 from mechsym.cases import Case
 from mechsym.cli.common import case_command, emit, in_rows, out_option, table, tried
+from mechsym.files import Json
 
 if TYPE_CHECKING:
     from mechsym.sizing.rows import Sizing
@@ -50,7 +52,9 @@ def _text(sizing: "Sizing") -> str:
     sizes = [row for row in sizing.rows if row["limit"] is None]
     checks = [row for row in sizing.rows if row["limit"] is not None]
     if not checks:
-        return "\n".join(["Loads", table(in_rows(sizes, ("value",)), _FIRST, named=["component"])])
+        rows = _together(sizes)
+        columns = [_FIRST[0], *(["of"] if any(row["of"] for row in rows) else []), *_FIRST[1:]]
+        return "\n".join(["Loads", table(in_rows(rows, ("value",)), columns, named=["component"])])
     # a margin against nought has no factor
     plain = {"safety_factor": None, "wanted": None}
     marked = [row | {"": "" if row["holds"] else "BELOW"} | (plain if row["limit"] == 0 else {}) for row in checks]
@@ -60,6 +64,20 @@ def _text(sizing: "Sizing") -> str:
     state = "masses and loads agree" if sizing.converged else "masses and loads do NOT agree"
     below = f"{len(sizing.failing)} of {len(checks)} factors are below the wanted ones"
     return "\n".join([*lines, f"{below if sizing.failing else 'every factor holds'}; {state} ({sizing.rounds} rounds)"])
+
+
+def _together(rows: Sequence[Json]) -> list[Json]:
+    """Loads that are the same at several cylinders or throws in one row, with their numbers."""
+    alike: dict[tuple[str, ...], Json] = {}
+    shared = any(row["component"] == "main_bearing_force_x_2" for row in rows)
+    for row in rows:
+        name, _, number = row["component"].rpartition("_")
+        row = row | ({"component": name, "of": number} if number.isdigit() else {"of": ""})
+        if shared and name.startswith("main_bearing_force"):  # a bearing carries shares of the throws beside it
+            row |= {"component": name.replace("main_bearing", "throw"), "note": "bearings beside the throw together"}
+        first = alike.setdefault((row["component"], row["quantity"], f"{row['value']:.6g}"), row)
+        first["of"] += f", {number}" if first is not row else ""
+    return list(alike.values())
 
 
 def _write(out: Path, sizing: "Sizing") -> list[Path]:
