@@ -1,10 +1,12 @@
 """A real hinge on a shaft that a gear turns: virtual work, energy and losses of the run in time, by other ways."""
 
+import dataclasses
 from types import SimpleNamespace as Made
 
 import casadi as ca
 import numpy as np
 import pytest
+from hinges import engine
 
 from mechsym import periodic
 from mechsym.hinge import trials
@@ -15,6 +17,8 @@ from mechsym.hinge.price import friction
 from mechsym.hinge.rollers import HingeLosses, RollerParameters
 from mechsym.hinge.springs.air import AirAbsolute
 from mechsym.hinge.trials import RealHinge, _friction, _inertia, _losses, _over_crank, _stored, _torque
+from mechsym.machine.loads import ConstantLoad
+from mechsym.simulate.engine import problem
 
 RATIO, RHO0, OMEGA, MASS = 0.5, 0.7, 12.0, 80.0
 ROLLERS = RollerParameters(radius=0.1, width=0.08, moving_mass=MASS, friction="rolling", rolling_arm=2e-5)
@@ -96,6 +100,25 @@ def test_a_mean_loss_is_the_work_of_the_last_period_over_its_angle():
     # a run shorter than a period is taken as it is
     short = {name: column[:101] for name, column in columns.items()}
     assert _losses(Made(columns=short), "phi", 4 * np.pi)["bearing"] == pytest.approx(900.0)
+
+
+def test_a_run_knows_every_angle_at_which_rollers_turn_back_or_the_gas_bends(hinge):
+    machine = dataclasses.replace(engine(), load=ConstantLoad(torque=1e3))
+    twice = dataclasses.replace(hinge.guide, parameters=dataclasses.replace(hinge.guide.parameters, shaft_ratio=2.0))
+    made = trials.with_real_hinge(
+        problem(machine, machine.omega, 1), machine, dataclasses.replace(hinge, guide=twice)
+    )  # fmt: skip
+    (kinks,) = made.kinks
+    fine = np.linspace(0.0, 2 * np.pi, 200_001)
+    slope = twice.rho.derivative()(2.0 * fine)
+    back = fine[:-1][np.diff(np.sign(slope)) != 0]
+    # the shaft turns twice in a turn of the crank, and what is not smooth in the one half may be so in the other
+    gas = [(k % np.pi) + turn for k in machine.gas.pressure.kinks for turn in (0.0, np.pi)]
+    wanted = np.sort([*back, *gas])
+    assert len(back) == 4 and kinks.period == pytest.approx(2 * np.pi)
+    assert np.all(np.diff(kinks.angles) > 1e-9)
+    away = np.abs(np.asarray(kinks.angles)[:, None] - wanted[None, :])
+    assert away.min(axis=0).max() < 1e-4 and away.min(axis=1).max() < 1e-4
 
 
 @pytest.mark.parametrize(
