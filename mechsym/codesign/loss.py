@@ -19,14 +19,13 @@ from mechsym.codesign import running
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running, TimeRun, ripple_of_last_turn
 from mechsym.codesign.task import CoDesign, Path, Track, fine_path, path_of
-from mechsym.hinge.balance import or_stopped
+from mechsym.hinge.balance import least_ripple
 from mechsym.hinge.price import FILLS
 from mechsym.hinge.rollers import HingeLosses, LossTorques, friction_torques
 from mechsym.hinge.springs.air_thermal import AirThermal
 from mechsym.hinge.springs.face import GasTurn, Spring
 from mechsym.machine.loads import load_torque
 from mechsym.periodic.pieces import PPoly
-from mechsym.periodic.roots import minimum
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Newton, RadPerSecond, Scalar
 
@@ -132,10 +131,10 @@ def with_losses(design: CoDesign, k: int, given: HingeLosses) -> Lossy:
     if real(machine, assumed).taken.total >= abs(point.load_torque):  # the hinge takes more than the machine gives
         return Lossy(ripple=None, time_ripple=None, energy_residual=None, fill=1.0)
 
-    def ripple(fill: float) -> float:
-        return or_stopped(running.steady(real(machine, assumed, fill).machine).speed_ripple)
+    def ripple(fill: float) -> float | None:
+        return running.steady(real(machine, assumed, fill).machine).speed_ripple
 
-    fill = 1.0 if inside else minimum(ripple, *FILLS, 1e-4)[0]
+    fill = 1.0 if inside else least_ripple(ripple, *FILLS)[0]
     lossy = real(machine, assumed, fill).machine
     motion = running.steady(lossy)
     if motion.speed_ripple is None:

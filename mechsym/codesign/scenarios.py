@@ -17,10 +17,10 @@ from mechsym.codesign.manoeuvres import hold
 from mechsym.codesign.points import Point
 from mechsym.codesign.running import Running, TimeRun
 from mechsym.codesign.task import CoDesign
-from mechsym.hinge.balance import or_stopped
+from mechsym.hinge.balance import least_ripple, or_stopped
 from mechsym.machine.loads import ConstantLoad, PropellerLoad
 from mechsym.periodic.pieces import PPoly
-from mechsym.periodic.roots import minimum, root
+from mechsym.periodic.roots import root
 from mechsym.quantities import quantity, record
 from mechsym.quantities.display import per_cent, quantity_text
 from mechsym.quantities.units import Inertia
@@ -249,12 +249,13 @@ def _scavenge_step(design: CoDesign, machine: Running, scavenged: Point, k: int)
     other = dataclasses.replace(other, extra=machine.extra, load=machine.load)
     run = running.run(other, start[0], _TURNS)
 
-    def ripple(share: float) -> float:
+    def ripple(share: float) -> float | None:
         charged = dataclasses.replace(other, pressures=tuple(share * p for p in other.pressures))
-        return or_stopped(running.steady(charged).speed_ripple)
+        return running.steady(charged).speed_ripple
 
-    best, least = minimum(ripple, 0.8, 1.2, 1e-4)
-    words = f"ripple {per_cent(ripple(1.0))}, with {per_cent(best)} of the pressures {per_cent(least)}"
+    own, (best, least) = ripple(1.0), least_ripple(ripple, 0.8, 1.2)
+    words = "no steady motion" if own is None else f"ripple {per_cent(own)}"
+    words += "" if least is None else f", with {per_cent(best)} of the pressures {per_cent(least)}"
     return told(name, about, k, start[1], run, lambda r: words)
 
 

@@ -21,6 +21,7 @@ numbers are reported for the engine as built; a test holds the two together.
 
 import functools
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -30,7 +31,7 @@ from mechsym.hinge.choices import BALANCES
 from mechsym.hinge.torque import Hinge
 from mechsym.periodic import even_angles
 from mechsym.periodic.pieces import PPoly
-from mechsym.periodic.roots import root
+from mechsym.periodic.roots import minimum, root
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, Inertia, Joule, NewtonMetre, Pure, Radian, RadPerSecond, Scalar
 from mechsym.simulate.speed import Speed
@@ -193,3 +194,20 @@ STOPPED = 10.0  #: Stands for the ripple of a shaft that stops: more than that o
 def or_stopped(ripple: Pure | None, beyond: Pure = 0.0) -> Pure:
     """A ripple to compare with others; of a shaft that stops the more, the more work it misses `beyond` what it has."""
     return STOPPED + beyond if ripple is None else ripple
+
+
+_LOOKS = 17  # where a search has seen nothing but stops
+
+
+def least_ripple(ripple: Callable[[Pure], Pure | None], low: Pure, high: Pure) -> tuple[Pure, Pure | None]:
+    """Share between two at which the shaft turns most evenly, and its ripple there; None where it stops everywhere."""
+
+    def size(share: float) -> float:
+        return or_stopped(ripple(share))
+
+    best, least = minimum(size, low, high, 1e-4)
+    if least >= STOPPED:
+        shares = np.linspace(low, high, _LOOKS).tolist()
+        near, step = min(shares, key=size), shares[1] - shares[0]
+        best, least = minimum(size, max(low, near - step), min(high, near + step), 1e-4)
+    return best, least if least < STOPPED else None

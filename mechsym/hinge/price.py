@@ -13,7 +13,7 @@ import dataclasses
 import numpy as np
 
 from mechsym.cycle.pressure import unfired, unfired_kinks
-from mechsym.hinge.balance import or_stopped
+from mechsym.hinge.balance import least_ripple
 from mechsym.hinge.guide import Guide, fitted
 from mechsym.hinge.limits import Contact, at_angles
 from mechsym.hinge.rollers import HingeLosses, LossTorques, RollerParameters, friction_torques
@@ -22,7 +22,6 @@ from mechsym.hinge.springs.face import GasTurn
 from mechsym.hinge.torque import Hinge
 from mechsym.machine.loads import ConstantLoad, Load, PropellerLoad, TableLoad
 from mechsym.machine.record import Firing, Machine, firings, lever
-from mechsym.periodic.roots import minimum
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import RadPerSecond
 from mechsym.simulate import angle
@@ -169,8 +168,7 @@ def _best_fill(
 
     if gas is None:
         return 1.0, motion(1.0).speed_ripple
-    best, _ = minimum(lambda f: or_stopped(motion(f).speed_ripple), *FILLS, 1e-4)
-    return best, motion(best).speed_ripple
+    return least_ripple(lambda fill: motion(fill).speed_ripple, *FILLS)
 
 
 def _lowered(load: Load, lost: float) -> Load:

@@ -130,3 +130,27 @@ def test_a_stall_leaves_no_speed_and_an_unknown_misfire_no_flywheel(design, monk
     design.task.points = (heavy, unknown)
     monkeypatch.setattr(scenarios, "machine_at", lambda *_: dataclasses.replace(machine(0.0), point=unknown))
     assert scenarios.misfire_shares(design)[1] is None and scenarios.misfire_flywheel(design, 0.5) is None
+
+
+@pytest.mark.parametrize(
+    ("ripples", "words"),
+    [
+        (lambda share: 0.03 + abs(share - 0.9), "ripple 13 %, with 90 % of the pressures 3 %"),
+        (
+            lambda share: None if share > 0.95 else 0.03 + abs(share - 0.9),
+            "no steady motion, with 90 % of the pressures 3 %",
+        ),
+        (lambda share: None, "no steady motion"),
+    ],
+)
+def test_after_a_scavenge_step_a_ripple_is_told_where_there_is_one(monkeypatch, ripples, words):
+    made = machine()
+    monkeypatch.setattr(scenarios, "steady_speed", lambda one: (OMEGA, OMEGA))
+    monkeypatch.setattr(scenarios.running, "running", lambda *a: dataclasses.replace(made, pressures=(2.0,)))
+    monkeypatch.setattr(scenarios.running, "run", lambda *a: None)
+    monkeypatch.setattr(
+        scenarios.running, "steady", lambda one: SimpleNamespace(speed_ripple=ripples(one.pressures[0] / 2.0))
+    )  # fmt: skip
+    monkeypatch.setattr(scenarios, "told", lambda name, about, k, mean, run, words: words(run))
+    design = SimpleNamespace(tracks=(), flywheel=0.0)
+    assert scenarios._scavenge_step(design, made, made.point, 0) == words

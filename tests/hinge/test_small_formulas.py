@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from codesigns import constant_load
 
-from mechsym.hinge.balance import or_stopped
+from mechsym.hinge.balance import least_ripple, or_stopped
 from mechsym.hinge.limits import _closure_check
 from mechsym.hinge.springs.air import AirAbsolute
 from mechsym.hinge.springs.coil import Coil
@@ -34,3 +34,11 @@ def test_a_shaft_that_stops_is_worse_than_any_that_turns_and_the_worse_the_more_
     # the ripple of a shaft that all but stops, see test_points_closed_form
     assert or_stopped(None) > 3 * constant_load(200.0, 1.001)[1]
     assert or_stopped(None, 1.9) == or_stopped(None) + 1.9
+
+
+def test_a_search_that_sees_nothing_but_stops_looks_again():
+    assert least_ripple(lambda share: 0.03 + abs(share - 0.9), 0.8, 1.3) == pytest.approx((0.9, 0.03), abs=2e-4)
+    # an eighth of the range is all in which it turns
+    narrow = lambda share: None if abs(share - 0.86) > 0.03 else 0.05 + (share - 0.86) ** 2  # noqa: E731
+    assert least_ripple(narrow, 0.8, 1.3) == pytest.approx((0.86, 0.05), abs=2e-3)
+    assert least_ripple(lambda share: None, 0.8, 1.3)[1] is None
