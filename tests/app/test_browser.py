@@ -156,7 +156,14 @@ def said(page, tab):
 
 
 @pytest.mark.parametrize(
-    ("tab", "key"), [("cycle", "cycle.p_s"), ("forces", "parameters.m2"), ("simulate", "spring.p0")]
+    ("tab", "key"),
+    [
+        ("cycle", "cycle.p_s"),
+        *(
+            pytest.param(tab, key, marks=pytest.mark.heavy)
+            for tab, key in (("forces", "parameters.m2"), ("simulate", "spring.p0"))
+        ),
+    ],
 )
 def test_a_tab_runs_its_command_and_again_when_a_slider_rests(page, tab, key):
     page.get_by_role("tab", name=tab, exact=True).click()

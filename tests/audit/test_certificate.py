@@ -74,6 +74,7 @@ def test_no_theorem_says_that_a_formula_is_itself():
 
 @needs_coq
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_coq_accepts_those_of_a_source(tmp_path):
     found = sources("moroianu2017") + sources("prymak")
     script, without = certificate_of_sources(found, rows(found))

@@ -91,7 +91,7 @@ def files_in(folder, differs):
 
 
 def _marks(name):
-    return [pytest.mark.slow, *[pytest.mark.heavy] * (name == "codesign")]
+    return [pytest.mark.slow, *[pytest.mark.heavy] * (name in ("codesign", "identify"))]
 
 
 @pytest.mark.parametrize("name", [*FAST, *(pytest.param(name, marks=_marks(name)) for name in LONG)])

@@ -128,7 +128,9 @@ def test_turbocharger_brings_the_height_back_and_dams_up_the_exhaust(tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        pytest.param(["--set", "breathing.plenum_volume=1e-9"], "widen the plenum", marks=pytest.mark.slow),
+        pytest.param(
+            ["--set", "breathing.plenum_volume=1e-9"], "widen the plenum", marks=[pytest.mark.slow, pytest.mark.heavy]
+        ),
         (["--set", "breathing.exhaust_opens=30 deg"], "combustion ends"),
         (["--set", "breathing.altitude=20000 m"], "altitude = 20000 m"),
         (["--over", "cycle.gamma=1.3:1.4:0.05"], "--over needs"),

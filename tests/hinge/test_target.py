@@ -101,8 +101,7 @@ def written(folder):
     ("case", "words"),
     [
         *((case, ("hinge",)) for case in HINGES),
-        ("zotov-89", ("codesign",)),
-        *(pytest.param(case, ("codesign",), marks=pytest.mark.heavy) for case in HINGES if case != "zotov-89"),
+        *(pytest.param(case, ("codesign",), marks=pytest.mark.heavy) for case in HINGES),
         *(pytest.param(case, ("codesign", "--peers", "--pareto", "3,5%"), marks=pytest.mark.heavy) for case in HINGES),
     ],
 )

@@ -25,7 +25,7 @@ TEN = {
     "scissor": (SWING.format(q="phi", rise="20 deg"), 20.0, 1.0, "a_inertia,top_mass"),
     "fivebar": (SWING.format(q="a1", rise="20 deg") + 'a2 = "3-4-5"\n', 0.5, 0.4, "one_inertia,left_mass"),
 }
-EACH = [pytest.param(n, marks=[pytest.mark.slow, *([pytest.mark.heavy] if n != "toggle" else [])]) for n in TEN]
+EACH = [pytest.param(n, marks=[pytest.mark.slow, pytest.mark.heavy]) for n in TEN]
 ANOTHER = 1.1  # times the truth, from which identify starts
 NOISE = 1e-4  # rad/s
 

@@ -77,6 +77,7 @@ def test_a_run_of_a_case_goes_on_where_the_closed_form_ends(tmp_path, b, kind):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 def test_a_robot_of_two_freedoms_goes_on_where_its_closed_form_ends(tmp_path):
     """Its rods come to lie in one line: the masses of the closed form grow beyond all bounds there."""
     page = (Path(__file__).parents[2] / "docs" / "own-mechanism.md").read_text()

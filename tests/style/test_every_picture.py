@@ -98,6 +98,7 @@ def test_the_sheet_of_a_guide(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.heavy
 @pytest.mark.parametrize("source", sources(None), ids=lambda s: s.name)
 def test_the_figures_of_a_paper(source):
     if not DATA:

@@ -108,7 +108,11 @@ def swept(plan, folder):
     return sweep(Plan(case=case, over=over, analysis=analysis, show=show), means=Means(folder=folder, jobs=1))
 
 
-@pytest.mark.parametrize("kind", [pytest.param(k, marks=pytest.mark.slow) if k in LONG else k for k in EDITS])
+def marks(kind):
+    return [pytest.mark.slow] * (kind in LONG) + [pytest.mark.heavy] * (kind == "points")  # co-designs
+
+
+@pytest.mark.parametrize("kind", [pytest.param(k, marks=marks(k)) for k in EDITS])
 def test_an_edited_file_is_read_anew(folder, kind):
     plan, name, old, new = EDITS[kind]
     (folder / "out").mkdir()
