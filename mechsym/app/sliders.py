@@ -13,7 +13,7 @@ from mechsym.quantities import quantity, record
 from mechsym.quantities.display import key_words
 from mechsym.quantities.records import Field, Record
 
-REACH = 2.0  # times a value, and its inverse, are as far as its slider goes
+REACH = 2.0  #: times a value, and its inverse, are as far as its slider goes
 _STEPS = 200
 #: how far the slider of a zero goes by its unit; else as far as the largest value of its section with that unit, or 1
 _FROM_ZERO = {"Pa": 2e5, "m/s^2": 20.0}

@@ -11,7 +11,8 @@ _ORDERS = {
     1: (1,), 2: (1, 2), 3: (1, 3, 2), 4: (1, 3, 4, 2), 5: (1, 2, 4, 5, 3), 6: (1, 5, 3, 6, 2, 4),
     8: (1, 6, 2, 5, 8, 3, 7, 4),
 }  # fmt: skip
-_CROSS_PLANE = (1, 5, 4, 2, 6, 3, 7, 8)  # a V8 on pins a quarter of a turn apart, which has no second-order force
+# of a V whose order is not twice that of a bank: eight on pins a quarter of a turn apart, with no second-order force
+_V_ORDERS = {8: (1, 5, 4, 2, 6, 3, 7, 8)}
 _BANKS = {2: 90, 4: 90, 6: 60, 8: 90, 10: 72, 12: 60}  # angle between the banks of a V engine [deg]
 
 
@@ -47,18 +48,19 @@ def in_v(count: int, hangs: bool = False) -> CylinderLayout:
     if count not in _BANKS:
         raise BadInput(f"--cylinders {count}: a V engine here has {', '.join(map(str, _BANKS))}")
     half, bank = count // 2, float(_BANKS[count])
-    first = _degrees(firing_angles(_ORDERS.get(half, (1,)), 4 * math.pi))
-    later = bank + 360.0 if count == 2 else bank if hangs else 720.0 / count
-    firing = (*first, *((f + later) % 720 for f in first))
-    if count == 8:
-        firing = _degrees(firing_angles(_CROSS_PLANE, 4 * math.pi))
+    if cross_plane := count in _V_ORDERS:
+        firing = _degrees(firing_angles(_V_ORDERS[count], 4 * math.pi))
+    else:
+        first = _degrees(firing_angles(_ORDERS.get(half, (1,)), 4 * math.pi))
+        later = bank + 360.0 if count == 2 else bank if hangs else 720.0 / count
+        firing = (*first, *((f + later) % 720 for f in first))
     banks = (-bank / 2,) * half + (bank / 2,) * half
     phase = tuple((b - f) % 360 for b, f in zip(banks, firing, strict=True))
     master = (0,) * half + tuple(range(1, half + 1)) if hangs else ()
     return CylinderLayout(
         throw=tuple(range(1, half + 1)) * 2, bank=banks, firing=firing, phase=phase, period=720.0, master=master,
         # at a right angle two pistons on one pin have a first order that turns with it
-        turned=0.5 if count == 8 else 0.0,
+        turned=0.5 if cross_plane else 0.0,
     )  # fmt: skip
 
 

@@ -68,13 +68,16 @@ def _text(sizing: "Sizing") -> str:
 
 def _together(rows: Sequence[Json]) -> list[Json]:
     """Loads that are the same at several cylinders or throws in one row, with their numbers."""
+    from mechsym.forces.plots import as_throw
+    from mechsym.forces.shown import BESIDE_THROW
+
     alike: dict[tuple[str, ...], Json] = {}
     shared = any(row["component"] == "main_bearing_force_x_2" for row in rows)
     for row in rows:
         name, _, number = row["component"].rpartition("_")
         row = row | ({"component": name, "of": number} if number.isdigit() else {"of": ""})
         if shared and name.startswith("main_bearing_force"):  # a bearing carries shares of the throws beside it
-            row |= {"component": name.replace("main_bearing", "throw"), "note": "bearings beside the throw together"}
+            row |= {"component": as_throw(name), "note": BESIDE_THROW}
         first = alike.setdefault((row["component"], row["quantity"], f"{row['value']:.6g}"), row)
         first["of"] += f", {number}" if first is not row else ""
     return list(alike.values())

@@ -53,9 +53,9 @@ def gas_turn(track: Track, p0: float, point: Point, given: HingeLosses) -> GasTu
     """The gas of one spring, filled to p0 [Pa], over a period; None of a law without heat."""
     phi, path = fine_path(track, point.period)
     walled = track.hardware.walled(p0, given, point.omega)
-    turn: GasTurn | None = (
-        None if walled is None else walled.turn(path.z, np.full(phi.size, point.period / phi.size), point.omega)
-    )
+    if walled is None:
+        return None
+    turn: GasTurn = walled.turn(path.z, np.full(phi.size, point.period / phi.size), point.omega)
     return turn
 
 

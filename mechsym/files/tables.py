@@ -13,7 +13,7 @@ from mechsym.quantities import parse
 
 _DELIMITERS = (";", "\t", ",")
 _COMMA = re.compile(r"^[+-]?\d+,\d+([eE][+-]?\d+)?$")
-BEYOND = 1e30  # no sensor reads it in any unit: a logger's mark of a value that is not there
+BEYOND = 1e30  #: no sensor reads it in any unit: a logger's mark of a value that is not there
 
 
 def text_of(path: str | Path) -> str:

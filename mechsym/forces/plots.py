@@ -88,6 +88,11 @@ def lumped(forces: Forces) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     return {name: pair for name, pair in rods.items() if np.abs(pair[0] - pair[1]).max() > 1e-6 * size}
 
 
+def as_throw(name: str) -> str:
+    """Name of what a throw leans on the bearings beside it, which outputs call its main bearing."""
+    return name.replace("main_bearing", "throw")
+
+
 def polar_diagrams(forces: Forces) -> "Figure":
     """Load on each crank pin as its crank sees it, and on each main bearing as the frame sees it.
 
@@ -100,7 +105,7 @@ def polar_diagrams(forces: Forces) -> "Figure":
     of_pins = {p.name for p in forces.loads.pins}
     labels = ("radial, outwards", "tangential"), ("along x", "along y")
     for axis, is_pin, (x, y) in zip(axes, (True, False), labels, strict=True):
-        own = {n.replace("main_bearing", "throw") if forces.journals else n: v for n, v in curves.items()}
+        own = {as_throw(n) if forces.journals else n: v for n, v in curves.items()}
         stacked = {_label(n): np.concatenate(v) for n, v in own.items() if (n in of_pins) == is_pin}
         chosen, left_out = _first(distinct(stacked, same=same_path))
         factor, unit = axis_unit("N", *(v for both in chosen.values() for v in both))
@@ -147,11 +152,11 @@ def _orbits(axis: "Axes", forces: Forces) -> None:
     """Where each journal is in the clearance of its bearing."""
     edge = np.exp(2j * np.pi * np.arange(181) / 180)
     axis.plot(edge.real, edge.imag, color=INK, lw=0.8)
-    for orbit, color in zip(forces.orbits[:_MOST_CURVES], SERIES, strict=False):
-        curve = _closed(orbit.eccentricity)
+    chosen, left_out = _first({str(k): _closed(orbit.eccentricity) for k, orbit in enumerate(forces.orbits)})
+    for curve, color in zip(chosen.values(), SERIES, strict=False):
         axis.plot(curve.real, curve.imag, color=color, lw=1.2)
     axis.set(xlabel="along x, of the clearance [-]", ylabel="along y, of the clearance [-]")
-    heading(axis, "journal in its clearance")
+    heading(axis, "journal in its clearance" + left_out)
 
 
 def _short(name: str) -> str:

@@ -174,6 +174,7 @@ def drawing_of(forces: Forces) -> Callable[[float], Shapes] | None:
     return drawn(one.name, one.parameters, lambda: one.mechanism, bore)
 
 
+BESIDE_THROW = "bearings beside the throw together"
 # what bears a load, by how its name starts
 _BEARS = {
     "p": "gas in the cylinder", "piston_pin": "piston pin, from the rod", "pin_force": "crank pin, from its load",
@@ -219,7 +220,7 @@ def borne(forces: Forces) -> list[Json]:
         on = _BEARS[max(fitting, key=len)] if fitting and pattern not in other else joints.get(pattern, "")
         said = pattern if several else name
         if forces.journals and pattern.startswith("main_bearing"):
-            said, on = said.replace("main_bearing", "throw"), "bearings beside the throw together, in the frame"
+            said, on = plots.as_throw(said), f"{BESIDE_THROW}, in the frame"
         said = f"force {said}" if pattern in other and said.startswith("F") else said
         table.append({
             "name": name, "quantity": said, "of": ", ".join(row["of"]) if several else "",

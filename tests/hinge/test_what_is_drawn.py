@@ -385,6 +385,6 @@ def test_readouts_are_the_numbers_of_each_frame():
         assert text == pytest.approx(values, rel=1e-3, abs=1e-3 * np.abs(values).max())
 
 
-def test_each_run_is_made_once():
+def test_without_a_guide_there_is_one_run():
     runs = side_by_side(design().machine, design().hinge, None, 1.0, None)
     assert [t.name for t in runs] == ["without"] and runs[0].losses is None

@@ -27,7 +27,7 @@ from mechsym.quantities.results import quantity, result
 from mechsym.quantities.units import Array, Joule, Pascal, Pure, Radian
 
 LEVELS = (0.1, 0.5, 0.9)
-EARLIEST = math.radians(-45.0)  # drift of the pressure earlier in compression is no combustion
+EARLIEST = math.radians(-45.0)  #: drift of the pressure earlier in compression is no combustion
 _COMPRESSION = (math.radians(-90.0), math.radians(-30.0))
 _EXPANSION = (math.radians(60.0), math.radians(110.0))
 
