@@ -1,10 +1,11 @@
 r"""Links of a user's own mechanism by what a bar of their length can weigh and hold.
 
-l is the largest distance of two joints of the link, c its centre of mass, R the reach from its pivot, b from the middle
-of its joints to the farthest of what it may be made of. A zero leaves the part away and is never doubted; a link that
-turns with a coordinate may carry a flywheel: where it is a rotor, or balanced. A link with one joint reaches as far
-behind its centre; none is a wheel far wider than the longest link. A piston, with one joint, is held against that. The
-section A is that of the stoutest link, a square bar of steel of its mass and length.
+l is the largest distance of two points of the link (joints, and what is watched of it), c its centre of mass, R the
+reach from its pivot, b from the middle of its points to the farthest of what it may be made of. A zero leaves the part
+away and is never doubted; a link that turns with a coordinate may carry a flywheel: where it is a rotor, or balanced.
+A link with one joint reaches as far behind its centre; none is a wheel far wider than the longest link. A piston, with
+one joint, is held against that. The section A is that of the stoutest link, a square bar of steel of its mass and
+length.
 
 .. math:: \frac{I}{m l^2} \le \frac{b^2 - |c - \bar p|^2}{l^2}, \qquad
     \frac{|c - \bar p|}{l}, \qquad \frac{m}{l^3}, \qquad \omega R, \qquad \frac{F}{A}
@@ -29,10 +30,11 @@ if TYPE_CHECKING:
 _STEEL = 7850.0  # its density [kg/m^3]
 _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
-_OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its joints, by its length [-]
-_MIDDLE = 0.25  # how far the centre of a bar is from the middle of its joints, by its length [-]
+_OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its points, by its length [-]
+_MIDDLE = 0.25  # how far the centre of a bar is from the middle of its points, by its length [-]
 _SWINGS = 8.0  # inertia of what swings about its joint by mass and the longest link squared [-]
 _CARRIES = 5.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
+_DISC = 1e5  # inertia by l^5 of a disc of steel as thick as l, 1.6 l in radius: a wheel that carries planets [kg/m^3]
 _SLENDER = 1000.0  # a longer shaft, by its diameter, is a thread [-]
 _DEEP = 3.0  # how far a link goes along its axis, by the longest link [-]
 _BURSTS = 300.0  # speed of the radius of gyration at which discs of steel burst [m/s]
@@ -318,29 +320,30 @@ def _of(
         about = f"inertia of {name} / (mass * (longest link)^2)"
         yield from proportion("link_inertia", about, inertia / (mass * longest**2), _WHEEL)
     if inertia > 0 and not mass:  # of a flywheel any, but not less than a thread's
-        yield from proportion("link_thread", f"inertia of {name} / (distance of its joints)^5", inertia / length**5)
+        yield from proportion("link_thread", f"inertia of {name} / (distance of its points)^5", inertia / length**5)
     if link["turns"] in rotors or link["turns"] and link["centre"] == list(link["pivot"] or ()):
         inertia = 0.0  # of a flywheel
     # webs, discs and counterweights of a crank are wider than its throw
-    size, of = (longest, "longest link") if link["turns"] else (length, "distance of its joints")
+    size, of = (longest, "longest link") if link["turns"] else (length, "distance of its points")
     if mass > 0:
         yield from proportion("link_density", f"mass of {name} / ({of})^3", mass / size**3)
         middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True))
         away = math.dist(_point(link["centre"], letters), middle)
-        what = f"centre of {name} from the middle of its joints / {of}"
+        what = f"centre of {name} from the middle of its points / {of}"
         yield from proportion("link_centre", what, away / size, None if link["turns"] else _OF_ROD)
         about, ratio = f"inertia of {name} / (mass * ({of})^2)", inertia / (mass * size**2)
         if inertia and link["turns"]:
             yield from proportion("link_needle", about, ratio, _CARRIES)
             if away < _MIDDLE * length:  # else its mass may sit at one end
-                thin = f"inertia of {name} / (mass * (distance of its joints)^2)"
+                thin = f"inertia of {name} / (mass * (distance of its points)^2)"
                 yield from proportion("link_inertia", thin, inertia / (mass * length**2), math.inf)
         elif inertia:
             # of all that weighs m within a circle about the middle, whose centre of mass lies beside it
             reach = _BEYOND * (max(math.dist(middle, p) for p in points) + away)
             yield from proportion("link_inertia", about, ratio, (reach**2 - away**2) / length**2)
     elif inertia and link["pivot"] and not link["turns"]:  # about its bearing in the frame no mass is needed
-        yield from proportion("link_density", f"inertia of {name} / (distance of its joints)^5", inertia / length**5)
+        about = f"inertia of {name} / (distance of its points)^5"
+        yield from proportion("link_density", about, inertia / length**5, _DISC)
     elif inertia and not link["turns"]:
         why = "what has no mass has no inertia: give it a mass, or leave its inertia away"
         yield Doubt(code="massless", quantity=f"inertia of {name}", value=inertia, usual="0 without a mass", why=why)

@@ -71,8 +71,9 @@ def _text(balanced: "BalanceOfEngine") -> str:
         if kind == "force" and max(was.values(), default=0.0) <= _NOTHING * (before.main_bearing_max or 0.0):
             continue
         for order, value in was.items():
-            if max(value, remains[order]) > _SEEN * max(was.values()):
-                texts = [quantity_text(size, unit, 4) for size in (value, remains[order])]
+            rest = remains.get(order, 0.0)
+            if max(value, rest) > _SEEN * max(was.values()):
+                texts = [quantity_text(size, unit, 4) for size in (value, rest)]
                 rows.append({"on the frame": kind, "order": order, "before": texts[0], "after": texts[1]})
         worst = max(remains, key=remains.__getitem__, default=None)
         if kind != "roll" and worst is not None and remains[worst]:

@@ -48,9 +48,10 @@ def flywheel(case: Case, ripple: str, out: Path | None) -> None:
 def _text(result: Json) -> str:
     bare, check, swing = result["ripple_bare"], result["check"], result["work_swing"]
     mean = result["torque_mean"] if abs(result["torque_mean"]) > SMALLEST * swing else 0.0  # else round-off
+    swing = swing if swing > SMALLEST * abs(mean) else 0.0
     lines = [
         f"mean torque {quantity_text(mean, 'N*m')}, work that swings {quantity_text(swing, 'J')}",
-        f"without a further flywheel: {'the shaft does not turn' if bare is None else f'ripple {100 * bare:.4g} %'}",
+        f"without a further flywheel: {'the shaft does not turn' if bare is None else f'ripple {_percent(bare, 4)}'}",
     ]
     if result["inertia"] is None:
         return "\n".join(lines)
@@ -63,5 +64,9 @@ def _text(result: Json) -> str:
     )
     if check["speed_ripple"] is not None:
         residual = residual_text(check["energy_residual"], 1)
-        lines.append(f"run in time: ripple {100 * check['speed_ripple']:.5g} %, energy residual {residual}")
+        lines.append(f"run in time: ripple {_percent(check['speed_ripple'], 5)}, energy residual {residual}")
     return "\n".join(lines)
+
+
+def _percent(share: float, digits: int) -> str:
+    return f"{100 * share:.{digits}g} %" if share > SMALLEST else f"below {100 * SMALLEST:.0e} %"

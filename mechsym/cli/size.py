@@ -54,7 +54,8 @@ def _text(sizing: "Sizing") -> str:
     if not checks:
         rows = _together(sizes)
         columns = [_FIRST[0], *(["of"] if any(row["of"] for row in rows) else []), *_FIRST[1:]]
-        return "\n".join(["Loads", table(in_rows(rows, ("value",)), columns, named=["component"])])
+        shown = table(in_rows(rows, ("value",)), columns, named=["component"])
+        return "\n".join(["Loads, of a joint the resultant (--json has its components)", shown])
     # a margin against nought has no factor
     plain = {"safety_factor": None, "wanted": None}
     marked = [row | {"": "" if row["holds"] else "BELOW"} | (plain if row["limit"] == 0 else {}) for row in checks]
@@ -68,12 +69,16 @@ def _text(sizing: "Sizing") -> str:
 
 def _together(rows: Sequence[Json]) -> list[Json]:
     """Loads that are the same at several cylinders or throws in one row, with their numbers."""
+    from mechsym.forces.loads import resultants
     from mechsym.forces.plots import as_throw
     from mechsym.forces.shown import BESIDE_THROW
 
     alike: dict[tuple[str, ...], Json] = {}
-    shared = any(row["component"] == "main_bearing_force_x_2" for row in rows)
+    shared = any(row["component"] == "main_bearing_force_2" for row in rows)
+    components = {part for parts in resultants(row["component"] for row in rows).values() for part in parts}
     for row in rows:
+        if row["component"] in components:
+            continue
         name, _, number = row["component"].rpartition("_")
         row = row | ({"component": name, "of": number} if number.isdigit() else {"of": ""})
         if shared and name.startswith("main_bearing_force"):  # a bearing carries shares of the throws beside it

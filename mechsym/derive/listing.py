@@ -143,9 +143,10 @@ def _short(m: Declaration, formulas: Sequence[Expr]) -> list[str]:
 
 
 def _link(m: Declaration, link: Link) -> Json:
-    """Mass, inertia, centre and joints of a link in its own axes, by letters of the parameters; empty without any."""
+    """Mass, inertia, centre, joints and watched points of a link in its axes, by letters of the parameters, if any."""
     joints = [joint for joint in m.link_joints if link in (joint.first.link, joint.second.link)]
-    sides = [joint.side(link) for joint in joints]
+    sides = [*(joint.side(link) for joint in joints), *(p for p in m.watched.values() if isinstance(p, LinkPoint))]
+    sides = [side for side in sides if side.link is link]
     points = list(dict.fromkeys((str(p.u), str(p.v)) for p in sides if isinstance(p, LinkPoint)))
     free = {s for p in sides if isinstance(p, LinkPoint) for s in p.u.free_symbols | p.v.free_symbols}
     alone = len(points) == 1 and points[0] != tuple(map(str, link.centre))  # hangs on its joint
@@ -179,8 +180,9 @@ def _body(m: SpatialDeclaration, body: SpaceLink) -> Json:
         for side, other in ((joint.first, joint.second), (joint.second, joint.first))
         if side.link is body and joint.kind in _PLACED
     ]
-    points = list(dict.fromkeys(tuple(map(str, side.at)) for _, side, _ in held))
-    free = {s for _, side, _ in held for x in side.at for s in x.free_symbols}
+    places = [*(side.at for _, side, _ in held), *(p.at for p in m.watched.values() if p.link is body)]
+    points = list(dict.fromkeys(tuple(map(str, at)) for at in places))
+    free = {s for at in places for x in at for s in x.free_symbols}
     inertia = body.inertia[2][2] if body.flat else sum(body.inertia[i][i] for i in range(3)) / 2
     if body.mass == inertia == 0 or not points or not free <= {*m.parameter_list}:
         return {}

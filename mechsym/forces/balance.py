@@ -25,7 +25,7 @@ from mechsym.forces.turn import Turn, at, main_roles
 from mechsym.quantities import record
 from mechsym.quantities.units import Array, KilogramMetre, Metre, Newton, NewtonMetre
 
-HIGHEST = 12  #: Whole orders that are told
+HIGHEST = 12  #: Order up to which they are told
 _ROUNDING = 1e-12  # of the unbalance of the largest throw
 _DIRECTIONS = 24  # in which a load is held: the largest is overrated by at most 1/cos(pi/24), 0.9 %
 _ANGLES = 240  # of a turn at which it is held
@@ -107,13 +107,23 @@ def balance(
     return BalancedEngine(turn=turn, before=before, after=after, counterweights=on_crank, shafts=hung)
 
 
-def amplitudes(values: Newton[Array], turn: Turn, rounding: Newton = 0.0) -> dict[int, Newton]:
-    """|forwards| + |backwards| of each whole order of a force or couple. rounding: what is not larger is 0."""
-    both = {k: abs(part(values, turn, k)) + abs(part(values, turn, -k)) for k in range(1, HIGHEST + 1)}
-    return {k: size if size > rounding else 0.0 for k, size in both.items()}
+def amplitudes(values: Newton[Array], turn: Turn, rounding: Newton = 0.0) -> dict[float, Newton]:
+    """|forwards| + |backwards| of each order of a force or couple.
+
+    rounding: what is not larger is 0. Returns amplitudes: of all whole orders, and of those between that act: gears
+    that close after several turns, and the gas of a four-stroke engine.
+    """
+    turns, told = round(turn.period / (2 * math.pi)), {}
+    for k in range(1, HIGHEST * turns + 1):
+        order = k / turns if k % turns else k // turns
+        size = abs(part(values, turn, order)) + abs(part(values, turn, -order))
+        acts = size > rounding
+        if acts or not k % turns:
+            told[order] = size if acts else 0.0
+    return told
 
 
-def part(values: Newton[Array], turn: Turn, n: int) -> complex:
+def part(values: Newton[Array], turn: Turn, n: float) -> complex:
     """The vector of a force or couple x + iy that turns n times as fast as the crank."""
     return complex(np.mean(values * np.exp(-1j * n * turn.phi)))
 

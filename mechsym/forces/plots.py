@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.forces.balance import BalancedEngine, amplitudes
-from mechsym.forces.loads import Harmonics, polar, radial, tangential
+from mechsym.forces.loads import Harmonics, polar, radial, resultants, tangential
 from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces
 from mechsym.forces.textbook import IndicatedPressure
-from mechsym.quantities.display import quantity_text
+from mechsym.quantities.display import SMALLEST, quantity_text
 from mechsym.quantities.units import NORMAL_95, Radian
 from mechsym.style import (
     BLUE,
@@ -39,6 +39,7 @@ _MOST_CURVES = len(SERIES)  # each has a colour of its own
 _LOOKS = ("-", ":", "--", "-.", ":", "--")  # of curves that stand for one thing
 _BAND = 360  # points of the edge of a band: more cannot be told apart
 _SEEN = 1e-3  # of the largest bar: a lower one cannot be seen
+_MOST_JOINTS = 4  # a panel of more would be a tangle
 _NOUGHT = 1.0  # a shaking force [N] or moment [N*m] below it is round-off of what is balanced
 
 
@@ -49,17 +50,21 @@ def chain(forces: Forces) -> "Figure":
     teeth: dict[str, np.ndarray] = {n: table[n] for n in ("tooth_force", "tooth_force_radial") if n in table}
     rods = {name: rod for name, (rod, _) in lumped(forces).items()}
     exact, name = _borne_most(forces)
-    rows: list[tuple[str, Mapping[str, np.ndarray]]] = [
-        ("gas force" if forces.turn.gas is not None else "force from outside", forces.turn.inputs),
-        (name, exact | rods),
-        ("teeth" if teeth else "side force", teeth or forces.loads.guides),
+    acts: dict[str, dict[str, np.ndarray]] = {"N": {}, "N*m": {}}
+    for of, values in forces.turn.inputs.items():
+        acts.setdefault(forces.columns.units[of], {})[of] = values
+    outside = {"N": "gas force" if forces.turn.gas is not None else "force from outside", "N*m": "torque from outside"}
+    rows: list[tuple[str, str, Mapping[str, np.ndarray]]] = [
+        *((outside.get(unit, "from outside"), unit, curves) for unit, curves in acts.items()),
+        (name, "N", exact | rods),
+        ("teeth" if teeth else "side force", "N", teeth or forces.loads.guides),
     ]
-    acting = [(name, curves) for name, curves in rows if any(np.any(values) for values in curves.values())]
+    acting = [row for row in rows if any(np.any(values) for values in row[2].values())]
     count = len(acting) + 1
     figure, axes = panels(9, 2.25 * count, count, 1, "Forces and torque over the crank angle", sharex=True)
     angle = over_angle(axes[-1], float(phi[-1] + phi[1]))
-    for axis, (name, curves) in zip(axes, acting, strict=False):
-        _curves(axis, phi * angle, curves, name)
+    for axis, row in zip(axes, acting, strict=False):
+        _curves(axis, phi * angle, *row)
     factor, unit = axis_unit("N*m", forces.turn.torque)
     axes[-1].plot(phi * angle, forces.turn.torque * factor, color=SERIES[0])
     axes[-1].axhline(forces.turn.torque.mean() * factor, color=QUIET, lw=1, ls="--", label="mean")
@@ -72,9 +77,14 @@ def _borne_most(result: Forces) -> tuple[dict[str, np.ndarray], str]:
     """Forces on the first crank pin; of a mechanism without one the largest joint forces; and what they are."""
     if pins := result.loads.pins:
         return {"radial, outwards": radial(pins[0]), "tangential": tangential(pins[0])}, _label(pins[0].name)
-    forces = [(n, v) for n, v in result.turn.reactions.items() if result.columns.units.get(n) == "N"]
-    largest = sorted(forces, key=lambda one: -float(np.abs(one[1]).max()))[:4]
-    return dict(largest), "joint forces"
+    table = result.columns
+    of_joints = {name: parts for name, parts in resultants(result.turn.reactions).items() if name in table}
+    hidden = {name for parts in of_joints.values() for name in parts}
+    forces = [
+        (n, table[n]) for n in (*of_joints, *result.turn.reactions) if n not in hidden and table.units.get(n) == "N"
+    ]
+    largest = sorted(forces, key=lambda one: -float(np.abs(one[1]).max()))[:_MOST_JOINTS]
+    return dict(largest), "joint forces" if len(forces) <= _MOST_JOINTS else f"largest {_MOST_JOINTS} joint forces"
 
 
 def lumped(forces: Forces) -> dict[str, tuple[np.ndarray, np.ndarray]]:
@@ -187,34 +197,43 @@ def orders(result: Forces) -> "Figure":
     moments = {n: o for n, o in shaken.items() if n.startswith(("rocking", "moment"))}
     acting, notes = [], []
     for orders, si, name in ((forces, "N", "force"), (moments, "N*m", "rocking moment")):
-        if max((_whole(o).max(initial=0.0) for o in orders.values()), default=0.0) >= _NOUGHT:
+        if orders and max(values.max() for values in _lowest(orders)[1].values()) >= _NOUGHT:
             acting.append((orders, si, name))
         else:
             notes.append(f"no {name} on the frame: below 1 {unit_words(si)}")
     what = "".join(f", the shaking {name}" for *_, name in acting)
     figure, (left, *others) = panels(9, 3.8, 1, 1 + len(acting), f"Orders of the torque{what}")
     torque = result.torque_orders
-    factor, unit = axis_unit("N*m", torque.amplitude[1:])
-    left.bar(torque.order[1:], torque.amplitude[1:] * factor, width=0.35, color=SERIES[0])
+    swings = np.where(torque.amplitude > SMALLEST * np.abs(torque.amplitude).max(), torque.amplitude, 0.0)[1:]
+    factor, unit = axis_unit("N*m", swings)
+    left.bar(torque.order[1:], swings * factor, width=0.7 * torque.order[1], color=SERIES[0])
+    if not swings.any():
+        notes.append("the torque does not swing")
     left.set(xlabel="\n".join(["order, by turn [-]", *notes]), ylabel=f"torque amplitude [{unit}]")
     for axis, (orders, si, name) in zip(others, acting, strict=True):
         _order_bars(axis, orders, si, f"{name} on the frame")
     return figure
 
 
-def _whole(of: Harmonics) -> np.ndarray:
-    """Amplitudes of the first six whole orders."""
-    return of.amplitude[np.isclose(of.order % 1, 0) & (of.order > 0) & (of.order <= 6)]
+def _lowest(orders: Mapping[str, Harmonics]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Orders up to the sixth, whole ones and those between that act, and the amplitudes of each quantity at them."""
+    order = next(iter(orders.values())).order
+    low = (order > 0) & (order <= 6)
+    bars = {name: one.amplitude[low] for name, one in orders.items()}
+    largest = np.max(list(bars.values()), axis=0)
+    shown = np.isclose(order[low] % 1, 0) | (largest > _SEEN * largest.max())
+    return order[low][shown], {name: values[shown] for name, values in bars.items()}
 
 
 def _order_bars(axis: "Axes", orders: dict[str, Harmonics], si: str, name: str) -> None:
-    factor, unit = axis_unit(si, *map(_whole, orders.values()))
-    largest = max(_whole(o).max() for o in orders.values())
-    acting = {_label(n): _whole(o) for n, o in orders.items() if _whole(o).max() > _SEEN * largest}
-    shown = distinct(acting)
+    places, bars = _lowest(orders)
+    factor, unit = axis_unit(si, *bars.values())
+    largest = max(values.max() for values in bars.values())
+    shown = distinct({_label(n): values for n, values in bars.items() if values.max() > _SEEN * largest})
+    apart = float(np.diff(places).min())
     for i, (label, values) in enumerate(shown.items()):
-        place = np.arange(1, len(values) + 1) + 0.8 * ((i + 0.5) / len(shown) - 0.5)
-        axis.bar(place, values * factor, width=0.7 / len(shown), color=SERIES[i], label=label)
+        place = places + 0.8 * apart * ((i + 0.5) / len(shown) - 0.5)
+        axis.bar(place, values * factor, width=0.7 * apart / len(shown), color=SERIES[i], label=label)
     axis.set(xlabel="order, by turn [-]", ylabel=f"{name} [{unit}]")
     legend(axis)
 
@@ -233,8 +252,9 @@ def balance_orders(one: BalancedEngine) -> "Figure":
     for axis, ((name, unit), pair) in zip(axes, acting.items(), strict=False):
         factor, shown = axis_unit(unit, *(np.array(list(values.values())) for values in pair))
         for values, label, color, beside in zip(pair, ("before", "after"), SERIES, (-0.2, 0.2), strict=False):
-            place, height = np.array(list(values))[:8] + beside, np.array(list(values.values()))[:8]
-            axis.bar(place, height * factor, width=0.38, color=color, label=label)
+            shown_orders = [order for order in values if order <= 8]
+            height = np.array([values[order] for order in shown_orders])
+            axis.bar(np.array(shown_orders) + beside, height * factor, width=0.38, color=color, label=label)
         axis.set(xlabel=f"order, by turn [-]\n{still}".rstrip(), ylabel=f"{name} [{shown}]")
         axis.set_xticks(range(1, 9))
         legend(axis)
@@ -317,12 +337,12 @@ def _friction_bars(axis: "Axes", place: np.ndarray, rows: Sequence[ComparedFrict
     legend(axis, width=2.6)
 
 
-def _curves(axis: "Axes", angle: np.ndarray, curves: Mapping[str, np.ndarray], name: str) -> None:
-    """Forces [N] over an angle in the unit of the axis; those that lie on each other are named once.
+def _curves(axis: "Axes", angle: np.ndarray, name: str, si: str, curves: Mapping[str, np.ndarray]) -> None:
+    """Forces, or what is of another unit, over an angle; those that lie on each other are named once.
 
     `a, as two masses` has the colour of `a`, and is broken.
     """
-    factor, unit = axis_unit("N", *curves.values())
+    factor, unit = axis_unit(si, *curves.values())
     shown, left_out = _first(distinct({_label(n): v for n, v in curves.items()}))
     kinds = list(dict.fromkeys(label.partition(",")[0] for label in shown))
     drawn: list[str] = []

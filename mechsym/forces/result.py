@@ -34,9 +34,11 @@ from mechsym.forces.loads import (
     orders,
     power_residual,
     radial,
+    resultants,
     roll_moment,
     shaking,
     tangential,
+    under_own_name,
     verdict,
     whole,
 )
@@ -162,7 +164,7 @@ def _amplitude(shake: Shaking, order: int) -> float:
 
 _PRYMAK, _NUNES, _MOROIANU = "003_8746f5f4ad51b1d1", "004_e00ef50339108dab", "001_a140ef4f7e005dde"
 _ROD, _PLANET = crosshead.LABEL, hypocycloid.LABEL
-_ALIKE = 1e-12  # of its range, by which rounding tells equal peaks apart
+_ALIKE = 1e-12  # of the largest value, by which rounding tells equal peaks apart
 _SMALL = 0.1  # "much smaller" is read as below a tenth
 
 
@@ -280,6 +282,9 @@ def columns(turn: Turn, loads: Loads, chains: Mapping[str, Chain] | None = None)
     for name, (x, y) in loads.bearings.items():
         table |= {f"{name}_x": x, f"{name}_y": y, f"{name}_load": np.hypot(x, y)}
     table |= dict(loads.guides) | {n: v for n, v in turn.reactions.items() if n not in table}
+    named = under_own_name(turn.drive.roles)
+    of_joints = resultants(n for n in turn.reactions if n.startswith(("R_", "M_")) and n not in named)
+    table |= {n: np.linalg.norm([table[p] for p in parts], axis=0) for n, parts in of_joints.items() if n not in table}
     table["torque"] = turn.torque
     if (roll := roll_moment(turn)) is not None:
         table["roll_moment"] = roll
@@ -289,7 +294,7 @@ def columns(turn: Turn, loads: Loads, chains: Mapping[str, Chain] | None = None)
     table["driving_torque"] = turn.driving
     table |= {n: v for n, v in {**idle, **turn.kinematics}.items() if n not in table}
     listed = mechanisms.listing(turn.drive.name, turn.drive.mechanism)
-    known = _UNITS | dict(listed["inputs"]) | {name: "N*m" for name in turn.reactions if name.startswith("M_")}
+    known = _UNITS | dict(listed["inputs"]) | {n: "N*m" for n in [*turn.reactions, *of_joints] if n.startswith("M_")}
     known |= {name: unit for name, unit in listed["outputs"].items() if unit}
     known |= {name: _of_slope(name, listed["coordinates"]) for name in turn.kinematics if name not in known}
     # what is left are forces of parts and chains

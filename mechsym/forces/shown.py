@@ -10,7 +10,7 @@ import numpy as np
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces import plots, summary
 from mechsym.forces.arrows import charged, pressed
-from mechsym.forces.loads import polar
+from mechsym.forces.loads import polar, resultants
 from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces, extremes
 from mechsym.forces.summary import CounterweightNumbers, half, quantities
 from mechsym.mechanisms import plots as plots_mechanism
@@ -18,7 +18,7 @@ from mechsym.mechanisms.drawing import Shapes, drawn
 from mechsym.mechanisms.turning import rules, scene
 from mechsym.page import Card, Finding, Picture, View, card, page, shows, title_mark
 from mechsym.page.finding import NOT_MET
-from mechsym.quantities.display import figure, key_words, quantity_text
+from mechsym.quantities.display import SMALLEST, figure, key_words, quantity_text
 from mechsym.quantities.results import tell, units_of
 from mechsym.style import svg
 
@@ -83,12 +83,13 @@ def _pictures(result: Forces) -> tuple[Picture, ...]:
     off = max((float(np.abs(rod - exact).max()) for rod, exact in plots.lumped(result).values()), default=0.0)
     beside = f"; dotted and dashed, rods as two masses, {quantity_text(off, 'N', 3)} off at most" if off else ""
     most = 1 + int(np.argmax(orders.amplitude[1:]))
+    swings = orders.amplitude[most] > SMALLEST * np.abs(torque).max()
+    by = f"most in order {orders.order[most]:g}, by {quantity_text(float(orders.amplitude[most]), 'N*m', 4)}"
     rows = [
         Picture(name="forces", draw=lambda: plots.chain(result),
                 see=f"Exact forces over the cycle; the torque is {span}{beside}."),
         Picture(name="orders", draw=lambda: plots.orders(result),
-                see="Amplitudes by order, oscillations per turn: the torque swings most in order "
-                f"{orders.order[most]:g}, by {quantity_text(float(orders.amplitude[most]), 'N*m', 4)}."),
+                see=f"Amplitudes by order, oscillations per turn: the torque swings {by if swings else 'in none'}."),
     ]  # fmt: skip
     if result.loads.pins and result.loads.bearings:
         sizes = {name: float(np.hypot(*both).max()) for name, both in polar(result.loads).items()}
@@ -164,6 +165,7 @@ def html(
         cards=result.view.cards, several=any(row["of"] for row in rows), largest=largest,
         heaviest=largest / result.turn.omega**2, closing=numbers.get(numbers["mechanism"]),
         findings=findings, mark=title_mark(findings), scenes=scenes, rules=rules(),
+        pistons=bool(result.turn.drive.roles.pistons),
     )  # fmt: skip
 
 
@@ -201,6 +203,7 @@ def borne(forces: Forces) -> list[Json]:
     rows: dict[tuple[str, ...], Json] = {}
     largest, smallest = extremes(forces.columns)
     joints = forces.turn.drive.roles.joints
+    joints = joints | {name: joints.get(parts[0], "") for name, parts in resultants(joints).items()}
     gas = {one.face.input for one in forces.turn.acting}
     other = set(forces.turn.drive.mechanism.inputs) - gas  # what acts and is no gas
     for name in quantities(forces):

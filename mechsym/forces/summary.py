@@ -9,7 +9,7 @@ import numpy as np
 from mechsym import mechanisms
 from mechsym.forces import textbook
 from mechsym.forces.friction import NO_PLACE, Losses
-from mechsym.forces.loads import Harmonics, Shaking, power_residual
+from mechsym.forces.loads import Harmonics, Shaking, power_residual, under_own_name
 from mechsym.forces.mains import Orbit, beyond, specific_load
 from mechsym.forces.result import ComparedMechanism, Forces, angle_of_largest, claims, extremes, left_out
 from mechsym.forces.turn import Turn
@@ -273,10 +273,9 @@ def summary(forces: Forces, case: str, source: str = "") -> ForceNumbers:
 def quantities(forces: Forces) -> list[str]:
     """Columns that a reader wants to see the extremes of: without motion, printed chains, and reactions that a part
     of the mechanism has under its own name."""
-    roles, one = forces.turn.drive.roles, forces.turn
-    named = {name for bearing in roles.bearings if bearing.at for name in bearing.reactions}
-    named |= {guide.reaction for guide in roles.guides if guide.at and guide.reaction}
-    hidden = {name for name in named if name.startswith("R_")} | {"phi_deg", "driving_torque", *one.kinematics}
+    one = forces.turn
+    named = {name for name in under_own_name(one.drive.roles) if name.startswith("R_")}
+    hidden = named | {"phi_deg", "driving_torque", *one.kinematics}
     hidden |= set(one.drive.mechanism.inputs) - set(one.inputs)
     return [name for name in forces.columns if name not in hidden and not name.startswith(tuple(forces.chains))]
 

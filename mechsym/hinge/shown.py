@@ -304,5 +304,6 @@ def html(design: Design, numbers: HingeNumbers, figures: dict[str, str]) -> str:
         scenes=scenes(design),
         readouts=readouts(design),
         rules=rules(),
+        pistons=bool(roles_of(design.machine.mechanism.name).pistons),
         degrees=180 / np.pi,
     )

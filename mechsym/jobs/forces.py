@@ -145,7 +145,7 @@ _ROUNDING = 1e-9  # of the largest value of a curve: an amplitude that is not la
 class ShakenNumbers:
     """What shakes the frame, and what its main bearings carry."""
 
-    force: Mapping[str, float] = quantity("N")  #: Largest value of each whole order
+    force: Mapping[str, float] = quantity("N")  #: Largest value of each whole order, and of those between that act
     couple: Mapping[str, float] = quantity("N*m")  #: The same of the couple about the shaft's middle
     #: The same of the moment about the shaft; empty where the mechanism does not tell it
     roll: Mapping[str, float] = quantity("N*m")

@@ -14,6 +14,7 @@ from mechsym.cycle.engine import over_speeds
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.forces.loads import loads as loads_of
+from mechsym.forces.loads import resultants
 from mechsym.forces.result import columns
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.machine import turn
@@ -72,6 +73,9 @@ def _joints(case: Case) -> Sizing:
     about = dict(listed.get("reactions", {}))
     if result.drive.roles.closings or not about:
         about = dict.fromkeys(result.reactions, "") | about
+    for name, parts in resultants(result.reactions).items():
+        loads[name] = np.linalg.norm([result.reactions[part] for part in parts], axis=0)
+        units, about = units | {name: units[parts[0]]}, about | {name: about.get(parts[0], "")}
     about["driving_torque"] = "turns the shaft at the speed of operation"
     rows = [
         fact(name, f"load, {what}", float(size_of(loads[name])), units[name],
