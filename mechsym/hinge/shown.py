@@ -19,6 +19,7 @@ from mechsym.hinge.rollers import RollerParameters
 from mechsym.hinge.summary import HingeLossNumbers, HingeNumbers, guide_columns, guide_turn, hinge_columns
 from mechsym.mechanisms.drawing import Shapes, shapes
 from mechsym.mechanisms.drawing import declared as drawn
+from mechsym.mechanisms.plan import roles_of
 from mechsym.mechanisms.plots import figure_of
 from mechsym.mechanisms.record import listing
 from mechsym.mechanisms.turning import Load, pushed, rules, scene
