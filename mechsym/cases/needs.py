@@ -127,7 +127,9 @@ def _turning(case: CaseFacts, *names: str) -> list[str]:
 def _forces(case: CaseFacts) -> list[str]:
     """What forces lack: over time where `[motion]` says how a mechanism moves, else over a turn."""
     if not case.has("motion"):
-        return _turning(case)
+        several = case.free > 1 and not _events(case)
+        way = "a section [motion] says how they move"
+        return [f"the {case.free} coordinates of {case.named} are free; {way}"] if several else _turning(case)
     acting = [f"a motion takes no [{name}]; leave [{name}] or [motion] out" for name in _TURNS if case.has(name)]
     return [*_missing(case, "parameters"), *acting]
 

@@ -78,7 +78,7 @@ def _text(balanced: "BalanceOfEngine") -> str:
         worst = max(remains, key=remains.__getitem__, default=None)
         if kind != "roll" and worst is not None and remains[worst]:
             left.append(f"{kind} of order {worst}, {quantity_text(remains[worst], unit, 4)}")
-    words = f"largest left: {'; '.join(left)}" if left else "nothing is left that shakes the frame"
+    words = f"largest left: {'; '.join(left)}" if left else "no force and no couple is left that shakes the frame"
     lines = [f"{balanced.case}: balance at {balanced.speed_rpm:.6g} rpm", words, ""]
     if rows:
         lines += [table(rows, ["on the frame", "order", "before", "after"]), ""]

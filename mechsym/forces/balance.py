@@ -143,10 +143,11 @@ def length(turn: Turn) -> float:
 def couple(turn: Turn) -> NewtonMetre[Array]:
     """Couple of the moving masses about the shaft's middle, sum of z times force as x + iy; 0 in one plane."""
     rates = turn.momentum
-    if "rocking_rate_x" not in rates:
+    about = next((name for name in ("rocking_rate", "angular_momentum_rate") if f"{name}_x" in rates), None)
+    if about is None:
         return np.zeros(len(turn.phi), dtype=complex)
     # a force S at z has the moments -z S_y about the X axis and z S_x about Y
-    about_zero = -(rates["rocking_rate_y"] - 1j * rates["rocking_rate_x"])
+    about_zero = -(rates[f"{about}_y"] - 1j * rates[f"{about}_x"])
     return np.asarray(about_zero - middle(turn) * _force(turn))
 
 

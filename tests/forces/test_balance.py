@@ -334,7 +334,7 @@ def test_bad_options(words: list[str], why: str) -> None:
 @pytest.mark.parametrize(
     ("kind", "cylinders", "words"),
     [("inline", 4, "largest left: force of order 2, "), ("inline", 5, "largest left: couple of order 2, "),
-     ("v", 8, "largest left: force of order 4, "), ("opposed", 3, "nothing is left that shakes the frame")],
+     ("v", 8, "largest left: force of order 4, "), ("opposed", 3, "no force and no couple is left that shakes")],
 )  # fmt: skip
 def test_what_shakes_is_said_and_a_millionth_of_a_bearing_s_load_is_nothing(tmp_path, kind, cylinders, words):
     case = str(write_engine(kind, 0.09, 0.11 if kind == "opposed" else 0.088, cylinders, tmp_path)[0])
