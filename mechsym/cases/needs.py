@@ -111,14 +111,14 @@ def _events(case: CaseFacts) -> list[str]:
     return [said.format(own[0])] if own else []
 
 
-def _turning(case: CaseFacts, *names: str) -> list[str]:
-    """What one turn at constant speed lacks."""
+def _turning(case: CaseFacts, *names: str, way: str = "") -> list[str]:
+    """What one turn at constant speed lacks. way: how several free coordinates may move, where the command says."""
     if case.has("cycle") and _gas(case) == [_no_piston(case)]:
         return [*_missing(case, "parameters", "operation", *names), _no_piston(case)]
     if events := _events(case):
         return events
     if case.free != 1:
-        way = f"this command takes a mechanism with one, as {', '.join(with_chain())}"
+        way = f"{way}this command takes a mechanism with one, as {', '.join(with_chain())}"
         return [f"the {case.free} coordinates of {case.named} are free; {way}"]
     closing = ("closing", *(("faces",) if case.has("cycle") else ())) if case.undetermined else ()
     return [*_missing(case, "parameters", "operation", *names, *closing), *_gas(case)]
@@ -127,9 +127,7 @@ def _turning(case: CaseFacts, *names: str) -> list[str]:
 def _forces(case: CaseFacts) -> list[str]:
     """What forces lack: over time where `[motion]` says how a mechanism moves, else over a turn."""
     if not case.has("motion"):
-        several = case.free > 1 and not _events(case)
-        way = "a section [motion] says how they move"
-        return [f"the {case.free} coordinates of {case.named} are free; {way}"] if several else _turning(case)
+        return _turning(case, way="a section [motion] says how they move; without one ")
     acting = [f"a motion takes no [{name}]; leave [{name}] or [motion] out" for name in _TURNS if case.has(name)]
     return [*_missing(case, "parameters"), *acting]
 

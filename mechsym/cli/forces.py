@@ -2,6 +2,7 @@
 
 import re
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -72,6 +73,7 @@ def _motion(case: Case, out: Path | None) -> None:
     from mechsym.forces.driven import numbers, write
     from mechsym.jobs.export import turning
     from mechsym.jobs.forces import motion
+    from mechsym.mechanisms import roles_of
 
     driven = motion(case)
     summary = numbers(driven, case.name)
@@ -80,19 +82,23 @@ def _motion(case: Case, out: Path | None) -> None:
         about = case.about or case.name
         files = [str(file) for file in write(driven, tell(summary), out, about, turning(case))]
     beside = {"doubts": of_motion(case, driven), "files": files}
-    emit(summary, lambda: _over_time(summary), beside=beside, files=files)
+    emit(summary, lambda: _over_time(summary, roles_of(case.mechanism).joints), beside=beside, files=files)
 
 
-def _over_time(report: "DrivenNumbers") -> str:
+def _over_time(report: "DrivenNumbers", joints: Mapping[str, str]) -> str:
     units, slopes = report.max.units, re.compile(r"d2?\w+_d\w+")
-    rows = [
-        {"quantity": name, "max": high, "min": report.min[name], "unit": units[name]}
-        for name, high in report.max.items()
-        if not slopes.fullmatch(name)
-    ]
+    ends = {n: (high, report.min[n]) for n, high in report.max.items() if not slopes.fullmatch(n)}
+    sizes: dict[str, float] = {}
+    for name, both in ends.items():
+        sizes[units[name]] = max(sizes.get(units[name], 0.0), *map(abs, both))
+    rows: list[Json] = []
+    for name, both in ends.items():
+        high, low = (end if abs(end) > SMALLEST * sizes[units[name]] else 0.0 for end in both)
+        rows.append({"quantity": name, "max": high, "min": low, "unit": units[name], "on": joints.get(name, "")})
     free = f"; {', '.join(report.free)} free" if report.free else ""
     lines = [f"{report.case}: {', '.join(report.driven)} driven{free}, {report.t_end:.6g} s", ""]
-    lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit"], named=["quantity"]))
+    lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit", "on"], named=["quantity"]))
+    lines += [f"work of the drive of {q}: {quantity_text(work, 'J', 4)}" for q, work in report.work.items()]
     if report.power_residual is not None:
         lines.append(f"power residual {residual_text(report.power_residual)}")
     return "\n".join(lines)

@@ -69,9 +69,9 @@ def _text(sizing: "Sizing") -> str:
 
 def _together(rows: Sequence[Json]) -> list[Json]:
     """Loads that are the same at several cylinders or throws in one row, with their numbers."""
-    from mechsym.forces.loads import resultants
     from mechsym.forces.plots import as_throw
     from mechsym.forces.shown import BESIDE_THROW
+    from mechsym.mechanisms.roles import resultants
 
     alike: dict[tuple[str, ...], Json] = {}
     shared = any(row["component"] == "main_bearing_force_2" for row in rows)

@@ -18,8 +18,7 @@ An order k counts oscillations per turn of the crank; a four-stroke cycle has ha
 
 import cmath
 import math
-import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -52,18 +51,6 @@ class Loads:
     bearings: Mapping[str, tuple[np.ndarray, np.ndarray]]  #: Main bearings by name: force on the crank in the frame [N]
     guides: Mapping[str, np.ndarray]  #: Side forces by name [N]
     weight_torque: np.ndarray  #: shape (n,): Torque of the crank's own weight [N*m]
-
-
-_COMPONENT = re.compile(r"([RM]|\w+_force)_[xyz](|_\w+)")
-
-
-def resultants(reactions: Iterable[str]) -> dict[str, list[str]]:
-    """Reactions that a joint has along several axes, by the name of their resultant: `R_A` of `R_x_A` and `R_y_A`."""
-    found: dict[str, list[str]] = {}
-    for name in reactions:
-        if component := _COMPONENT.fullmatch(name):
-            found.setdefault(component[1] + component[2], []).append(name)
-    return {name: parts for name, parts in found.items() if len(parts) > 1}
 
 
 def under_own_name(roles: PartRoles) -> set[str]:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mechsym.forces.balance import BalancedEngine, amplitudes
-from mechsym.forces.loads import Harmonics, polar, radial, resultants, tangential
+from mechsym.forces.loads import Harmonics, polar, radial, tangential
 from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces
 from mechsym.forces.textbook import IndicatedPressure
+from mechsym.mechanisms.roles import resultants
 from mechsym.quantities.display import SMALLEST, quantity_text
 from mechsym.quantities.units import NORMAL_95, Radian
 from mechsym.style import (

@@ -34,7 +34,6 @@ from mechsym.forces.loads import (
     orders,
     power_residual,
     radial,
-    resultants,
     roll_moment,
     shaking,
     tangential,
@@ -48,6 +47,7 @@ from mechsym.forces.turn import CrankDrive, Turn, at, crank_drive, faces_of
 from mechsym.mechanisms import crosshead, hypocycloid
 from mechsym.mechanisms.peers import Alike, peers
 from mechsym.mechanisms.plan import plan_of
+from mechsym.mechanisms.roles import resultants
 from mechsym.page import Shown
 from mechsym.quantities import quantity, record
 from mechsym.quantities.results import Columns, part, result

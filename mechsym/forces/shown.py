@@ -10,7 +10,7 @@ import numpy as np
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.forces import plots, summary
 from mechsym.forces.arrows import charged, pressed
-from mechsym.forces.loads import polar, resultants
+from mechsym.forces.loads import polar
 from mechsym.forces.result import ComparedFriction, ComparedMechanism, Forces, extremes
 from mechsym.forces.summary import CounterweightNumbers, half, quantities
 from mechsym.mechanisms import plots as plots_mechanism
@@ -203,7 +203,6 @@ def borne(forces: Forces) -> list[Json]:
     rows: dict[tuple[str, ...], Json] = {}
     largest, smallest = extremes(forces.columns)
     joints = forces.turn.drive.roles.joints
-    joints = joints | {name: joints.get(parts[0], "") for name, parts in resultants(joints).items()}
     gas = {one.face.input for one in forces.turn.acting}
     other = set(forces.turn.drive.mechanism.inputs) - gas  # what acts and is no gas
     for name in quantities(forces):

@@ -266,7 +266,7 @@ def summary(forces: Forces, case: str, source: str = "") -> ForceNumbers:
         claims=[row for row in judged if row["source"] == source],
         facts=_facts(forces),
         units={"phi": "rad", **table.units},
-        reactions=one.drive.roles.joints,
+        reactions={name: on for name, on in one.drive.roles.joints.items() if name in table},
     )
 
 

@@ -14,12 +14,12 @@ from mechsym.cycle.engine import over_speeds
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.forces.loads import loads as loads_of
-from mechsym.forces.loads import resultants
 from mechsym.forces.result import columns
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.machine import turn
 from mechsym.mechanisms import listing
 from mechsym.mechanisms.amounts import amount
+from mechsym.mechanisms.roles import resultants
 from mechsym.quantities import RPM, record
 from mechsym.quantities.units import Array, RadPerSecond
 from mechsym.sizing.checks import unsafe

@@ -4,7 +4,8 @@ Sizes are expressions of its parameters as text (see `amounts`), or numbers wher
 """
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
@@ -265,9 +266,23 @@ _KINDS = {
 }  # fmt: skip
 
 
+_COMPONENT = re.compile(r"([RM]|\w+_force)_[xyz](|_\w+)")
+
+
+def resultants(reactions: Iterable[str]) -> dict[str, list[str]]:
+    """Reactions that a joint has along several axes, by the name of their resultant: `R_A` of `R_x_A` and `R_y_A`."""
+    found: dict[str, list[str]] = {}
+    for name in reactions:
+        if component := _COMPONENT.fullmatch(name):
+            found.setdefault(component[1] + component[2], []).append(name)
+    return {name: parts for name, parts in found.items() if len(parts) > 1}
+
+
 def roles_in(listing: "Listing") -> PartRoles:
     """Roles of a mechanism by what is stored of its declaration."""
-    parts: dict[str, Any] = {"joints": listing.get("reactions") or {}}
+    joints = dict(listing.get("reactions") or {})
+    joints |= {name: joints[components[0]] for name, components in resultants(joints).items() if name not in joints}
+    parts: dict[str, Any] = {"joints": joints}
     for kind, rows in (listing.get("roles") or {}).items():
         name, part = _KINDS[kind]
         parts[name] = tuple(part(**{k: tuple(v) if isinstance(v, list) else v for k, v in row.items()}) for row in rows)

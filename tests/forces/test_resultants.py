@@ -9,9 +9,9 @@ from click.testing import CliRunner
 from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.forces.balance import amplitudes
-from mechsym.forces.loads import resultants
 from mechsym.forces.plots import balance_orders
 from mechsym.jobs.forces import balance, forces
+from mechsym.mechanisms.roles import resultants
 
 SUN, PLANET, MASS, BRAKE, SPEED_RPM = 0.03, 0.02, 0.4, 20.0, 1500.0
 DECLARATION = """
