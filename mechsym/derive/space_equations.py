@@ -280,7 +280,7 @@ def _free(column: Column) -> bool:
 
 
 def _draw(m: SpatialDeclaration) -> None:
-    """Every link as lines through what its joints hold, where the declaration draws nothing."""
+    """Every link as lines through what its joints hold, and struts, where the declaration draws nothing."""
     if m.shapes:
         return
     for link in m.space_links:
@@ -292,6 +292,8 @@ def _draw(m: SpatialDeclaration) -> None:
         role = "crank" if any(j.given and j.child is link for j in m.space_joints) else "rod"
         if len(points) > 1:
             m.draw_line(*points, *(points[:1] if len(points) > 2 else ()), role=role)
+    for strut in (joint for joint in m.space_joints if joint.kind == "strut"):
+        m.draw_line(strut.first, strut.second, role="rod")
 
 
 SpatialDeclaration.solved_by = equations
