@@ -179,7 +179,9 @@ def unused(case: CaseFacts, written: Json) -> tuple[Doubt, ...]:
     lacks, read = lacking(case), set().union(*read_by(case).values())
     others = {name: COMMANDS[name].reads(case) for name, missing in lacks.items() if missing}
     doubts = []
-    for section in case.sections.keys() - read - {"report"}:
+    broken = any(record is None for name, record in case.sections.items() if name not in schema.LETTERS)
+    # what a section with an error would have others read is not known
+    for section in set() if broken else case.sections.keys() - read - {"report"}:
         wanted = [f"{name} lacks {'; '.join(lacks[name])}" for name, all_of in others.items() if section in all_of]
         reason = f": {wanted[0]}" if wanted else ""
         why = f"no command that can run on this case reads it{reason}; leave it out, or mend the case"

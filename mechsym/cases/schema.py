@@ -144,7 +144,8 @@ def instead(key: str, fields: Iterable[str]) -> str:
     """What is allowed in place of a key that a section has not: a near one, another section's, the section's own."""
     if key in ENTRIES:
         return f"it is a section of its own: [{key}]"
-    own = suggest(key, fields)
+    own, here = suggest(key, fields), {*fields}
     records = {name: entry[1].values() if isinstance(entry, tuple) else [entry] for name, entry in ENTRIES.items()}
-    homes = [f"[{s}]" for s, all_of in records.items() if any(key in load(one).__dataclass_fields__ for one in all_of)]
+    known = {name: [{*load(one).__dataclass_fields__} for one in all_of] for name, all_of in records.items()}
+    homes = [f"[{name}]" for name, kinds in known.items() if here not in kinds and any(key in kind for kind in kinds)]
     return f"it is a key of {', '.join(homes)}; {own}" if homes and not own.startswith("did you mean") else own

@@ -1,11 +1,17 @@
 """`mechsym check`: all problems of a case at once, and what each command still lacks."""
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import click
 
+from mechsym.cases import Case
 from mechsym.cli.common import case_of, emit, json_option
+from mechsym.errors import BadInput
 from mechsym.files import Json
+
+if TYPE_CHECKING:
+    from mechsym.cases.check import CaseProblem
 
 
 @click.command(short_help="All problems of a case at once.")
@@ -27,16 +33,34 @@ def check(ctx: click.Context, case: str) -> None:
 
     checked = check_file(case, ctx.meta["mechsym.trust"])
     whole = not checked.problems and not checked.skipped
+    problems = [*checked.problems]
     if whole:
-        case_of(case, {})  # its doubts are told as every command tells them
+        one = case_of(case, {})  # its doubts are told as every command tells them
+        problems += _pistons(one) if not checked.commands["cycle"] else []
     report: Json = {
-        "problems": [dataclasses.asdict(problem) for problem in checked.problems],
+        "problems": [dataclasses.asdict(problem) for problem in problems],
         "commands": dict(checked.commands),
         "skipped": list(checked.skipped),
         **({} if whole else {"doubts": checked.doubts}),
     }
     emit(report, lambda: _text(report, checked.reasons))
-    ctx.exit(2 if checked.problems else 0)
+    ctx.exit(2 if problems else 0)
+
+
+def _pistons(case: Case) -> "list[CaseProblem]":
+    """What a declaration of the user's own says of its pistons and its motion denies."""
+    from mechsym.cases.check import CaseProblem
+    from mechsym.jobs.gas import require_pistons
+    from mechsym.jobs.machine import one_coordinate
+    from mechsym.mechanisms import own
+
+    if not own.is_file(case.mechanism):
+        return []
+    try:
+        require_pistons(case, one_coordinate(case))
+    except BadInput as error:
+        return [CaseProblem(key="mechanism", why=str(error).removeprefix(f"{case.file}: "))]
+    return []
 
 
 def _text(report: Json, reasons: Mapping[str, str]) -> str:

@@ -196,10 +196,7 @@ def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
         return []
     if "torque" in case.sections:
         raise BadInput(f"{case.file}: [torque] stands in place of [cycle]; leave one of them out")
-    with of(case):
-        roles = pistons_of(case.mechanism)
-    for role in roles:
-        _require_force(case, mechanism, role)
+    roles = require_pistons(case, mechanism)
     if kind_of(case.sections["cycle"]).shared:  # each piston has the area by which the common gas pushes it
         shared, pushed = gas_on(case), []
         for role, area in zip(roles, shared.pistons, strict=True):
@@ -208,6 +205,17 @@ def pistons(case: Case, mechanism: Mechanism) -> list[Piston]:
             pushed.append(Piston(name=role.name, input=role.force, start=0.0, gas=own))
         return pushed
     return [_piston(case, mechanism, role, number) for number, role in enumerate(roles)]
+
+
+def require_pistons(case: Case, mechanism: Mechanism) -> tuple[PistonRole, ...]:
+    """Pistons of a case with gas. Raises BadInput: a force does not act along its travel, or one fires elsewhere."""
+    with of(case):
+        roles = pistons_of(case.mechanism)
+    for role in roles:
+        _require_force(case, mechanism, role)
+        if not kind_of(case.need("cycle")).shared:
+            firing(case, role, travel_of(mechanism, role.travel))
+    return roles
 
 
 def _require_force(case: Case, mechanism: Mechanism, role: PistonRole) -> None:
