@@ -71,19 +71,22 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
 
     turning: gives the mechanism with one coordinate; asked where there is something to judge.
     """
-    if "operation" not in case.sections or plan_of(case.mechanism).proportions(case.need("parameters")) is not None:
+    if "operation" not in case.sections:
         return ()
     try:
         mechanism = turning(case)
     except BadInput:  # one that cannot turn is refused by the command itself
         return ()
     phi = np.linspace(0.0, math.tau, 361)[None, :-1]
+    inwards = tuple(_inwards(case, mechanism, phi))
+    if plan_of(case.mechanism).proportions(case.need("parameters")) is not None:
+        return inwards
     dynamics = mechanism.functions["dynamics"]
     inertia = np.asarray(dynamics(phi, *[0.0] * (dynamics.n_in() - 1))[0]).ravel()
     closed = np.isfinite(inertia)
     if not closed.all():
         return proportion("open_loop", "operation: share of a turn in which the loops close", float(closed.mean()))
-    inner = _borne(case, mechanism, phi)
+    inner = (*inwards, *_borne(case, mechanism, phi))
     if own.is_file(case.mechanism):
         inner += (*of_inertia(case, mechanism, {}), *_idle(case, mechanism, phi))
     bores = [getattr(case.sections.get(name), "bore", None) for name in ("chamber", "cycle")]
@@ -108,6 +111,27 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     work = 1e6 * area * stroke * len(x)  # at ten bar, about full load
     return raised + (proportion("shaft_energy", "work of a turn / energy of the shaft", work / (least * omega**2))
                     if least > 0 and omega else ())  # fmt: skip
+
+
+def _inwards(case: Case, mechanism: Mechanism, phi: np.ndarray) -> Iterator[Doubt]:
+    """The first piston whose pin is nearest to the only shaft where its gas has the least room: on its inner side."""
+    pins = plan_of(case.mechanism).listing(None).get("pins", {})
+    if "cycle" not in case.sections or not pins:
+        return
+    function = mechanism.functions["drawing"]
+    drawn = dict(zip(function.name_out(), function.call([phi]), strict=True))
+    places = [[np.asarray(drawn[name]).ravel() for name in pair] for pair in pins.values() if len(pair) == 2]
+    at = [x + 1j * y for x, y in places]
+    shafts = [one[0] for one in at if np.ptp(one.real) + np.ptp(one.imag) == 0]
+    for piston in pistons_of(case.mechanism) if len(shafts) == 1 else ():
+        x = np.asarray(travel_of(mechanism, piston.travel)(phi)[0]).ravel()
+        for pin in at:
+            rides = np.abs(np.abs(pin - pin[np.argmin(x)]) - (x - x.min())).max() < 1e-9 * np.ptp(x)
+            inner, outer = (abs(pin[k(x)] - shafts[0]) for k in (np.argmin, np.argmax))
+            if rides and inner < outer:
+                what = f"{piston.name}: distance from the shaft at top dead centre by that at the bottom"
+                yield from proportion("inwards", what, float(inner / outer))
+                return
 
 
 def _idle(case: Case, mechanism: Mechanism, phi: np.ndarray) -> Iterator[Doubt]:
@@ -233,12 +257,10 @@ def _inertia(case: Case, forces: Forces, push: float) -> tuple[Doubt, ...]:
 
 def _driven(case: Case, forces: Forces) -> tuple[Doubt, ...]:
     """Whether the gas of a Stirling engine takes work: then its cold piston leads."""
-    travel = {f"F{i}": f"dx_{i}_dphi" for i in range(1, len(forces.turn.inputs) + 1)}
     if "cycle" not in case.sections or not kind_of(case.need("cycle")).shared:
         return ()
     turn = forces.turn
-    work = sum(float(np.mean(turn.inputs[name] * turn.kinematics[dx])) for name, dx in travel.items())
-    return proportion("driven", "work of the gas in a turn", work * turn.period)
+    return proportion("driven", "work of the gas in a turn", float(np.mean(turn.gas_power)) / turn.omega * turn.period)
 
 
 def of_motion(case: Case, motion: "DrivenForces") -> tuple[Doubt, ...]:

@@ -22,7 +22,7 @@ def single():
     m.pin("O", m.frame, crank)
     m.pin("A", crank.at("40 mm"), rod)
     m.slider("G", m.frame.line(), piston)
-    m.pin("B", rod.at("140 mm"), piston, branch=-1)
+    m.pin("B", rod.at("140 mm"), piston, branch=BRANCH)
     x = m.let("x", m.parameters("far", "m", default="180 mm") - piston.at().x, "m")
     m.force(F, along=x)
     m.piston("p", travel=x, force=F, fires=FIRES)
@@ -57,8 +57,8 @@ def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # files below the working folder are the user's own
 
 
-def checked(folder, fires="0", case=CASE):
-    (folder / "single.py").write_text(ENGINE.replace("FIRES", fires))
+def checked(folder, fires="0", case=CASE, branch="1"):
+    (folder / "single.py").write_text(ENGINE.replace("FIRES", fires).replace("BRANCH", branch))
     (folder / "case.toml").write_text(case)
     result = CliRunner().invoke(mechsym, ["check", str(folder / "case.toml"), "--json"], catch_exceptions=False)
     return result.exit_code, json.loads(result.stdout)
@@ -74,9 +74,17 @@ def test_a_piston_that_fires_elsewhere_is_a_problem_of_its_file(tmp_path):
     code, told = checked(tmp_path, "pi / 2")
     (problem,) = told["problems"]
     assert code == 2 and problem["key"] == "mechanism"
-    # x = r + l - r cos(phi) - sqrt(l^2 - r^2 sin(phi)^2) a quarter of a turn behind its dead centre
+    # x = r + l - r cos(phi) - sqrt(l^2 - r^2 sin(phi)^2), a quarter of a turn behind its dead centre
     below = 1e3 * (0.04 + 0.14 - (0.14**2 - 0.04**2) ** 0.5)
     assert f"fires 90 deg after its own top dead centre at 0 deg, where it stands {below:.4g} mm" in problem["why"]
+
+
+@pytest.mark.parametrize(("branch", "doubts"), [("1", []), ("-1", ["inwards"])])
+def test_gas_between_piston_and_shaft_is_doubted(tmp_path, branch, doubts):
+    _, told = checked(tmp_path, branch=branch)
+    assert [one["code"] for one in told["doubts"]] == doubts
+    if doubts:  # 140 - 40 mm from the shaft at the top, 140 + 40 mm at the bottom
+        assert told["doubts"][0]["value"] == pytest.approx(100 / 180, rel=1e-9)
 
 
 def test_an_unknown_kind_of_cycle_makes_no_doubt_about_what_reads_it(tmp_path):
