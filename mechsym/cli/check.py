@@ -52,9 +52,9 @@ def _pistons(case: Case) -> "list[CaseProblem]":
     from mechsym.cases.check import CaseProblem
     from mechsym.jobs.gas import require_pistons
     from mechsym.jobs.machine import one_coordinate
-    from mechsym.mechanisms import own
+    from mechsym.mechanisms import own, roles_of
 
-    if not own.is_file(case.mechanism):
+    if not own.is_file(case.mechanism) or not roles_of(case.mechanism).pistons:
         return []
     try:
         require_pistons(case, one_coordinate(case))

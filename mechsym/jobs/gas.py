@@ -305,13 +305,13 @@ def kinks_of(acting: list[Piston]) -> tuple[float, ...]:
 
 def shaft_curve(
     case: Case, mechanism: Mechanism, omega: RadPerSecond
-) -> tuple[Callable[[np.ndarray], np.ndarray], float]:
-    """The torque that `[torque]` puts on the shaft over the angle, 0 without it, and its period [rad].
+) -> tuple[Callable[[np.ndarray], np.ndarray], float, tuple[float, ...]]:
+    """The torque that `[torque]` puts on the shaft over the angle, 0 without it, its period and where it is not smooth.
 
-    omega: speed of operation. Returns curve, period: angle [rad] to torque, positive driving [N*m]; period [rad].
+    omega: speed of operation. Returns curve, period, kinks: angle [rad] to torque, positive driving [N*m]; [rad].
     """
     if "torque" not in case.sections:
-        return (lambda phi: np.zeros(np.shape(phi))), 2 * np.pi
+        return (lambda phi: np.zeros(np.shape(phi))), 2 * np.pi, ()
     asked: TorqueCurve = case.need("torque")
     (q,) = mechanism.coordinates
     inertia, phi = mechanism.functions["dynamics"], ca.SX.sym(q)
@@ -321,4 +321,4 @@ def shaft_curve(
         return np.asarray(over(np.reshape(at, (1, -1)))).reshape(np.shape(at))
 
     table = read_torque(asked.file)
-    return torque_at(table, omega, asked.load, slope), table.period
+    return torque_at(table, omega, asked.load, slope), table.period, table.kinks

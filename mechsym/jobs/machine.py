@@ -76,10 +76,10 @@ def turned_by(case: Case, mechanism: Mechanism) -> Machine:
         return _with_gas(case, mechanism)
     if "torque" not in case.sections:
         return _bare(case, mechanism)
-    curve, period = shaft_curve(case, mechanism, case.need("operation").speed)
+    curve, period, kinks = shaft_curve(case, mechanism, case.need("operation").speed)
     name, sign = shaft_input(case, mechanism)
     force = AngleForce(name="torque", input=name, value=lambda phi: sign * curve(phi))
-    return _bare(case, mechanism, forces=(force,), period=period)
+    return _bare(case, mechanism, forces=(force,), period=period, kinks=kinks)
 
 
 def _bare(case: Case, mechanism: Mechanism, **acting: Any) -> Machine:
@@ -333,7 +333,7 @@ def torque(case: Case) -> np.ndarray:
 
 def _what_acts(case: Case, drive: CrankDrive, omega: float) -> tuple[tuple[Acting, ...], float, dict[str, np.ndarray]]:
     """Cylinders, the period of all that acts [rad], and what acts besides by input."""
-    acts, (curve, of_curve) = acting_on(case, drive), shaft_curve(case, drive.mechanism, omega)
+    acts, (curve, of_curve, _) = acting_on(case, drive), shaft_curve(case, drive.mechanism, omega)
     # a mechanism with loops may repeat after several turns of its first coordinate only
     looped = mechanisms.listing(case.mechanism).get("dependents")
     period = max(period_of(acts), of_curve) * (along_turn(mechanism_of(case))[1] if looped else 1)

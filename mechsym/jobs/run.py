@@ -173,7 +173,8 @@ def run(case: Case, dampings: tuple[Annotated[float, "N*m*s/rad"], ...] = (), ch
     doubted = of_run(case, gas(case), result, numbers)
     doubted += tuple(of_start(case, mechanism_of(case), result.columns))
     return FinishedRun(
-        case=case.name, backend=settings.backend, tolerance=settings.tolerance, result=result, summary=numbers,
+        case=case.name, backend=settings.backend, tolerance=result.tolerance or settings.tolerance, result=result,
+        summary=numbers,
         final_state=final_state(result, numbers.speeds),
         natural_frequencies=natural_frequencies(case.mechanism, case.need("parameters")), twist=twist,
         start_up=tuple(start_numbers(s) for s in starts), start_ups=starts, vibration=train, settling=settles,

@@ -53,6 +53,11 @@ class TorqueTable:
     curves: Mapping[tuple[float, float], Function]  #: by speed [rad/s] and load [-]: phi [rad] to torque [N*m]
     angles: Mapping[tuple[float, float], np.ndarray]  #: by speed [rad/s] and load [-]: phi of its rows [rad]
 
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Where the third derivative jumps, at its rows, within a period [rad]."""
+        return tuple(sorted({float(phi) % self.period for rows in self.angles.values() for phi in rows}))
+
 
 def read_torque(path: str) -> TorqueTable:
     """Read a file of torque curves. Raises BadInput: it cannot be read, lacks a column, or leaves a gap."""

@@ -90,6 +90,7 @@ class Result:
     steps: int
     wall_s: float  #: Time that the run took, without the check [s]
     happened: Happened = field(default_factory=Happened)
+    tolerance: float | None = None  #: Of its steps, where the settings' was not enough [-]
     #: Coordinates and velocities at any ascending times within the run; None where only the samples are known
     dense: Callable[[np.ndarray], Mapping[str, np.ndarray]] | None = field(default=None, repr=False, compare=False)
 
