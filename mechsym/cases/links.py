@@ -35,6 +35,7 @@ _MIDDLE = 0.25  # how far the centre of a bar is from the middle of its points, 
 _SWINGS = 8.0  # inertia of what swings about its joint by mass and the longest link squared [-]
 _CARRIES = 5.0  # inertia of a driven link by mass and length squared: a motor behind a gear adds some [-]
 _DISC = 1e5  # inertia by l^5 of a disc of steel as thick as l, 1.6 l in radius: a wheel that carries planets [kg/m^3]
+_HEAVY = 2e5  # mass by l^3 of a flywheel of steel as thick as l and 2.8 l in radius [kg/m^3]
 _SLENDER = 1000.0  # a longer shaft, by its diameter, is a thread [-]
 _DEEP = 3.0  # how far a link goes along its axis, by the longest link [-]
 _BURSTS = 300.0  # speed of the radius of gyration at which discs of steel burst [m/s]
@@ -326,7 +327,8 @@ def _of(
     # webs, discs and counterweights of a crank are wider than its throw
     size, of = (longest, "longest link") if link["turns"] else (length, "distance of its points")
     if mass > 0:
-        yield from proportion("link_density", f"mass of {name} / ({of})^3", mass / size**3)
+        wide = _HEAVY if link["turns"] in rotors else None  # a flywheel on a crank
+        yield from proportion("link_density", f"mass of {name} / ({of})^3", mass / size**3, wide)
         middle = tuple(sum(axis) / len(points) for axis in zip(*points, strict=True))
         away = math.dist(_point(link["centre"], letters), middle)
         what = f"centre of {name} from the middle of its points / {of}"

@@ -13,7 +13,7 @@ from mechsym.cli import common
 from mechsym.cli.common import emit, heads, in_rows, parse_speeds, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
-from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text, residual_text
+from mechsym.quantities.display import SMALLEST, figure, quantity_text, ratio_text, residual_text, without_rounding
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
@@ -87,14 +87,12 @@ def _motion(case: Case, out: Path | None) -> None:
 
 def _over_time(report: "DrivenNumbers", joints: Mapping[str, str]) -> str:
     units, slopes = report.max.units, re.compile(r"d2?\w+_d\w+")
-    ends = {n: (high, report.min[n]) for n, high in report.max.items() if not slopes.fullmatch(n)}
-    sizes: dict[str, float] = {}
-    for name, both in ends.items():
-        sizes[units[name]] = max(sizes.get(units[name], 0.0), *map(abs, both))
-    rows: list[Json] = []
-    for name, both in ends.items():
-        high, low = (end if abs(end) > SMALLEST * sizes[units[name]] else 0.0 for end in both)
-        rows.append({"quantity": name, "max": high, "min": low, "unit": units[name], "on": joints.get(name, "")})
+    rows: list[Json] = [
+        {"quantity": name, "max": high, "min": report.min[name], "unit": units[name], "on": joints.get(name, "")}
+        for name, high in report.max.items()
+        if not slopes.fullmatch(name)
+    ]
+    rows = without_rounding(rows, ("max", "min"))
     free = f"; {', '.join(report.free)} free" if report.free else ""
     lines = [f"{report.case}: {', '.join(report.driven)} driven{free}, {report.t_end:.6g} s", ""]
     lines.append(table(in_rows(rows, ("max", "min")), ["quantity", "max", "min", "unit", "on"], named=["quantity"]))

@@ -9,6 +9,7 @@ import click
 from mechsym.cases import Case
 from mechsym.cli.common import case_command, emit, in_rows, out_option, table, tried
 from mechsym.files import Json
+from mechsym.quantities.display import without_rounding
 
 if TYPE_CHECKING:
     from mechsym.sizing.rows import Sizing
@@ -52,7 +53,7 @@ def _text(sizing: "Sizing") -> str:
     sizes = [row for row in sizing.rows if row["limit"] is None]
     checks = [row for row in sizing.rows if row["limit"] is not None]
     if not checks:
-        rows = _together(sizes)
+        rows = _together(without_rounding(sizes, ("value",)))
         columns = [_FIRST[0], *(["of"] if any(row["of"] for row in rows) else []), *_FIRST[1:]]
         shown = table(in_rows(rows, ("value",)), columns, named=["component"])
         return "\n".join(["Loads, of a joint the resultant (--json has its components)", shown])

@@ -18,7 +18,7 @@ from mechsym.mechanisms.drawing import Shapes, drawn
 from mechsym.mechanisms.turning import rules, scene
 from mechsym.page import Card, Finding, Picture, View, card, page, shows, title_mark
 from mechsym.page.finding import NOT_MET
-from mechsym.quantities.display import SMALLEST, figure, key_words, quantity_text
+from mechsym.quantities.display import SMALLEST, figure, key_words, quantity_text, without_rounding
 from mechsym.quantities.results import tell, units_of
 from mechsym.style import svg
 
@@ -228,4 +228,4 @@ def borne(forces: Forces) -> list[Json]:
             "name": name, "quantity": said, "of": ", ".join(row["of"]) if several else "",
             "max": high, "min": low, "unit": forces.columns.units[name], "on": on,
         })  # fmt: skip
-    return table
+    return without_rounding(table, ("max", "min"))

@@ -8,6 +8,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -184,6 +185,20 @@ def ratio_text(value: Pure | None, digits: int = 3) -> str:
     if value is not None and abs(value) < _TOLD:
         return "0" if abs(value) < SMALLEST else f"below 1e{math.floor(math.log10(abs(value))) + 1}"
     return figure(value, digits)
+
+
+def without_rounding(rows: Sequence[dict[str, Any]], keys: Sequence[str]) -> list[dict[str, Any]]:
+    """Rows of one table with a unit each, where values that are round-off beside the largest of their unit are 0.
+
+    keys: of the values, in the unit that stands under `unit`.
+    """
+    largest: dict[str, float] = {}
+    for row in rows:
+        largest[row["unit"]] = max(largest.get(row["unit"], 0.0), *(abs(row[key]) for key in keys))
+    return [
+        row | {key: row[key] if abs(row[key]) > SMALLEST * largest[row["unit"]] else 0.0 for key in keys}
+        for row in rows
+    ]
 
 
 def residual_text(value: Pure | None, digits: int = 3) -> str:
