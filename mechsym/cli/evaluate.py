@@ -28,8 +28,8 @@ _ROUND_OFF = 1e-14  # what trigonometry leaves of a zero, by the largest value w
 def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str, ...]) -> None:
     """Evaluate a mechanism at one state; names are parameters, coordinates, velocities and inputs.
 
-    NAME is a mechanism, or a case, which gives its mechanism and the parameters. What is not set is 0. mass_matrix *
-    qdd + bias = generalized_force. An acceleration that is set (phidd=3) asks for the force along its coordinate that
+    NAME is a mechanism, or a case, which gives its mechanism and the parameters. What is not set is 0, or as the pose
+    of a declaration says where loops close by constraint. mass_matrix * qdd + bias = generalized_force. An acceleration that is set (phidd=3) asks for the force along its coordinate that
     makes it, driving_phi.
 
     \b
@@ -80,7 +80,8 @@ def _read(
     listing = mechanisms.listing(name, mechanism)
     units = listing["coordinates"] | listing["inputs"]
     units |= {f"{q}d{k}": f"{unit}/{by}" for q, unit in listing["coordinates"].items() for k, by in _RATES}
-    values = {}
+    posed = listing.get("pose", {}) if mechanism.dependents else {}
+    values = {q: v for q, v in posed.items() if q in mechanism.coordinates and q not in mechanism.dependents}
     for key, text in ((letter_of(key, units), text) for key, text in given.items()):
         if key in units:
             values[key] = parse(text, units[key], f"--set {key}")

@@ -48,6 +48,7 @@ from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
 from mechsym.simulate.rest import RestPoses, rests
 from mechsym.simulate.result import RunNumbers, final_state, summary
+from mechsym.simulate.settings import Simulation
 from mechsym.simulate.steady import steady_state
 from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
 from mechsym.torsion.startup import numbers as start_numbers
@@ -258,10 +259,12 @@ def at_rest(case: Case) -> RestPoses:
     """Where a case stays at rest, under its constant forces, and whether it comes back there."""
     if in_loop(case):
         raise BadInput(f"{case.file}: the gas of an engine that runs has no pose at rest; leave [cycle] out")
+    # how long it would run is no matter
+    sections = {"simulation": Simulation(t_end=1.0), **case.sections}
     try:
-        return rests(problem_of(beyond(case)), case.name)
+        return rests(problem_of(beyond(replace(case, sections=sections))), case.name)
     except BadInput as error:
-        raise BadInput(f"{case.file}: {error}") from None
+        raise BadInput(f"{case.file}: {str(error).removeprefix(f'{case.file}: ')}") from None
 
 
 def _start_ups(case: Case, result: Result, dampings: tuple[float, ...]) -> tuple[StartUp, ...]:

@@ -14,6 +14,7 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.record import Mechanism, listing, velocities
 from mechsym.quantities import record
+from mechsym.quantities.display import quantity_text
 
 _TOLERANCE = 1e-9  # relative: below it a singular value or a component counts as zero
 
@@ -57,9 +58,21 @@ def close(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]
         way_out = f"give another pose, or leave {follow} to follow" if follow else "give another pose"
         if away and guesses:
             way_out = f"say where it stands: m.pose({away}), [start] of a case, or --set of eval"
+        way_out += _as_guessed(mechanism, values)
         raise BadInput(f"{mechanism.name}: the loop does not close with {given} given{gapped}; {way_out}")
     rates = _rates(mechanism, jacobian, [values.get(n) for n in u])
     return dict(values) | dict(zip(q, position, strict=True)) | dict(zip(u, rates, strict=True))
+
+
+def _as_guessed(mechanism: Mechanism, values: Mapping[str, float]) -> str:
+    """With which values of the coordinates loops close where the others stand as guessed, if they do."""
+    q, guesses = mechanism.coordinates, mechanism.dependents
+    places = [i for i, n in enumerate(q) if n not in guesses]
+    position = np.array([float(guesses.get(n, values.get(n, 0.0))) for n in q])
+    if not guesses or not _closed(mechanism, position, places):
+        return ""
+    fitting = (f"{q[i]} = {quantity_text(position[i], mechanism.units.get(q[i], 'rad'), 4)}" for i in places)
+    return f"; as its links are said to stand roughly, it closes with {', '.join(fitting)}"
 
 
 def _closed(mechanism: Mechanism, position: np.ndarray, free: list[int]) -> bool:

@@ -50,6 +50,8 @@ def state(
     mass, bias, force = (np.asarray(v) for v in dynamics.call(numbers(dynamics.name_in())))
     quantities = dict(zip(accelerations(mechanism), qdd, strict=True)) | dict(values)
     outputs: dict[str, float | None] = {**_named(mechanism.functions["kinematics"], numbers(q)), **joint_forces}
+    held = [name for name in mechanism.dependents if name in values]
+    outputs |= {name: values[name] for q in held for name in (q, f"{q}d")}
     outputs |= _inertia(mechanism, values) | dict.fromkeys(mechanism.undetermined)
     if "reactions" in mechanism.functions and not any(n.startswith("driving_") for n in joint_forces):
         reactions = mechanism.functions["reactions"]
@@ -77,6 +79,7 @@ def _units(mechanism: Mechanism) -> dict[str, str]:
         known |= {"constraint_rank": "-", "constraint_count": "-"}
     for q in mechanism.coordinates:
         inertia, push, _ = _UNITS[unit := mechanism.units.get(q, "rad")]
+        known |= {q: unit, f"{q}d": f"{unit}/s"} if q in mechanism.dependents else {}
         known |= {f"driving_{q}": push, f"dinertia_d{q}": f"{inertia}/{unit}"}
         known |= {"inertia": inertia} if q not in mechanism.dependents else {}
     return known
