@@ -28,13 +28,17 @@ class MissingExtra(BadInput):
 def suggest(word: str, options: Iterable[str]) -> str:
     """What is allowed in place of a word that is not, the nearest first.
 
-    Returns text: for example ``did you mean 'bore'? allowed are bore, stroke``.
+    Of dotted names the shortest with all parts of the word is the nearest. Returns text: for example ``did you mean
+    'bore'? allowed are bore, stroke``.
 
     >>> suggest("bre", ["bore", "stroke"])
     "did you mean 'bore'? allowed are bore, stroke"
+    >>> suggest("R_O.max", ["max.R_A", "max.R_O"])
+    "did you mean 'max.R_O'? allowed are max.R_A, max.R_O"
     """
-    options = list(options)
-    near = difflib.get_close_matches(word, options, n=1)
+    options, parts = list(options), {*word.split(".")}
+    near = sorted((one for one in options if parts <= {*one.split(".")}), key=len)
+    near = near or difflib.get_close_matches(word, options, n=1)
     hint = f"did you mean {near[0]!r}? " if near else ""
     return f"{hint}allowed are {', '.join(options)}"
 
