@@ -29,8 +29,8 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
     """Evaluate a mechanism at one state; names are parameters, coordinates, velocities and inputs.
 
     NAME is a mechanism, or a case, which gives its mechanism and the parameters. What is not set is 0, or as the pose
-    of a declaration says where loops close by constraint. mass_matrix * qdd + bias = generalized_force. An acceleration that is set (phidd=3) asks for the force along its coordinate that
-    makes it, driving_phi.
+    of a declaration says where loops close by constraint. mass_matrix * qdd + bias = generalized_force. An acceleration
+    that is set (phidd=3) asks for the force along its coordinate that makes it, driving_phi.
 
     \b
     Examples: mechsym eval zotov-89 --set phi=1.0 --set phid=9.32 --set F=1e5

@@ -13,7 +13,7 @@ from mechsym.cli.common import case_of, emit, heads, in_rows, json_option, out_o
 from mechsym.errors import MissingExtra
 from mechsym.files import Json, write_text
 from mechsym.quantities import ranges
-from mechsym.quantities.display import figure, residual_text
+from mechsym.quantities.display import figure, quantity_text, residual_text
 from mechsym.quantities.results import tell
 
 if TYPE_CHECKING:
@@ -122,6 +122,8 @@ def _text(report: Json, of: Mapping[str, str]) -> str:
         more, lost = len(report["events"]) - _EVENTS, sum(one["lost"] for one in report["events"])
         lines += [f"and {more} more; --json has all"] if more > 0 else []
         lines += [f"blows take {figure(lost, 6)} J"] if lost else []
+    rubs = report["energy"]["friction"].items()
+    lines += [f"friction of {name.removeprefix('friction_')} takes {quantity_text(heat, 'J')}" for name, heat in rubs]
     rows = [{"over the last": f"{report['window']:.6g} s", "of": c, **v} for c, v in report["speeds"].items()]
     for unit in dict.fromkeys(of[f"{c}d"] for c in report["speeds"]):
         rates = dict.fromkeys(("mean", "min", "max"), unit)

@@ -10,7 +10,7 @@ from mechsym.native import compiled
 from mechsym.native.evaluate import Compiled
 from mechsym.quantities.display import residual_text
 from mechsym.quantities.units import Array, Joule, Pure, RadPerSecond, Second
-from mechsym.simulate.equations import fitted
+from mechsym.simulate.equations import RUBS, fitted
 from mechsym.simulate.problem import Periodic, Problem
 from mechsym.simulate.result import Energy
 
@@ -71,10 +71,12 @@ def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray], he
     lost = float(columns["dissipation"][-1])
     losses = {name: -work[name] for name, role in roles.items() if role == "loss"}
     losses |= {name: float(columns[name][-1] - columns[name][0]) for name in heats}
+    friction = {name.removeprefix(RUBS): float(columns[name][-1]) for name in columns if name.startswith(RUBS)}
     if "kinetic_energy" not in columns:
         return Energy(
-            work=work, work_in=work_in, dissipation=lost, change=None, reference=work_in, residual=None, losses=losses
-        )
+            work=work, work_in=work_in, dissipation=lost, change=None, reference=work_in, residual=None, losses=losses,
+            friction=friction,
+        )  # fmt: skip
     total = columns["kinetic_energy"] + columns["potential_energy"]
     work_done = sum(work.values())
     if "stored_energy" in columns:
@@ -87,7 +89,7 @@ def energy_audit(roles: Mapping[str, str], columns: Mapping[str, np.ndarray], he
     reference = work_in if abs(work_in) > 1e-3 * peak else peak
     residual = (work_done - lost - change) / reference if reference else 0.0
     return Energy(work=work, work_in=work_in, dissipation=lost, change=change, reference=reference, residual=residual,
-                  losses=losses)  # fmt: skip
+                  losses=losses, friction=friction)  # fmt: skip
 
 
 def speed_difference(a: Mapping[str, RadPerSecond[Array]], b: Mapping[str, RadPerSecond[Array]]) -> Pure[Array]:

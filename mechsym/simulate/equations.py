@@ -21,6 +21,8 @@ from mechsym.quantities import record
 from mechsym.quantities.units import Scalar, Second
 from mechsym.simulate.problem import Along, FormulaForce, Part, Periodic, Problem, Steps
 
+RUBS = "loss_"  #: Before the name of a friction: the column of the energy that it has turned into heat
+
 
 @record
 class System:

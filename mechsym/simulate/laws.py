@@ -1,6 +1,6 @@
 r"""Equations of a mechanism with stops and friction, in every mode by one function.
 
-    y = (q, u, work of each part, dissipation, guards),   w = (values held, flags of the mode)
+    y = (q, u, work of each part, loss of each friction, dissipation, guards),   w = (values held, flags of the mode)
 
 Each stop and each friction acts through an input of its own, p; along it the speed is v = W^T u, W = dQ/dp. A mode says
 by two flags of each, K and D, which condition holds:
@@ -26,7 +26,7 @@ from mechsym.mechanisms.amounts import amount
 from mechsym.mechanisms.record import velocities
 from mechsym.mechanisms.roles import FrictionRole, StopRole
 from mechsym.quantities import record
-from mechsym.simulate.equations import System, outer_values, part_values, power
+from mechsym.simulate.equations import RUBS, System, outer_values, part_values, power
 from mechsym.simulate.problem import Periodic, Problem
 
 _NEWTON = 5  # steps for normal forces of pins; from frictionless, digits double in each
@@ -220,7 +220,10 @@ def model(problem: Problem, dependents: tuple[str, ...]) -> Model:
     powers = [value * rates[part.input] for part, value in s.parts]
     columns = _columns(problem)
     y = ca.SX.sym("y", len(columns) + seen.shape[0])
-    out = ca.vertcat(s.u, a, *powers, loss - ca.dot(p, v), seen_rate)
+    heats = [
+        -p[i] * (v[i] - e.sizes.get("speed", 0.0)) for i, e in enumerate(elements) if isinstance(e.role, FrictionRole)
+    ]
+    out = ca.vertcat(s.u, a, *powers, *heats, loss - ca.dot(p, v), seen_rate)
     whole = ca.Function("whole", s.all[1:], [out, p, v, v_rate, limit, seen, gain])
     pose = _closure(problem, dependents)
     ydot, *others = whole(s.t, *pose(y[:n], y[n : 2 * n]), s.w)
@@ -296,7 +299,8 @@ def _held(s: _Letters, static: ca.SX, seen: ca.SX, seen_rate: ca.SX) -> tuple[ca
 
 def _columns(problem: Problem) -> tuple[str, ...]:
     works = (f"work_{p.name}" for p in problem.parts)
-    return (*problem.mechanism.coordinates, *velocities(problem.mechanism), *works, "dissipation")
+    rubs = (f"{RUBS}{e.name}" for e in problem.unilateral if isinstance(e, FrictionRole))
+    return (*problem.mechanism.coordinates, *velocities(problem.mechanism), *works, *rubs, "dissipation")
 
 
 def _require_suited(problem: Problem) -> None:

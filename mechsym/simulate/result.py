@@ -60,7 +60,8 @@ class Energy:
 
     work: Mapping[str, float]  #: Work that each part does on the mechanism; a braking load's is negative [J]
     work_in: float  #: Sum over the parts with the role `drive` [J]
-    dissipation: float  #: Taken by the mechanism's dampers [J]
+    #: Taken by dampers and friction of the mechanism; below 0 where a motor of it gives more than they take [J]
+    dissipation: float
     #: Kinetic and potential energy at the end minus at the start; None for a model without energies [J]
     change: float | None
     #: What the residual is relative to: work_in, or the largest energy when the drive brings in less than a thousandth
@@ -68,6 +69,7 @@ class Energy:
     reference: float
     residual: float | None  #: (All work - dissipation - change) / reference; None for a model without energies [-]
     losses: Mapping[str, float] = field(default_factory=dict)  #: Of the parts with the role `loss`, heat of stores [J]
+    friction: Mapping[str, float] = field(default_factory=dict)  #: Heat of each friction of the declaration [J]
 
 
 @record
@@ -138,7 +140,9 @@ class RunEnergy:
 
     work: Mapping[str, float] = quantity("J")  #: Work that each part does on the mechanism
     work_in: float = quantity("J")  #: Sum over the parts that drive
-    dissipation: float = quantity("J")  #: Taken by the mechanism's dampers
+    #: Taken by dampers and friction of the mechanism, and blows; below 0 where a motor of it gives more than they take
+    dissipation: float = quantity("J")
+    friction: Mapping[str, float] = quantity("J")  #: Heat of each friction of the declaration
     change: float | None = quantity("J")  #: Kinetic and potential energy at the end less that at the start
 
 
@@ -199,8 +203,12 @@ def summary(
             c: Columns(asdict(s), dict.fromkeys(("mean", "min", "max"), units[f"{c}d"])) for c, s in over_window.items()
         },
         energy=RunEnergy(
-            work=dict(audit.work), work_in=audit.work_in, dissipation=audit.dissipation, change=audit.change
-        ),
+            work=dict(audit.work),
+            work_in=audit.work_in,
+            dissipation=audit.dissipation,
+            friction=dict(audit.friction),
+            change=audit.change,
+        ),  # fmt: skip
         rate=units[f"{coordinates[0]}d"],
     )
 
