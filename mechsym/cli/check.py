@@ -37,6 +37,7 @@ def check(ctx: click.Context, case: str) -> None:
     if whole:
         one = case_of(case, {})  # its doubts are told as every command tells them
         problems += _pistons(one) if not checked.commands["cycle"] else []
+        one.read.clear()
     report: Json = {
         "problems": [dataclasses.asdict(problem) for problem in problems],
         "commands": dict(checked.commands),

@@ -76,10 +76,12 @@ def workshop(case: Case, diagram: str | None = None) -> Workshop:
     period = float(rho.x[-1])
     turns = range(round(2 * np.pi / period))
     ratio = guide.parameters.shaft_ratio
+    # at the rows of a torque table the third derivative jumps, which the curvature does not show
+    bends = () if "torque" in case.sections else kinks_of(engine)
     return Workshop(
         name=case.name, about=case.about, machine=engine, guide=guide, rollers=rollers,
         verdict=judge(guide, rollers, limits), contact=at_pieces(guide, rollers),
-        kinks=tuple(sorted({float(k * ratio % period + n * period) for k in kinks_of(engine) for n in turns})),
+        kinks=tuple(sorted({float(k * ratio % period + n * period) for k in bends for n in turns})),
         tolerances=(*rows, TriedError(name="track", words=f"{1e3 * ERROR:g} mm in, out", size=ERROR, unit="m",
                                       low=tracks[0], high=tracks[1])),
     )  # fmt: skip
