@@ -23,7 +23,7 @@ from mechsym.forces.loads import roll_moment
 from mechsym.forces.mains import Journal, MainShaft, influence, journals, place, supports
 from mechsym.forces.turn import Turn, at, main_roles
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, KilogramMetre, Metre, Newton, NewtonMetre
+from mechsym.quantities.units import Array, KilogramMetre, Metre, Newton, NewtonMetre, Pure
 
 HIGHEST = 12  #: Order up to which they are told
 _ROUNDING = 1e-12  # of the unbalance of the largest throw
@@ -123,7 +123,7 @@ def amplitudes(values: Newton[Array], turn: Turn, rounding: Newton = 0.0) -> dic
     return told
 
 
-def part(values: Newton[Array], turn: Turn, n: float) -> complex:
+def part(values: Newton[Array], turn: Turn, n: Pure) -> complex:
     """The vector of a force or couple x + iy that turns n times as fast as the crank."""
     return complex(np.mean(values * np.exp(-1j * n * turn.phi)))
 

@@ -270,7 +270,7 @@ _COMPONENT = re.compile(r"([RM]|\w+_force)_[xyz](|_\w+)")
 
 
 def resultants(reactions: Iterable[str]) -> dict[str, list[str]]:
-    """Reactions that a joint has along several axes, by the name of their resultant: `R_A` of `R_x_A` and `R_y_A`."""
+    """Reactions that a joint has along several axes, by the name of their resultant, which has no axis."""
     found: dict[str, list[str]] = {}
     for name in reactions:
         if component := _COMPONENT.fullmatch(name):

@@ -54,7 +54,9 @@ def test_a_report_says_nothing_of_engines_that_it_has_not_to(thrown):
     for word in ("dead centre", "propeller", "ripple", "<dt>engine</dt>", "/plausible/"):
         assert word not in text, word
     assert "<dt>machine</dt>" in text
-    assert text.count("coordinates of trebuchet.py are free") == 2  # forces may have a [motion], the others want one coordinate
+    assert (
+        text.count("coordinates of trebuchet.py are free") == 2
+    )  # of forces, which may have a [motion], and of the others
 
 
 def test_bodies_without_links_are_drawn_where_their_centres_are():
