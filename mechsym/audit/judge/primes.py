@@ -12,7 +12,7 @@ PRIMED = re.compile(r"(\w+?)prime(prime)?")
 
 
 def primed(tree: Node, by: str, theory: Theory) -> Node:
-    """One prime or two under the name of a derivative; by: that of the first, a name with `{}` in place of the quantity."""
+    """One prime or two under the name of a derivative; by: that of the first, with `{}` for the quantity."""
     slope = slope_in(by.format("x"))
     names = {1: by, 2: Slope("{}", slope.by, 2).name if slope else f"{by}d"}
 
