@@ -45,7 +45,8 @@ class Run:
     status: int  #: 0 done, 1 infeasible, 2 refused, others as documented
     words: str  #: its error or verdict, empty when there is nothing to say
     rows: tuple[tuple[str, str], ...] = ()  #: names and values of its JSON, the lists in short
-    curves: tuple[Plotted, ...] = ()  #: of its table, where it has one
+    curves: tuple[Plotted, ...] = ()  #: of its table, where it has one: the first
+    undrawn: int = 0  #: Curves of that table which are not among them
     findings: tuple[Finding, ...] = ()  #: what has to be known first
     page: str = ""  #: that it wrote, with its pictures
 
@@ -95,7 +96,8 @@ async def run(line: Sequence[str]) -> Run:
         units = _units(Path(folder) / table[0]) if table else {}
         page = Path(folder) / written if written else None
         shown = page.read_text(encoding="utf-8") if page is not None and page.exists() else ""
-    return replace(run_of(process.returncode or 0, out.decode(), said.decode(), curves, units), page=shown)
+    answer = run_of(process.returncode or 0, out.decode(), said.decode(), curves[:_MOST_CURVES], units)
+    return replace(answer, page=shown, undrawn=max(0, len(curves) - _MOST_CURVES))
 
 
 def run_of(
@@ -124,7 +126,7 @@ def _units(file: Path) -> dict[str, str]:
 
 
 def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
-    """The first columns of a table that move, each a chart of its own."""
+    """The columns of a table that move, each a chart of its own."""
     if not file.exists():
         return ()
     with file.open(encoding="utf-8", newline="") as stream:
@@ -146,7 +148,7 @@ def _curves(file: Path, along: str) -> tuple[Plotted, ...]:
     goes_on = {i for i in moving if named[i][1] == "rad" and max(columns[i]) - min(columns[i]) > _TURNS}
     moving.sort(key=lambda i: (named[i][0] not in _FIRST and named[i][1] != "rad/s", i in goes_on))
     x_name, x = _axis(_ALONG[along], named[place][1], columns[place])
-    shown = (_axis(*_worded(*named[i]), columns[i]) for i in moving[:_MOST_CURVES])
+    shown = (_axis(*_worded(*named[i]), columns[i]) for i in moving)
     named_y = ((y_name.partition(" [")[0], y_name, y) for y_name, y in shown)
     return tuple(Plotted(name=name, chart=name, x_name=x_name, y_name=y_name, x=x, y=y) for name, y_name, y in named_y)
 

@@ -81,6 +81,9 @@ def run_groups(run: Run, pinned: Run | None = None) -> str:
         if title
     ]
     text = f"<div class='mechsym-groups'>{''.join(parts)}</div>"
+    if run.undrawn:
+        all_of = len(run.curves) + run.undrawn
+        text = f"<p class='mechsym-note'>{len(run.curves)} of {all_of} curves are drawn; --out writes all.</p>{text}"
     if not run.page:
         return text
     shown = run.page.replace("</head>", _ALONE)

@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -160,3 +161,8 @@ def test_grey_text_can_be_read_on_both_papers():
     assert contrast(QUIET, "#ffffff") >= 4.5 and contrast(DARK[QUIET], _DARK_PAGE) >= 4.5
     told = str(chart([(Plotted(name="a", chart="c", x=(0.0, 1.0), y=(0.0, 1.0), x_name="t", y_name="p"), "solid")]))
     assert told.count("':color'") == 7 and QUIET in told and DARK[QUIET] in told  # the browser knows which paper it is
+
+
+def test_curves_that_are_not_drawn_are_counted():
+    run = commands.Run(status=0, words="", undrawn=3)
+    assert "0 of 3 curves are drawn" in run_groups(run) and "drawn" not in run_groups(replace(run, undrawn=0))
