@@ -1,5 +1,5 @@
 # Generated from derivations/crank_throw.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 4dfca8bd3d6b6490   (derivations/crank_throw.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: 414509663dc19c0d   (derivations/crank_throw.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: 53640d61aa788905   (everything below this header)
 # sympy 1.14.0
 """One throw: crank, rod, piston on an offset axis. Source: 002_d7297926d6c52225."""

@@ -1,5 +1,5 @@
 # Generated from derivations/crankshaft_flywheel.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: e05c75d549a880c1   (derivations/crankshaft_flywheel.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: 228f0b798f8c1ca9   (derivations/crankshaft_flywheel.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: 74ddbdb1a6f4bc1c   (everything below this header)
 # sympy 1.14.0
 """Crankshaft and flywheel, exact. Source: 002_d7297926d6c52225."""

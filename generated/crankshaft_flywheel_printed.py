@@ -1,5 +1,5 @@
 # Generated from derivations/crankshaft_flywheel_printed.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 30109daf7073b75c   (derivations/crankshaft_flywheel_printed.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: 00b687030df71ac5   (derivations/crankshaft_flywheel_printed.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: 00cf8cb64a3d52f6   (everything below this header)
 # sympy 1.14.0
 """Crankshaft and flywheel, as (6) prints it. Source: 002_d7297926d6c52225."""

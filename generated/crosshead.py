@@ -1,5 +1,5 @@
 # Generated from derivations/crosshead.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 3e618c0104cf6858   (derivations/crosshead.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: 17f5c30d0177d20c   (derivations/crosshead.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: 79a98414e0168558   (everything below this header)
 # sympy 1.14.0
 """Crank, rod, crosshead and elastic hinge. Source: 000_9f2b746dc1abd296."""

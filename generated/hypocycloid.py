@@ -1,5 +1,5 @@
 # Generated from derivations/hypocycloid.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: e5cfefcbded091c4   (derivations/hypocycloid.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: 9501e823bfdb2dcc   (derivations/hypocycloid.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: c6c89544a290ab96   (everything below this header)
 # sympy 1.14.0
 """Crank, planet of half the ring's size, piston. Source: 004_e00ef50339108dab."""

@@ -1,5 +1,5 @@
 # Generated from derivations/rodless.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: e489a53bd232a849   (derivations/rodless.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: ea078aa92aa52f2c   (derivations/rodless.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: 17bbf1828ca71e0f   (everything below this header)
 # sympy 1.14.0
 """Crank, link and two sliders at right angles. Source: 003_8746f5f4ad51b1d1."""

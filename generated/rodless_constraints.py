@@ -1,5 +1,5 @@
 # Generated from derivations/rodless_constraints.py by mechsym.derive. Do NOT edit: run `make derive`.
-# source sha256: 798196b7c074db27   (derivations/rodless_constraints.py + mechsym/derive/*.py, newlines normalised)
+# source sha256: 7e008584bf723068   (derivations/rodless_constraints.py + mechsym/derive/*.py, newlines normalised)
 # body   sha256: 5f1b4311eb39dbd8   (everything below this header)
 # sympy 1.14.0
 """The rodless mechanism with constraints, for its rank. Source: 003_8746f5f4ad51b1d1."""

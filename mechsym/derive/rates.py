@@ -5,6 +5,8 @@ from sympy import Add, Expr, Symbol
 from mechsym.derive.letters import Letters
 from mechsym.derive.refuse import refuse, require_declaration
 
+_LONG = 1000  # operations: to multiply out a longer formula takes minutes and makes it longer still
+
 
 def velocities(m: Letters) -> list[Symbol]:
     """Symbols of the velocities, `phid` for `phi`. Returns symbols: in the order of the coordinates."""
@@ -46,7 +48,8 @@ def curvature(m: Letters, value: Expr) -> Expr:
     if value not in m.tape.curvatures:
         first = [m.tape.diff(value, v) for v in m.q]
         pairs = zip(first, velocities(m), strict=True)
-        m.tape.curvatures[value] = Add(*(_rate(m, slope) * u for slope, u in pairs)).expand()
+        curved = Add(*(_rate(m, slope) * u for slope, u in pairs))
+        m.tape.curvatures[value] = curved.expand() if curved.count_ops() < _LONG else curved
     return m.tape.curvatures[value]
 
 
