@@ -147,17 +147,23 @@ _Told = tuple[str, str, float]  # kind, what it is, value
 def by_size(sections: Records, sizes: Proportions, bore: Metre | None) -> tuple[Doubt, ...]:
     """What is out of proportion to the machine. bore: of the piston; None where it is not known."""
     doubtful = [*_inertias(sections, sizes), *_by_part(sections, sizes), *_fitted(sections)]
-    measures = {"stroke": sizes.stroke}
     if "cycle" in sections:  # what a press moves is as heavy as its flywheel carries
         volume = (bore or sizes.stroke) ** 2 * sizes.stroke  # without a bore the stroke stands for it
         doubtful.append(("mass_density", f"{MOVING} / (bore^2 * stroke)", sizes.mass / volume))
     if bore:
-        area = math.pi / 4 * bore**2
-        measures |= {"bore": bore, "bore^3": bore**3, "piston area": area, "swept volume": area * sizes.stroke}
-        measures["that of solid copper"] = 400 * area / sizes.stroke  # a block of the piston's width [W/K]
         doubtful.append(("stroke_ratio", "stroke / bore", sizes.stroke / bore))
         doubtful += [*_valves(sections, bore), *_areas(sections, sizes, bore)]
-    return _doubts([*doubtful, *_by_measure(sections, measures)])
+    return _doubts(doubtful) + by_stroke(sections, sizes.stroke, bore)
+
+
+def by_stroke(sections: Records, stroke: Metre, bore: Metre | None) -> tuple[Doubt, ...]:
+    """Lengths, areas and volumes of sections by stroke and bore of the piston."""
+    measures = {"stroke": stroke}
+    if bore:
+        area = math.pi / 4 * bore**2
+        measures |= {"bore": bore, "bore^3": bore**3, "piston area": area, "swept volume": area * stroke}
+        measures["that of solid copper"] = 400 * area / stroke  # a block of the piston's width [W/K]
+    return _doubts(_by_measure(sections, measures))
 
 
 @functools.cache

@@ -76,7 +76,7 @@ def by_links(
     spread = max(long, default=1.0) / min(long, default=1.0)
     together = (
         *proportion("link_spread", f"longest {of} / shortest", spread),
-        *_masses(links, letters, units, slides, rotors),
+        *_masses(links, letters, units, slides, rotors, None if listing.get("roles", {}).get("piston") else _HEAVY),
         *_stress(links, letters, *forces),
         *_carried(listing, letters, speeds),
         *_solids(listing, letters, speeds, rotors),
@@ -190,11 +190,13 @@ def _masses(
     units: Mapping[str, str],
     slides: bool,
     rotors: Collection[str],
+    most: float | None,
 ) -> Iterator[Doubt]:
     """Letters in kg by the longest link, or twice the longest crank or letter: none is heavier than a cube of steel of
     it, and by one another.
 
-    A body that slides where its coordinate says is as wide as no letter tells.
+    A body that slides where its coordinate says is as wide as no letter tells; the ram of a press is wider than its
+    crank. most: of a mass by the cube of that length, where it is not the usual one [kg/m^3].
     """
     lengths = [] if slides else [2 * abs(letters[name]) for name, unit in units.items() if unit == "m"]
     # what a crank moves may be as long as its stroke
@@ -203,7 +205,7 @@ def _masses(
     for name, unit in units.items() if longest > 0 else ():
         if unit == "kg" and letters[name] > 0:
             what = f"parameters.{name} / ({'longest link' if links else 'twice the longest letter'})^3"
-            yield from proportion("link_density", what, letters[name] / longest**3)
+            yield from proportion("link_density", what, letters[name] / longest**3, most)
     yield from _spread(letters[name] for name, unit in units.items() if unit == "kg")
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cases.at_start import NOTHING, idle, of_inertia
+from mechsym.cases.doubts import by_stroke
 from mechsym.cases.laws import fired
 from mechsym.cases.links import by_force, by_links, linked
 from mechsym.cycle.gas import Gas
@@ -98,6 +99,7 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     stroke, area, omega = float(np.ptp(x, axis=1).max()), math.pi / 4 * bore**2, case.need("operation").speed
     raised = inner + proportions(stroke, None, omega, fired(case.sections))
     raised += proportion("stroke_ratio", "stroke of the pistons / bore", stroke / bore)
+    raised += by_stroke(case.sections, stroke, bore)
     squares = (dx**2).sum(axis=0)
     columns = np.stack([np.ones(inertia.size), squares], axis=1)
     least, mass = (float(v) for v in np.linalg.lstsq(columns, inertia)[0])
@@ -276,9 +278,13 @@ def of_motion(case: Case, motion: "DrivenForces") -> tuple[Doubt, ...]:
     rise = max((float(np.ptp(table[q])) for q in sways), default=0.0)
     speeds = {q: float(np.abs(table[f"{q}d"]).max()) for q in angles}
     torques = {q: float(np.abs(table[f"driving_{q}"]).max()) for q in driven}
+    lengths = [q for q, unit in listing["coordinates"].items() if unit == "m"]
+    slides = {q: float(np.abs(table[f"{q}d"]).max()) for q in lengths}
     step = float(table["t"][1] - table["t"][0])
     turns = step * max(speeds.values(), default=0.0) / math.tau
     doubts = inputs({"motion.rise": rise}) if rise else ()
+    for q, fastest in slides.items():
+        doubts += proportion("point_speed", f"highest speed along {q}", fastest)
     if named:
         doubts += proportion("sampling", "time between two results / motion.duration", step / section.duration)
     doubts += proportion("aliasing", "turns between two results", turns, 0.5)

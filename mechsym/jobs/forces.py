@@ -216,7 +216,7 @@ def _shaken(one: BalancedEngine, shaken: Shaken) -> ShakenNumbers:
     at_ends = least * length(turn_of)
 
     def by_order(curve: np.ndarray, size: float) -> dict[str, float]:
-        return {str(k): value for k, value in amplitudes(curve, turn_of, size).items()}
+        return {f"{k:.6g}": value for k, value in amplitudes(curve, turn_of, size).items()}
 
     def largest(curve: np.ndarray, size: float) -> float:
         peak = float(np.abs(curve).max())

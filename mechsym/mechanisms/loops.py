@@ -114,7 +114,7 @@ def followed(mechanism: Mechanism, given: Mapping[str, Radian], guesses: Mapping
     return pose
 
 
-def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple[np.ndarray, int]:
+def along_turn(mechanism: Mechanism, points: int = 720, most: int = 60) -> tuple[np.ndarray, int]:
     """Coordinates over the turns of the first coordinate, the rest following it from the guesses.
 
     Returns q: coordinates at even angles from 0 to where they repeat, both ends included [rad] or [m], shape (n, k +
@@ -139,7 +139,8 @@ def along_turn(mechanism: Mechanism, points: int = 720, most: int = 12) -> tuple
         guesses = dict(zip(rest, (2 * steps[0] - steps[1])[1:], strict=True))
         if k and k % points == 0 and _same(q, poses[0]):
             return np.array(poses).T, k // points
-    raise BadInput(f"{mechanism.name} does not repeat within {most} turns of {driver}")
+    way = "give its gears radii in the ratio of small whole numbers, as their teeth have"
+    raise BadInput(f"{mechanism.name} does not repeat within {most} turns of {driver}; {way}")
 
 
 def _same(q: np.ndarray, start: np.ndarray) -> bool:

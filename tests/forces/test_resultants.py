@@ -99,3 +99,16 @@ def test_half_orders_of_the_roll_of_a_four_stroke_are_told():
     assert {0.5, 1, 1.5, 12} <= set(told)
     series = 2 * np.abs(np.fft.rfft(one.before.roll)) / len(one.before.roll)  # over two turns
     assert [told[k / 2] for k in range(1, 25)] == pytest.approx(series[1:25], rel=1e-9)
+
+
+def test_gears_of_any_teeth_close_after_as_many_turns(tmp_path):
+    """8 and 18 teeth: the carrier turns by 8/52 of the sun, 2/13, so that all is as before after 13 turns."""
+    text = DECLARATION.replace('radii=("30 mm", "20 mm")', 'radii=("8 mm", "18 mm")').replace("50 mm", "26 mm")
+    (tmp_path / "epicyclic.py").write_text(text.replace('radii=("20 mm", "70 mm")', 'radii=("18 mm", "44 mm")'))
+    (tmp_path / "case.toml").write_text(CASE)
+    one = balance(cases.load(str(tmp_path / "case.toml")), weights="none")
+    assert one.turn.period == pytest.approx(13 * 2 * np.pi)
+    (order,) = (k for k, size in amplitudes(one.before.force, one.turn, 1e-9).items() if size)
+    assert order == pytest.approx(8 / 52)
+    told = json.loads(CliRunner().invoke(mechsym, ["balance", str(tmp_path / "case.toml"), "--json"]).stdout)
+    assert "0.153846" in told["before"]["force"]

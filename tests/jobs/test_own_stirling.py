@@ -65,3 +65,12 @@ def test_forces_tell_whether_the_hot_piston_leads(tmp_path, monkeypatch, hot, dr
     # the crank passes the hot cylinder's dead centre first where its bank is the smaller angle
     assert result.exit_code == 0 and ("driven" in doubts) == driven == (work < 0)
     assert doubts.get("driven", work) == pytest.approx(work, rel=1e-6)
+
+
+@pytest.mark.parametrize(("dead", "codes"), [("100 cm^3", []), ("100 L", ["dead_volume"])])
+def test_a_dead_volume_beyond_the_swept_one_is_doubted(tmp_path, monkeypatch, dead, codes):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "alpha.py").write_text(ENGINE.replace("HOT", "0").replace("COLD", "pi / 2"))
+    (tmp_path / "alpha.toml").write_text(CASE.replace('dead_hot = "100 cm^3"', f'dead_hot = "{dead}"'))
+    told = json.loads(CliRunner().invoke(mechsym, ["check", "alpha.toml", "--json"], catch_exceptions=False).stdout)
+    assert [one["code"] for one in told["doubts"]] == codes
