@@ -130,7 +130,6 @@ def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
 def case_of(name: str, overrides: Mapping[str, object]) -> Case:
     """The case that a command is about; its doubts, and what of it is not read, go into what the command prints."""
     case = doubted(name, overrides)
-    case.read.clear()  # who judges a case does not run on it
     click.get_current_context().meta.setdefault(_ABOUT, []).append(case)
     return case
 
@@ -145,6 +144,7 @@ def doubted(name: str, overrides: Mapping[str, object]) -> Case:
         case = replace(case, doubts=(*case.doubts, *of_own(case, one_coordinate)))
     if "report" in case.sections and not click.get_current_context().meta.get("mechsym.units"):
         choose(case.need("report").units)
+    case.read.clear()  # who judges a case does not run on it
     click.get_current_context().meta.setdefault(_CASES, []).append(case)
     return case
 

@@ -113,14 +113,14 @@ def amplitudes(values: Newton[Array], turn: Turn, rounding: Newton = 0.0) -> dic
     rounding: what is not larger is 0. Returns amplitudes: of all whole orders, and of those between that act: gears
     that close after several turns, and the gas of a four-stroke engine.
     """
-    turns, told = round(turn.period / (2 * math.pi)), {}
+    turns, sizes = round(turn.period / (2 * math.pi)), dict[float, float]()
     for k in range(1, HIGHEST * turns + 1):
         order = k / turns if k % turns else k // turns
         size = abs(part(values, turn, order)) + abs(part(values, turn, -order))
         acts = size > rounding
         if acts or not k % turns:
-            told[order] = size if acts else 0.0
-    return told
+            sizes[order] = size if acts else 0.0
+    return sizes
 
 
 def part(values: Newton[Array], turn: Turn, n: Pure) -> complex:

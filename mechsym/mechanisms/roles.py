@@ -271,11 +271,11 @@ _COMPONENT = re.compile(r"([RM]|\w+_force)_[xyz](|_\w+)")
 
 def resultants(reactions: Iterable[str]) -> dict[str, list[str]]:
     """Reactions that a joint has along several axes, by the name of their resultant, which has no axis."""
-    found: dict[str, list[str]] = {}
+    by_joint: dict[str, list[str]] = {}
     for name in reactions:
         if component := _COMPONENT.fullmatch(name):
-            found.setdefault(component[1] + component[2], []).append(name)
-    return {name: parts for name, parts in found.items() if len(parts) > 1}
+            by_joint.setdefault(component[1] + component[2], []).append(name)
+    return {name: components for name, components in by_joint.items() if len(components) > 1}
 
 
 def roles_in(listing: "Listing") -> PartRoles:
