@@ -69,7 +69,8 @@ def declared(
     """
     if said.get("sketch"):
         return lambda angle: sketched(said, mechanism.parameters, angle, None)
-    if "drawing" not in mechanism.functions or (poses is None and len(mechanism.coordinates) != 1):
+    alone = not said.get("shapes")  # a disc on its pin has places and no lines
+    if alone or "drawing" not in mechanism.functions or (poses is None and len(mechanism.coordinates) != 1):
         return None
     function, joints = mechanism.functions["drawing"], _joints(said["shapes"])
     shaped = [shape for shape in said["shapes"] if shape["kind"] not in (*_PATHS, "cam")]
