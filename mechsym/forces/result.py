@@ -164,7 +164,7 @@ def _amplitude(shake: Shaking, order: int) -> float:
 
 _PRYMAK, _NUNES, _MOROIANU = "003_8746f5f4ad51b1d1", "004_e00ef50339108dab", "001_a140ef4f7e005dde"
 _ROD, _PLANET = crosshead.LABEL, hypocycloid.LABEL
-_ALIKE = 1e-12  # of the largest value, by which rounding tells equal peaks apart
+_ALIKE = 1e-9  # of the largest value, by which rounding tells equal peaks apart
 _SMALL = 0.1  # "much smaller" is read as below a tenth
 
 
@@ -320,7 +320,7 @@ def extremes(columns: Mapping[str, np.ndarray]) -> tuple[dict[str, float], dict[
 def angle_of_largest(phi: Radian[Array], values: Pure[Array]) -> Annotated[float, "deg"]:
     """Crank angle within a period, in degrees, at which a column in any unit is largest."""
     # cylinders that are alike have peaks that only rounding tells apart: the first of them
-    return math.degrees(phi[int(np.argmax(values >= np.max(values) - _ALIKE * np.ptp(values)))])
+    return math.degrees(phi[int(np.argmax(values >= np.max(values) - _ALIKE * np.abs(values).max()))])
 
 
 @record

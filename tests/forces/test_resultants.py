@@ -10,6 +10,7 @@ from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.forces.balance import amplitudes
 from mechsym.forces.plots import balance_orders
+from mechsym.forces.result import angle_of_largest
 from mechsym.jobs.forces import balance, forces
 from mechsym.mechanisms.roles import resultants
 
@@ -68,6 +69,7 @@ def test_joints_bear_what_their_resultants_say(train):
     for name, size in (("R_O", tooth), *((name, np.hypot(2 * tooth, CENTRIFUGAL)) for name in ("R_P", "R_Q"))):
         assert result.columns[name] == pytest.approx(np.full(result.turn.phi.shape, size), rel=1e-9)
         assert result.columns.units[name] == "N"
+        assert angle_of_largest(result.turn.phi, result.columns[name]) == 0.0  # what is constant but for rounding
     rows = json.loads(CliRunner().invoke(mechsym, ["size", str(train), "--json"]).stdout)
     borne = {row["component"]: row["value"] for row in rows if row["quantity"] == "load, largest"}
     assert borne["R_P"] == pytest.approx(np.hypot(2 * tooth, CENTRIFUGAL), rel=1e-9)
