@@ -23,9 +23,9 @@ from mechsym.forces.loads import roll_moment
 from mechsym.forces.mains import Journal, MainShaft, influence, journals, place, supports
 from mechsym.forces.turn import Turn, at, main_roles
 from mechsym.quantities import record
-from mechsym.quantities.units import Array, KilogramMetre, Metre, Newton, NewtonMetre, Pure
+from mechsym.quantities.units import Array, KilogramMetre, Metre, Newton, NewtonMetre
 
-HIGHEST = 12  #: Order up to which they are told
+HIGHEST = 12  #: Order beyond which nothing is told
 _ROUNDING = 1e-12  # of the unbalance of the largest throw
 _DIRECTIONS = 24  # in which a load is held: the largest is overrated by at most 1/cos(pi/24), 0.9 %
 _ANGLES = 240  # of a turn at which it is held
@@ -114,16 +114,16 @@ def amplitudes(values: Newton[Array], turn: Turn, rounding: Newton = 0.0) -> dic
     that close after several turns, and the gas of a four-stroke engine.
     """
     turns, sizes = round(turn.period / (2 * math.pi)), dict[float, float]()
+    spectrum = np.abs(np.fft.fft(values)) / len(values)
     for k in range(1, HIGHEST * turns + 1):
-        order = k / turns if k % turns else k // turns
-        size = abs(part(values, turn, order)) + abs(part(values, turn, -order))
+        size = float(spectrum[k] + spectrum[-k])
         acts = size > rounding
         if acts or not k % turns:
-            sizes[order] = size if acts else 0.0
+            sizes[k / turns if k % turns else k // turns] = size if acts else 0.0
     return sizes
 
 
-def part(values: Newton[Array], turn: Turn, n: Pure) -> complex:
+def part(values: Newton[Array], turn: Turn, n: int) -> complex:
     """The vector of a force or couple x + iy that turns n times as fast as the crank."""
     return complex(np.mean(values * np.exp(-1j * n * turn.phi)))
 

@@ -16,11 +16,11 @@ import scipy
 from mechsym.errors import BadInput, suggest
 from mechsym.files import Json, to_json, write_quantities, write_text
 from mechsym.files.tables import columns_of
+from mechsym.forces.loads import with_resultants
 from mechsym.mechanisms import constraints, driven
 from mechsym.mechanisms.driven import MotionSettings
 from mechsym.mechanisms.plots import turning_page
 from mechsym.mechanisms.record import Mechanism, velocities
-from mechsym.mechanisms.roles import resultants
 from mechsym.page import Card, Picture, View
 from mechsym.periodic.rises import RISES
 from mechsym.quantities import parse, record
@@ -229,8 +229,8 @@ def forces(
     followed = driven.path(one, lambda at: motion.law(one.driven, at), t, pose | rates, values)
     table = {"t": t, **dict(zip((*names, *velocities(mechanism)), (*followed.q, *followed.u), strict=True))}
     table |= dict(zip((f"{q}dd" for q in names), followed.a, strict=True)) | driven.outputs(one, followed, values)
-    of_joints = resultants(n for n in table if n.startswith(("R_", "M_")))
-    table |= {n: np.linalg.norm([table[p] for p in parts], axis=0) for n, parts in of_joints.items() if n not in table}
+    borne = {n: v for n, v in table.items() if n.startswith(("R_", "M_"))}
+    table |= {name: values for name, values in with_resultants(borne).items() if name not in table}
     known = {"t": "s", **units}
     for q, kind in kinds.items():
         known |= {q: kind, f"{q}d": f"{kind}/s", f"{q}dd": f"{kind}/s^2", f"power_{q}": "W"}

@@ -25,7 +25,7 @@ import numpy as np
 from mechsym.forces.mains import place
 from mechsym.forces.turn import Turn, main_roles, mass_with
 from mechsym.mechanisms.amounts import amount
-from mechsym.mechanisms.roles import PartRoles
+from mechsym.mechanisms.roles import PartRoles, resultants
 from mechsym.quantities import quantity, record
 from mechsym.quantities.units import Array, Newton, NewtonMetre, Pure, Radian
 
@@ -57,6 +57,14 @@ def under_own_name(roles: PartRoles) -> set[str]:
     """Reactions that a bearing or a guide has under its own name."""
     of_bearings = {name for bearing in roles.bearings if bearing.at for name in bearing.reactions}
     return of_bearings | {guide.reaction for guide in roles.guides if guide.at and guide.reaction}
+
+
+def with_resultants(reactions: Mapping[str, Newton[Array]]) -> dict[str, Newton[Array]]:
+    """Reactions [N] or [N*m] and, behind them, the resultant of each joint that bears along several axes."""
+    every = dict(reactions)
+    for name, parts in resultants(reactions).items():
+        every[name] = np.linalg.norm([reactions[part] for part in parts], axis=0)
+    return every
 
 
 def loads(turn: Turn) -> Loads:

@@ -40,6 +40,7 @@ from mechsym.forces.loads import (
     under_own_name,
     verdict,
     whole,
+    with_resultants,
 )
 from mechsym.forces.mains import Journal, MainShaft, Orbit, journals, orbit
 from mechsym.forces.textbook import Chain
@@ -47,7 +48,6 @@ from mechsym.forces.turn import CrankDrive, Turn, at, crank_drive, faces_of
 from mechsym.mechanisms import crosshead, hypocycloid
 from mechsym.mechanisms.peers import Alike, peers
 from mechsym.mechanisms.plan import plan_of
-from mechsym.mechanisms.roles import resultants
 from mechsym.page import Shown
 from mechsym.quantities import quantity, record
 from mechsym.quantities.results import Columns, part, result
@@ -283,8 +283,8 @@ def columns(turn: Turn, loads: Loads, chains: Mapping[str, Chain] | None = None)
         table |= {f"{name}_x": x, f"{name}_y": y, f"{name}_load": np.hypot(x, y)}
     table |= dict(loads.guides) | {n: v for n, v in turn.reactions.items() if n not in table}
     named = under_own_name(turn.drive.roles)
-    of_joints = resultants(n for n in turn.reactions if n.startswith(("R_", "M_")) and n not in named)
-    table |= {n: np.linalg.norm([table[p] for p in parts], axis=0) for n, parts in of_joints.items() if n not in table}
+    borne = {n: v for n, v in turn.reactions.items() if n.startswith(("R_", "M_")) and n not in named}
+    table |= {name: values for name, values in with_resultants(borne).items() if name not in table}
     table["torque"] = turn.torque
     if (roll := roll_moment(turn)) is not None:
         table["roll_moment"] = roll
@@ -294,7 +294,7 @@ def columns(turn: Turn, loads: Loads, chains: Mapping[str, Chain] | None = None)
     table["driving_torque"] = turn.driving
     table |= {n: v for n, v in {**idle, **turn.kinematics}.items() if n not in table}
     listed = mechanisms.listing(turn.drive.name, turn.drive.mechanism)
-    known = _UNITS | dict(listed["inputs"]) | {n: "N*m" for n in [*turn.reactions, *of_joints] if n.startswith("M_")}
+    known = _UNITS | dict(listed["inputs"]) | {n: "N*m" for n in table if n.startswith("M_")}
     known |= {name: unit for name, unit in listed["outputs"].items() if unit}
     known |= {name: _of_slope(name, listed["coordinates"]) for name in turn.kinematics if name not in known}
     # what is left are forces of parts and chains

@@ -14,6 +14,7 @@ from mechsym.cycle.engine import over_speeds
 from mechsym.cycle.kinds import kind_of
 from mechsym.errors import BadInput
 from mechsym.forces.loads import loads as loads_of
+from mechsym.forces.loads import with_resultants
 from mechsym.forces.result import columns
 from mechsym.jobs.cycle import engine, speed_range
 from mechsym.jobs.machine import turn
@@ -69,12 +70,11 @@ def _joints(case: Case) -> Sizing:
     """Loads of every joint of a mechanism that no rule sizes: what its parts are chosen by."""
     result, listed = turn(case), listing(case.mechanism)
     units = columns(result, loads_of(result)).units
-    loads = {**result.reactions, "driving_torque": result.driving}
+    loads = {**with_resultants(result.reactions), "driving_torque": result.driving}
     about = dict(listed.get("reactions", {}))
     if result.drive.roles.closings or not about:
         about = dict.fromkeys(result.reactions, "") | about
     for name, parts in resultants(result.reactions).items():
-        loads[name] = np.linalg.norm([result.reactions[part] for part in parts], axis=0)
         units, about = units | {name: units[parts[0]]}, about | {name: about.get(parts[0], "")}
     about["driving_torque"] = "turns the shaft at the speed of operation"
     rows = [

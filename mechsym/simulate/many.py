@@ -28,7 +28,7 @@ from mechsym.simulate.integrate import raw, runs, unsuited
 from mechsym.simulate.phase import Raw
 from mechsym.simulate.problem import FormulaForce, Part, Periodic, Problem, Steps
 from mechsym.simulate.result import Result
-from mechsym.simulate.run import checked, ends_of, result_of, simulate, tighter, wanted_times
+from mechsym.simulate.run import ends_of, result_of, simulate, tighter, trusted, wanted_times
 from mechsym.simulate.settings import NATIVE, Settings
 
 
@@ -74,7 +74,9 @@ def _together(problems: list[Problem], settings: Settings) -> list[Result]:
         return results
     checks = _raws(problems, equations, tighter(settings))
     return [
-        r if r.status == "failed" else checked(p.mechanism, r, result_of(p, s, c, settings, 0.0), settings)
+        r
+        if r.status == "failed"
+        else trusted(p.mechanism, r, result_of(p, s, c, settings, 0.0), functools.partial(simulate, p), settings)
         for p, s, r, c in zip(problems, equations, results, checks, strict=True)
     ]
 

@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -44,7 +45,7 @@ def simulate(problem: Problem, settings: Settings | None = None) -> Result:
         result = _once(problem, settings)
     if result.status == "failed" or settings.check == "none":
         return result
-    return trusted(problem.mechanism, result, lambda asked: _once(problem, asked), settings)
+    return trusted(problem.mechanism, result, _once(problem, tighter(settings)), partial(_once, problem), settings)
 
 
 def _once(problem: Problem, settings: Settings) -> Result:
@@ -71,15 +72,17 @@ def tighter(settings: Settings) -> Settings:
     return replace(settings, tolerance=max(settings.tolerance / 100, _TIGHTEST), check="none")
 
 
-def trusted(mechanism: Mechanism, result: Result, once: Callable[[Settings], Result], settings: Settings) -> Result:
+def trusted(
+    mechanism: Mechanism, result: Result, check: Result, once: Callable[[Settings], Result], settings: Settings
+) -> Result:
     """A result with the verdict of its check, or the check where a still tighter run agrees with that.
 
     Where a force has kinks, as a table has, steps of a high order are less exact than they know; the energy, which is
     summed up by the same steps, does not show it.
 
-    result: the run; once: runs it with other settings.
+    result, check: the run, and the run at the tighter tolerance; once: runs it with other settings.
     """
-    check, closer = once(tighter(settings)), tighter(settings)
+    closer = tighter(settings)
     seen = checked(mechanism, result, check, settings)
     if seen.status != "chaotic" or closer.tolerance <= _TIGHTEST:
         return seen

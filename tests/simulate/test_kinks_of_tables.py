@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 import scipy.integrate
 import scipy.interpolate
-from simulated import shaft
+from simulated import double_pendulum, shaft
 
 from mechsym import cases
 from mechsym.jobs.run import run
 from mechsym.machine.torque_curve import read_torque
+from mechsym.simulate.many import simulate_many
 from mechsym.simulate.problem import Part, Problem
 from mechsym.simulate.run import simulate
 from mechsym.simulate.settings import Settings
@@ -84,3 +85,13 @@ def test_kinks_that_nobody_tells_are_no_chaos(press):
     alone = simulate(problem, dataclasses.replace(settings, tolerance=1e-12))
     assert alone.tolerance is None and alone.t[-1] == result.t[-1]
     assert alone.tolerance_difference == result.tolerance_difference < 1e-5
+
+
+def test_an_ensemble_and_a_single_run_give_one_verdict():
+    """Two pendulums of a chaotic and a calm start together: what is said of each is what is said of it alone."""
+    settings = Settings(tolerance=1e-10)
+    calm = Problem(mechanism=double_pendulum(), parts=(), q0=(0.1, 0.1), u0=(0.0, 0.0), t_end=60.0, output=0.05)
+    problems = [dataclasses.replace(calm, q0=(2.5, 2.0)), calm]
+    together, alone = simulate_many(problems, settings), [simulate(one, settings) for one in problems]
+    assert [one.status for one in together] == [one.status for one in alone] == ["chaotic", "converged"]
+    assert [one.tolerance for one in together] == [None, None]

@@ -23,7 +23,7 @@ from mechsym.simulate.loop.events import CYCLE, CylinderCycle, ahead, first_stat
 from mechsym.simulate.loop.system import WORKS, Loop, equations
 from mechsym.simulate.phase import Leg, Phase
 from mechsym.simulate.result import Event, Result
-from mechsym.simulate.run import trusted
+from mechsym.simulate.run import tighter, trusted
 from mechsym.simulate.settings import DEFAULT, FALLBACK, NATIVE, Settings
 from mechsym.simulate.speed import last_period, speeds
 
@@ -167,7 +167,7 @@ def simulate_loop(
     result = once(settings)
     if result.status == "failed" or settings.check == "none":
         return result
-    return trusted(loop.mechanism, result, once, settings)
+    return trusted(loop.mechanism, result, once(tighter(settings)), once, settings)
 
 
 def _as_any_run(loop: Loop, run: LoopResult, wall_s: float) -> Result:
