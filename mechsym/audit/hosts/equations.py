@@ -13,7 +13,7 @@ from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import misfits as of_units
-from mechsym.audit.judge.following import CUT_SHORT, expected, solved, with_frequency
+from mechsym.audit.judge.following import CUT_SHORT, expected, solved
 from mechsym.audit.judge.forms import (
     has_sense,
     is_another,
@@ -25,6 +25,7 @@ from mechsym.audit.judge.forms import (
     steady,
 )
 from mechsym.audit.judge.lagrangian import Energies
+from mechsym.audit.judge.linear import with_frequency
 from mechsym.audit.judge.primes import by_angle, is_slope, primed
 from mechsym.audit.judge.resultants import squares_of_sums
 from mechsym.audit.judge.sampled import alike, free, is_multiple, states, vanishes

@@ -8,6 +8,7 @@ from functools import reduce
 
 from mechsym.audit.judge.by_energy import Expected, halved, rate_in, reduced, stored
 from mechsym.audit.judge.kinds import of_unit
+from mechsym.audit.judge.linear import characteristic, natural
 from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.world import World
@@ -20,8 +21,6 @@ from mechsym.audit.read.spelling import SPEEDS
 from mechsym.audit.read.subject import OPENED
 from mechsym.audit.read.tree import (
     Node,
-    argument_of,
-    call,
     function_of,
     is_operation,
     letters,
@@ -29,9 +28,11 @@ from mechsym.audit.read.tree import (
     negative,
     number,
     substitute,
+    value_of,
+    walk,
 )
 from mechsym.audit.theory.record import dependencies
-from mechsym.audit.theory.tape import derivative, is_zero, minus, over, plus, slope_by, times
+from mechsym.audit.theory.tape import derivative, minus, over, plus, slope_by, times
 from mechsym.errors import BadInput
 
 _SOLVED = re.compile(
@@ -109,6 +110,8 @@ def expected(world: World, order: int) -> Iterator[Expected]:
     between = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))
     # the velocities are v_1 = .. and v_2 = ..
     words = between[-2] if len(between) > 1 and between[-1].strip() == "and" else between[-1]
+    if len(said.sides) == 2 and not said.claim:
+        yield from _transmitted(world, said)
     if len(said.sides) == 2 and not said.claim and not CUT_SHORT.search(words):
         if (tree := mended(world, order)) is not None:
             note = "what acts on a neighbour comes back with the same coefficient"
@@ -126,7 +129,9 @@ def expected(world: World, order: int) -> Iterator[Expected]:
         if world.angle and "virtual work" in words:
             yield from _along_its_ways(world, said)
         if function_of(said.sides[1]) == "sqrt" and left.startswith(SPEEDS):
-            yield from _natural(world, order, said)
+            yield from natural(world, order, said)
+        yield from characteristic(world, order, said)
+        yield from _of_turns(world, said)
         yield from _turned(world, said, left)
         if at := _AT_A_VALUE.search(words):
             yield from _at_value(world, order, said, *at.groups())
@@ -252,36 +257,30 @@ def _above(tree: Node) -> list[str]:
     return _above(tree.left) if is_operation(tree, ast.Div) else [tree.id] if isinstance(tree, ast.Name) else []
 
 
-def _natural(world: World, order: int, said: Said) -> Iterator[Expected]:
-    # of a linear equation of motion: the root of what stands before the way by what stands before its acceleration
+def _transmitted(world: World, said: Said) -> Iterator[Expected]:
+    """A torque by another one and the ratio of their speeds: what goes in comes out, so that the ratio is turned."""
     printed = world.plain(said.sides[1])
-    for source in world.paper.said[max(order - _BEFORE, 0) : order]:
-        if source.inline or len(source.sides) != 2:
-            continue
-        whole = minus(*source.sides)
-        for rate in (k for k in letters(whole) if k.endswith("dd")):
-            mass, stiffness = (slope_by(whole, k) for k in (rate, rate[:-2]))
-            if {*letters(mass), *letters(stiffness)} == {*letters(printed)} and not is_zero(mass):
-                tree = call("sqrt", over(stiffness, mass))
-                yield Expected(tree=tree, printed=printed, note=f"by the coefficients of ({source.name})")
-
-
-def with_frequency(world: World, order: int) -> Iterator[tuple[int, Node]]:
-    """The left side of a linear equation of motion by each frequency behind it that has no other letters, with the
-    place of that one."""
-    said = world.paper.said[order]
-    if len(said.sides) != 2:
+    own, speeds = getattr(said.sides[0], "id", ""), [k for k in letters(said.sides[1]) if k.startswith(SPEEDS)]
+    torques = [k for k in letters(printed) if k[0] == own[:1] and k[1:] != own[1:]]
+    if len(torques) != 1 or len(speeds) != 2 or {k.lstrip("omegaw") for k in speeds} != {own[1:], torques[0][1:]}:
         return
-    whole, behind = minus(*said.sides), world.paper.said[order + 1 : order + 1 + _BEFORE]
-    for rate in (k for k in letters(whole) if k.endswith("dd")):
-        mass, stiffness = (slope_by(whole, k) for k in (rate, rate[:-2]))
-        for place, other in enumerate(behind, order + 1):
-            root = argument_of(other.sides[1], "sqrt") if len(other.sides) == 2 and not other.inline else None
-            if root is not None:
-                square = world.plain(root)
-                if not is_zero(mass) and {*letters(mass), *letters(stiffness)} == {*letters(square)}:
-                    more = minus(times(square, mass), stiffness)
-                    yield place, plus(world.plain(said.sides[0]), times(more, name(rate[:-2])))
+    first = next(k for k in speeds if k.endswith(own[1:]))
+    second = next(k for k in speeds if k != first)
+    tree = times(name(torques[0]), over(name(second), name(first)))
+    if {*letters(said.sides[1])} == {torques[0], *speeds}:
+        for whole in (tree, negative(tree)):
+            yield Expected(tree=world.plain(whole), printed=printed, note="the power of both is the same")
+
+
+def _of_turns(world: World, said: Said) -> Iterator[Expected]:
+    """An angular velocity by what counts turns: pi/30 of those in a minute, 2 pi of those in a second."""
+    left, printed = getattr(said.sides[0], "id", ""), said.sides[1]
+    counted = [k for k in letters(printed) if k != "pi"]
+    if not left.startswith(SPEEDS) or "pi" not in letters(printed) or len(counted) != 1 or counted[0][0] not in "nNf":
+        return
+    minute = any(value_of(n) in (30, 60, 900, 3600) for _, n in walk(printed))
+    each = over(name("pi"), number(30)) if minute else times(number(2), name("pi"))
+    yield Expected(tree=times(each, name(counted[0])), printed=printed, note="a turn is 2 pi")
 
 
 def _differentiated(world: World, order: int, said: Said) -> Iterator[Expected]:

@@ -171,7 +171,12 @@ class Kinds:
                 return PURE
             return tuple(e * power for e in base)
         sign = 1 if isinstance(tree.op, ast.Mult) else -1
-        left, right = self._kind(tree.left), self._kind(tree.right)
+        try:
+            left = self._kind(tree.left)
+        except Unknown:
+            self._kind(tree.right)
+            raise
+        right = self._kind(tree.right)
         return tuple(a + sign * b for a, b in zip(left, right, strict=True))
 
     def _same(self, left: Node, right: Node) -> Kind:

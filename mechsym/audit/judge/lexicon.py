@@ -11,7 +11,7 @@ from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import Claim, base, inlined
 from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.reader import RESERVED, Formula, read_expression
-from mechsym.audit.read.slopes import Slope
+from mechsym.audit.read.slopes import PRIMES, Slope
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.read.units import PREPOSITIONS, of_turns
 from mechsym.audit.theory.record import Theory, known
@@ -128,6 +128,8 @@ class Lexicon:
             if alone or several and (_stands_in(phrase, said) or _stands_in(phrase, turned) or _is_of(phrase, said)):
                 rank = max(rank, 4)
                 standing.append((phrase, meaning))
+            elif phrase[0] == _ANY and said[-len(phrase) + 1 :] == phrase[1:] and len(said) > 1:
+                rank = max(rank, 3)
             if rank > counts.get(meaning, 0):
                 counts[meaning] = rank
         for phrase, meaning in standing:  # the damped natural frequency is no natural frequency
@@ -147,10 +149,13 @@ class Lexicon:
 
     def _slope(self, name: str) -> str:
         # dV_dtheta: the slope of what V is, by the angle
-        match, angle = _DERIVATIVE.fullmatch(name), self.theory.angle
-        if not angle or not match or match["by"] not in (angle, *ANGLES):
+        match, angle, results = _DERIVATIVE.fullmatch(name), self.theory.angle, self.theory.results
+        primes = PRIMES.fullmatch(name)
+        if not angle or not primes and (not match or match["by"] not in (angle, *ANGLES)):
             return ""
-        return next((Slope(m, angle).name for _, m in self.meanings(match["of"], "") if m in self.theory.results), "")
+        of, order = (primes[1], primes[2].count("prime")) if primes else (match["of"] if match else "", 1)
+        meant = self.meaning(of, "")[1] if primes else next((m for _, m in self.meanings(of, "") if m in results), "")
+        return Slope(meant, angle, order).name if meant in results else ""
 
     def meaning(self, name: str, about: str) -> tuple[int, str]:
         """The one thing that a name means; empty where it means none or several alike."""
@@ -162,6 +167,7 @@ class Lexicon:
 _DERIVATIVE = re.compile(r"d_?(?P<of>\w+?)_?d_?(?P<by>[A-Za-z]+)")
 # (rad/sec) says nothing of a crank rad: what stands in brackets and has short words only
 _UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-z]))*[\])]")
+_ANY = "any"  # mass: the rocker's as well
 _SILENT = frozenset("the a an its their".split())
 # a sign spelled out is no word
 _GREEK = set("alpha beta gamma delta theta phi varphi psi omega lambda lam rho mu nu sigma tau epsilon eta".split())
@@ -219,6 +225,7 @@ _SAME = (
     (("unevenness",), ("fluctuation",)),
     (("isentropic",), ("adiabatic",)),
     (("rotational", "speed"), ("angular", "speed")),
+    (("lam",), ("lambda",)),
 )
 
 

@@ -3,11 +3,10 @@
 import ast
 import re
 
-from mechsym.audit.read.slopes import Slope, slope_in
+from mechsym.audit.read.slopes import PRIMES, Slope, slope_in
 from mechsym.audit.read.tree import Node, name, substitute
 from mechsym.audit.theory.record import Theory
 
-PRIMES = re.compile(r"(\w+?)((?:prime)+)")
 PRIMED = re.compile(r"(\w+?)prime(prime)?")
 
 

@@ -68,6 +68,8 @@ def _misnamed(paper: Text, kinds: Kinds) -> list[TableSlip]:
     for letter, wanted in sorted(kinds.misnamed.items()):
         about, unit = paper.named[letter], wanted.replace("*", " ")
         uses = [said.name for said in paper.said if letter in letters_of(said) and not said.inline]
+        if not uses:  # it is told of at the first equation behind the table
+            uses = [said.name for said in paper.said if said.shown.line > about.line and not said.inline][:1]
         slips.append(TableSlip(letter=letter, printed=about.unit, wanted=unit, line=about.line, equations=uses))
     return slips
 

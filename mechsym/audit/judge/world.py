@@ -14,11 +14,11 @@ from functools import cached_property, partial, reduce
 
 from mechsym.audit.judge.kinds import PURE, Kinds, text
 from mechsym.audit.judge.motion import ANGLES, angle_of, energies_of
-from mechsym.audit.judge.primes import PRIMES, is_rate, stems_of
+from mechsym.audit.judge.primes import is_rate, stems_of
 from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.reader import RESERVED
 from mechsym.audit.read.said import Said, Text
-from mechsym.audit.read.slopes import Slope, slope_in
+from mechsym.audit.read.slopes import PRIMES, Slope, slope_in
 from mechsym.audit.read.spelling import SPEEDS
 from mechsym.audit.read.tree import (
     Node,

@@ -74,7 +74,7 @@ def place(cursor: Cursor) -> str:
 def letter(cursor: Cursor, bare: bool) -> Node:
     """Read a letter with dots and subscript; `bare`: the one token after a fraction or a power, without subscript."""
     start = cursor.position
-    while cursor.peek() in _DECORATED and cursor.peek(1) != "{":
+    while cursor.peek() in _DECORATED and not _DECORATED[cursor.peek()] and cursor.peek(1) != "{":
         cursor.take()
     # \\vec{r} is r; a bar or a hat makes another letter
     decorated = cursor.peek() in _DECORATED
@@ -83,7 +83,7 @@ def letter(cursor: Cursor, bare: bool) -> Node:
     dots = 0 if decorated else {"\\dot": 1, "\\ddot": 2}.get(cursor.peek(), 0)
     if dots:
         cursor.take()
-    braced = decorated or dots > 0 and cursor.peek() == "{"
+    braced = (decorated or dots > 0) and cursor.peek() == "{"
     if braced:
         cursor.take("{")
     base = _base(cursor)

@@ -82,8 +82,30 @@ _SYMBOLS = (
     r"(?:k?g|[cmk]?m|m?s|min|h|K|[kM]?N|[kMG]?Pa|bar|[kM]?J|[kM]?W|rad|Hz)(?:\$?\^\{?-?\d\}?\$?|[²³⁴])?(?![A-Za-z\d$])"
 )
 _IN_UNIT = re.compile(rf"\$([^$\n=]{{1,40}})\$\s+in\s+({_SYMBOLS}(?:(?:\s|\\,|·|/|\*)+{_SYMBOLS})*)(?=[\s.,;:)]|\Z)")
-_PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
-_PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient", "stiffness") if " " not in w}
+_PLURALS = {
+    "stiffnesses": "stiffness",
+    "inertias": "inertia",
+    "velocities": "velocity",
+    "masses": "mass",
+    "radii": "radius",
+}
+_PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient") if " " not in w}
+_UNMARKED = re.compile(  # what stands in a formula is let be
+    r"(?s:\$\$.*?\$\$|\\\[.*?\\\])|\$[^$]*\$|\\begin\{[a-z*]+\}"
+    rf"|\b({_KINDS}|stiffness|rate|travel|mass|angle|speed)\s+([A-Za-z])"
+    r"(?=[,.;:)]|\s+(?:and|of|is|joins|turns)\b|\s*\n\s*\n)"
+)
+_LETTER = r"\$[^$\n=]{1,40}\$"
+_NEXT = r"(?:,\s*(?:and\s+)?|\s+and\s+)"
+# the angles $a$, $b$ of crank and rocker; the lengths are $a$ (crank), $b$ (rod)
+_EACH_OF = re.compile(
+    rf"\b([a-z]+)\s+({_LETTER}(?:{_NEXT}{_LETTER})+)\s+of\s+(?:the\s+)?"
+    rf"([a-z]+(?: [a-z]+)?(?:{_NEXT}(?:the\s+)?[a-z]+(?: [a-z]+)?)+?)"
+    r"(?=\s+(?:is|are|have|from|with)\b|[.;:)]|\s*\n\s*\n|\Z)"
+)
+_EACH_AS = re.compile(
+    rf"\b([a-z]+)\s+(?:are\s+)?((?:{_LETTER}\s*\([a-z][a-z -]*\)(?:{_NEXT}|(?=\s*[.;:]|\s[a-z]))){{2,}})"
+)
 _AT_FIRST = re.compile(r"(?:In|For|At|Under|During|On|From|By|With)\s")
 #: A word at the end of a phrase that belongs to what comes behind it
 ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
@@ -97,6 +119,7 @@ _BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|whose|and|with|by|has|is
 _AHEAD_OF = re.compile(
     r"(?:\s+(?:of|in|for|with|at|on|between)\b[^.;:$]{0,60}?)?(?:\s+(?:is|are|becomes))?\s*(?:\$\$|\\\[|\\begin)"
 )
+_OVER = re.compile(r"\$\s*\\?[A-Za-z]+\s*/\s*\\?[A-Za-z]+\s*\$")  # the ratio of two letters
 _FORMULA = re.compile(r"=|\\(?:approx|simeq|frac|sqrt|left|sin|cos|tan)\b")
 _SPACED_ROW, _SPACED = re.compile(r"\s*\$[^$|&\t]+\$\s{2,}[A-Za-z][^|&\t$]*$"), re.compile(r"\s{2,}")  # of Sphinx
 _CELLS = re.compile(r"(?<!\\)&|\||\t")
@@ -157,6 +180,12 @@ def nomenclature(text: str) -> dict[str, Named]:
             line, meaning = text.count("\n", 0, match.start()) + 1, names[one].meaning if one in names else ""
             names[one] = Named(meaning=meaning, unit=known, line=line)
     return names
+
+
+def with_marks(text: str, formulas: str) -> str:
+    """A text in which letters of its formulas have dollars where a sentence calls them by name alone: the radius a."""
+    used = {*re.findall(r"(?<![A-Za-z\\])[A-Za-z](?![A-Za-z])", formulas)}
+    return _UNMARKED.sub(lambda m: f"{m[1]} ${m[2]}$" if m[1] and m[2] in used else m[0], text)
 
 
 def _each(meaning: str, count: int) -> list[str]:
@@ -236,10 +265,23 @@ def called(text: str) -> dict[str, str]:
             phrase += f" of {of[1]}" if whole else ""
         pairs += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
     names: dict[str, str] = {}
-    for symbol, phrase in pairs:
+    for symbol, phrase in (*_shared(text), *pairs):
         if phrase:
             names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase.replace(" of the ", " of ")))
     return names
+
+
+def _shared(text: str) -> Iterator[tuple[str, str]]:
+    # letters with one head, and what each is of
+    for match in _EACH_OF.finditer(text):
+        symbols = re.findall(r"\$([^$]+)\$", match[2])
+        owners = re.split(_NEXT, re.sub(r"\bthe\s+", "", " ".join(match[3].split())))
+        if len(owners) == len(symbols) and match[1] in _PLURALS:
+            yield from ((s, f"{owner} {_PLURALS[match[1]]}") for s, owner in zip(symbols, owners, strict=True))
+    for match in _EACH_AS.finditer(text):
+        if match[1] in _PLURALS:
+            pairs = re.findall(r"\$([^$]+)\$\s*\(([^()]+)\)", match[2])
+            yield from ((symbol, f"{owner} {_PLURALS[match[1]]}") for symbol, owner in pairs)
 
 
 def _cells(row: str) -> Iterator[tuple[str, str, str]]:
@@ -256,7 +298,8 @@ def _cells(row: str) -> Iterator[tuple[str, str, str]]:
             re.fullmatch(r"\$[^$]+\$", group[1] if len(group) > 1 else "") and "$" not in symbol
         ):  # meaning, symbol, unit
             symbol, group = group[1], [group[1], symbol, *group[2:]]
-        wordy = len(group) > 1 and re.search(r"[A-Za-z]{3}", group[1]) and not _FORMULA.search(group[1])
+        meaning = group[1] if len(group) > 1 else ""
+        wordy = re.search(r"[A-Za-z]{3}", meaning) and not _FORMULA.search(meaning) or _OVER.fullmatch(meaning)
         if (
             symbol
             and len(symbol) <= 60

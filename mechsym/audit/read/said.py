@@ -16,7 +16,7 @@ from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.lagrange import LagrangeEquation, calligraphic, lagrange_equation
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.macros import expanded
-from mechsym.audit.read.nomenclature import Named, called, nomenclature
+from mechsym.audit.read.nomenclature import Named, called, nomenclature, with_marks
 from mechsym.audit.read.refused import NO_LETTERS, SIGN, matrices_of, refused
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
@@ -40,7 +40,7 @@ _CLOSED = re.compile(r"(?:\\end\{[a-z]+\*?\}|\$\$|\\\])$")  # where a display en
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{1,200}?)\$(?!\$)")
-_RATIO = re.compile(rf"\bratio,?\s+(?:=\s*)?\$\s*({SIGN}\s*/\s*{SIGN})\s*\$$")
+_RATIO = re.compile(rf"(?:\bratio,?\s+(?:=\s*)?|^)\$\s*({SIGN}\s*/\s*{SIGN})\s*\$$")
 _ALONE = re.compile(r"^[ \t]*(\$[^$\n]+\$)[ \t]*[.,;]?[ \t]*$", re.MULTILINE)  # a display
 _INDEXED = re.compile(r"([A-Z])_(\d|\{\d\})\^(\d|\{\d\})")
 _NO_EQUATION = re.compile(r"\\(?:to|rightarrow|longrightarrow|le|leq|ge|geq|ll|gg|neq|in|propto|sim)(?![A-Za-z])|[<>]")
@@ -138,9 +138,10 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     """All equations of a text in their order, those within its lines as well; marked: it marks every equation."""
     text = _BRACKETS.sub(lambda m: " $" if m[0] == r"\(" else "$ ", expanded(text))
     shown = displayed(text)
-    written = nomenclature(text)
-    words = _words(written, shown)
     formulas = " ".join(one.text for one in shown)
+    spoken_of = with_marks(text, formulas)
+    written = nomenclature(spoken_of)
+    words = _words(written, shown)
     twofold = tuple(v for v in _TWOFOLD if all(re.search(rf"\\{c}{v}(?![A-Za-z])", formulas) for c in ("", "var")))
     pairs: dict[str, set[tuple[str, str]]] = {}
     for match in _INDEXED.finditer(text):
@@ -153,7 +154,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         if plain := _plain(symbol, words, twofold):
             named.setdefault(plain, about)
     ahead: dict[str, str] = {plain: about.meaning for plain, about in named.items() if about.meaning}
-    for symbol, phrase in called(text).items():
+    for symbol, phrase in called(spoken_of).items():
         if plain := _plain(symbol, words, twofold):
             ahead[plain] = phrase
     starts = [m.start() for m in _SECTION.finditer(text)]

@@ -3,6 +3,7 @@
 import re
 from typing import NamedTuple
 
+PRIMES = re.compile(r"(\w+?)((?:prime)+)")  #: A letter with primes
 _NAME = r"d(?P<times>[2-9]?)(?P<of>[A-Za-z]\w*)_d(?P<by>{})(?P=times)"
 
 

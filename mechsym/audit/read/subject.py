@@ -11,7 +11,7 @@ _PUT_IN = re.compile(
 )  # the travel is, to the second order,
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
-_INSIDE = re.compile(rf"\s+(?:in|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}")
+_INSIDE = re.compile(rf"\s+(?:in|along|between|about)\s+(?:the|an?|its|both)\s+{_PLAIN}")
 _FOR = re.compile(r"^(?:For|With|In|At|From|By)\b.*\bthe\s+")  # for the unevenness the speeds
 # the torque is with the volume $V$ of both: a letter stands behind the last of what it is with
 _GIVEN_WITH = re.compile(r"\s(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*\$[^$]+\$(?:\s+of\s+[a-z ]+)?\s*$")
@@ -37,7 +37,9 @@ _STRAINED = re.compile(r"\b(bent|twisted)\s+(?:by|with)\s+the\s+(?:shear\s+)?str
 _STORES = re.compile(r"\bstores$")
 _PRESSED = re.compile(r"\bpresses\s+(?:on|against)\s+(?:the|its)\s+(?:guide|liner|cylinder wall)\s+with$")
 _IN_HERTZ = re.compile(r"^In (?:hertz|Hz)\s+(?:it|this)$", re.IGNORECASE)
-_AT_PIN = re.compile(r"^(?:and\s+)?at\s+(the\s+[a-z]+\s+(?:pin|end))$", re.IGNORECASE)
+_AT_PIN = re.compile(
+    r"^(?:and\s+)?(?:(?:that|the (?:mass|one))\s+)?at\s+(the\s+[a-z]+\s+(?:pin|end))(?:\s+is)?$", re.IGNORECASE
+)
 _TWO_MASSES = re.compile(r"\bpoint masses\b|\btwo masses\b")
 _SWINGS = re.compile(r"\b(?:swings?|vibrates?|oscillates?)\b[^.;]*\bwith$")
 _BORNE = re.compile(r"^and\s+the\s+([a-z]+(?:\s[a-z]+)?)\s+the\s+force$")  # the guide carries .., and the rod the force
@@ -151,10 +153,11 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
     )
     beside = re.search(rf".*\bthe\s+({_SHORT})\s+with\s+the\b", bare) if ends else None
     headed = re.search(
-        rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|at|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
+        rf".*\b(?:the|its|and)\s+({_SHORT})\s+(?:of|on|in|at|along|between|about)\s+(?:the|an?|its|both)\s+{_PLAIN}$",
+        bare,
     )
     within = re.match(
-        rf"(?:and\s+)?(?:the|its)\s+({_SHORT})\s+(?:in|along|between)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
+        rf"(?:and\s+)?(?:the|its)\s+({_SHORT})\s+(?:in|along|between|about)\s+(?:the|an?|its|both)\s+{_PLAIN}$", bare
     )
     # The heat that leaves is, and the angle that was turned by then
     relative = re.match(rf"(?:{'The|An?|' * ends}and the)\s+({_SHORT})\s+(?:that|which)\b", bare)
@@ -185,7 +188,8 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
     if chosen is None or chosen in (last, behind) and _LETTER_LAST.search(spoken):
         return "", ""
     plain = re.sub(r"^(?:the|its|an?|and the|and its)\s+", "", bare, flags=re.IGNORECASE)
-    if chosen is within or chosen is first and _INSIDE.fullmatch(bare[chosen.end(1) :]):
+    about = chosen is headed and bare[chosen.end(1) :].startswith(" about ")
+    if about or chosen is within or chosen is first and _INSIDE.fullmatch(bare[chosen.end(1) :]):
         return chosen[1], bare[chosen.start(1) :]
     return chosen[1], _BESIDE.split(plain)[0] if chosen is first else ""
 

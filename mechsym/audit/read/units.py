@@ -35,7 +35,7 @@ KINDS = {
     "stress": "Pa", "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
     "angular acceleration": "rad/s^2", "piston speed": "m/s", "shear modulus": "Pa", "young modulus": "Pa",
     "elasticity": "Pa", "density": "kg/m^3", "power density": "", "energy density": "", "frequency": "Hz",
-    "mass flow": "kg/s", "fuel flow": "kg/s", "twist": "rad",
+    "mass flow": "kg/s", "fuel flow": "kg/s", "twist": "rad", "torsional stiffness": "N*m",
 }  # fmt: skip
 #: Words that change what the next one is measured in
 OTHERS = re.compile(
@@ -89,6 +89,8 @@ def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
     step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
     changed = step or _RATIO.search(meaning) or any(OTHERS.fullmatch(word) for word in words)
     unit = "" if changed else KINDS.get(called, "")
+    if re.search(r"(?<!area )\bmoment of inertia$", meaning) and letter.startswith(("J", "Theta")):
+        unit = "kg*m^2"  # an I may be one of an area
     # small letters of work and heat are often those of a kilogram
     return "" if unit == "J" and letter[0].islower() else unit
 
