@@ -14,7 +14,7 @@ from functools import cache
 from itertools import islice
 
 from mechsym.audit.hosts.slips import slip
-from mechsym.audit.judge.lexicon import Fitted, Lexicon, formula, readings
+from mechsym.audit.judge.lexicon import WHOLLY, Fitted, Lexicon, formula, readings
 from mechsym.audit.judge.nearness import (
     Near,
     Probes,
@@ -67,7 +67,10 @@ class Neighbours:
         # called like another quantity, in letters that others show to be understood, it is no excuse to be this one
         called = [n for n in every if n.away and n.fitted.rank > 2 and n.quantity in n.fitted.quantities]
         other, named = any(self._beside(n) for n in called), any(self._is_named(n) for n in called)
+        best = max((n.fitted.rank for n in every if n.quantity in n.fitted.quantities), default=0)
         for near in every:
+            if best == WHOLLY > near.fitted.rank and near.quantity in near.fitted.quantities:
+                continue  # a polar section modulus is no section modulus
             own = near.fitted.theory.words  # that have another name for it
             excused = not other and not (named and near.quantity in own) and not self._clashes(near)
             if near.away == 0.0 and (near.quantity in near.fitted.quantities or excused):

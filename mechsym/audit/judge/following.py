@@ -112,17 +112,18 @@ def expected(world: World, order: int) -> Iterator[Expected]:
     words = between[-2] if len(between) > 1 and between[-1].strip() == "and" else between[-1]
     if len(said.sides) == 2 and not said.claim:
         yield from _transmitted(world, said)
+        left = getattr(said.sides[0], "id", "")
+        of_speed = _SPEED.search(world.paper.called.get(left, "")) or _SPEED.search(words)
+        if left and of_speed and not CUT_SHORT.search(_STEADY.sub("", words)):
+            yield from _speed_of_its_way(world, order, said, left)
     if len(said.sides) == 2 and not said.claim and not CUT_SHORT.search(words):
         if (tree := mended(world, order)) is not None:
             note = "what acts on a neighbour comes back with the same coefficient"
             yield Expected(tree=tree, printed=said.sides[0], note=note, scaled=True)
         if _DERIVED.search(words):
             yield from _differentiated(world, order, said)
-        left = getattr(said.sides[0], "id", "")
         if left and world.angle and (of := _DERIVED_OF.search(words)):
             yield from _rate_of(world, said, of[1])
-        if _SPEED.search(world.paper.called.get(left, "")) or _SPEED.search(words):
-            yield from _speed_of_its_way(world, order, said, left)
         of_torque = _TORQUE.search(words) or _TORQUE.search(world.paper.called.get(left, ""))
         if of_torque and not _ELSEWHERE.search(words) and not re.search(r"[2-9]$", left):
             yield from _by_virtual_work(world, order, said)

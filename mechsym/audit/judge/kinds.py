@@ -233,13 +233,13 @@ def kinds_of(paper: Text) -> Kinds:
             kinds.printed[letter] = of_unit(unit)
             kinds.turns |= {letter} if unit == "rpm" else set()
     for letter, about in paper.named.items():
-        unit = about.unit or defined_unit(letter, about.meaning, letter in indexed)
+        unit = about.unit or of_turns(about.meaning) or defined_unit(letter, about.meaning, letter in indexed)
         if unit:
             kinds.printed[letter] = of_unit(unit)
         if wanted := misnamed(letter, about.meaning, about.unit):
             kinds.misnamed[letter] = wanted
             kinds.printed[letter] = of_unit(wanted)
-        if about.unit == "rpm":
+        if unit == "rpm":
             kinds.turns.add(letter)
         elif about.unit and scale(about.unit) != 1:
             kinds.scaled.add(letter)

@@ -97,7 +97,8 @@ class Lexicon:
         return alike > 1
 
     def meanings(self, name: str, about: str) -> list[tuple[int, str]]:
-        """What a name may mean, with how well it is told: 4 by a comment, 3 by words, 2 by a part, 1 by one sign."""
+        """What a name may mean, with how well it is told: 5 by a whole comment, 4 by words of it, 3 by words, 2 by a
+        part, 1 by one sign."""
         if (name, about) not in self.known:
             self.known[name, about] = self._meanings(name, about)
         return self.known[name, about]
@@ -115,6 +116,8 @@ class Lexicon:
         for phrase, meaning in (self.phrases[i] for i in sorted(alike)):
             if turns and self._is_measured_otherwise(meaning, turns):
                 continue
+            if self._has_other_index(name, meaning):
+                continue
             rank, whole = 0, _joined(phrase)
             if said and said[-1] == "ratio" and "ratio" not in phrase and phrase != own:
                 continue  # the connecting rod ratio is no length of the connecting rod
@@ -125,7 +128,10 @@ class Lexicon:
                 rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
             alone = phrase in (said, turned) and len(whole) > 2 and not _UNIT.search(about)
             several = len(phrase) > 1 and len(whole) > 4
-            if alone or several and (_stands_in(phrase, said) or _stands_in(phrase, turned) or _is_of(phrase, said)):
+            if alone and len(phrase) > 1:
+                rank = WHOLLY
+                standing.append((phrase, meaning))
+            elif alone or several and (_stands_in(phrase, said) or _stands_in(phrase, turned) or _is_of(phrase, said)):
                 rank = max(rank, 4)
                 standing.append((phrase, meaning))
             elif phrase[0] == _ANY and said[-len(phrase) + 1 :] == phrase[1:] and len(said) > 1:
@@ -147,6 +153,12 @@ class Lexicon:
         letter = self.theory.letters.get(meaning)
         return letter is not None and dimension(letter.unit) != dimension(unit)
 
+    def _has_other_index(self, name: str, meaning: str) -> bool:
+        # z_2 is no z_1 where the theory has both
+        its, own = re.fullmatch(r"(\w+?)_(\d)", meaning), re.fullmatch(r"[A-Za-z]+_?(\d)", name)
+        names = {*self.theory.letters, *self.theory.tape}
+        return bool(its and own and its[2] != own[1] and f"{its[1]}_{own[1]}" in names)
+
     def _slope(self, name: str) -> str:
         # dV_dtheta: the slope of what V is, by the angle
         match, angle, results = _DERIVATIVE.fullmatch(name), self.theory.angle, self.theory.results
@@ -167,6 +179,7 @@ class Lexicon:
 _DERIVATIVE = re.compile(r"d_?(?P<of>\w+?)_?d_?(?P<by>[A-Za-z]+)")
 # (rad/sec) says nothing of a crank rad: what stands in brackets and has short words only
 _UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-z]))*[\])]")
+WHOLLY = 5  #: Rank of a name that a comment is
 _ANY = "any"  # mass: the rocker's as well
 _SILENT = frozenset("the a an its their".split())
 # a sign spelled out is no word
@@ -226,6 +239,7 @@ _SAME = (
     (("isentropic",), ("adiabatic",)),
     (("rotational", "speed"), ("angular", "speed")),
     (("lam",), ("lambda",)),
+    (("turns", "per"), ("revolutions", "per")),
 )
 
 

@@ -4,19 +4,29 @@ import ast
 import re
 from collections import Counter
 
-from mechsym.audit.read.said import Text
+from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
-from mechsym.audit.read.tree import argument_of, letters, walk
+from mechsym.audit.read.spelling import SPEEDS
+from mechsym.audit.read.tree import argument_of, factors, letters, walk
 
 ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
 KINETIC, _POTENTIAL = ("T", "K", "Ek", "Ekin", "EK", "calT"), ("V", "U", "Pi", "Ep", "Epot", "EP", "calV", "calU")
 _FIXED = re.compile(r"\b(?:bank|half|phase|pressure|helix|lead|contact|inclination|slope)\b")
 
 
+def even_rate(said: Said) -> str:
+    """The rate of an angle that an equation says to turn evenly, theta = omega t; empty for any other equation."""
+    left = said.sides[0] if len(said.sides) == 2 else None
+    parts = {f.id for f in factors(said.sides[1]) if isinstance(f, ast.Name)} if left is not None else set()
+    rate = next(iter(parts - {"t"}), "")
+    turning = isinstance(left, ast.Name) and left.id.startswith(ANGLES) and parts == {rate, "t"}
+    return rate if turning and rate in SPEEDS and len(factors(said.sides[1])) == 2 else ""
+
+
 def angle_of(paper: Text) -> str:
     """The angle that runs: what sines and cosines are taken of most often, and no equation gives."""
     said = paper.said
-    given = {s.sides[0].id for s in said if s.sides and isinstance(s.sides[0], ast.Name)}
+    given = {s.sides[0].id for s in said if s.sides and isinstance(s.sides[0], ast.Name) and not even_rate(s)}
     given |= {
         a.id for s in said if s.sides for a in [argument_of(s.sides[0], "sin", "cos", "tan")] if isinstance(a, ast.Name)
     }

@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cached_property, partial, reduce
 
 from mechsym.audit.judge.kinds import PURE, Kinds, text
-from mechsym.audit.judge.motion import ANGLES, angle_of, energies_of
+from mechsym.audit.judge.motion import ANGLES, angle_of, energies_of, even_rate
 from mechsym.audit.judge.primes import is_rate, stems_of
 from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.reader import RESERVED
@@ -151,7 +151,9 @@ class World:
         return (about.meaning if about else self.paper.called.get(letter, "")).lower()
 
     def _define(self, order: int, said: Said) -> None:
-        if not said.sides or said.claim:
+        if rate := even_rate(said):
+            self.aliases |= {rate: f"{self.angle}d"} if letters(said.sides[0]) == (self.angle,) else {}
+        if not said.sides or said.claim or rate:
             return
         sides = [self.plain(s) for s in said.sides]
         left, sides[1:] = sides[0], [self._sloped(side) for side in sides[1:]]

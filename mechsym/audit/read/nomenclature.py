@@ -51,7 +51,8 @@ _PROSE = re.compile(r"\b([a-z]+)\s*\(\s*(\$?[^()$\n*/]{1,24}\$?)\s*\)")
 _WHERE = re.compile(
     r"\$([^$\n]{1,40})\$,?\s*(?:(is|are|be|denotes|represents|being|as|=)\s+)?(?:the|an?)\s+([A-Za-z][A-Za-z\s-]{2,60}?)"
     # the force $F$, the mass $m$: what stands before a letter is not said of the one before it
-    r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bof\b(?!\s+(?:inertia|elasticity|specific))|\bin\b|(?(2)\$|(?!))|\Z))"
+    r"(?=[ \t]*\n[ \t]*\n|\s*(?:[,;.)(:]|\band\b|\bin\b|(?(2)\$|(?!))|\Z"
+    r"|\bof\b(?!\s+(?:inertia|elasticity|specific|turns|revolutions|teeth|cylinders|(?:the\s+)?fuel))))"
 )
 _KINDS = "|".join(kind.replace(" ", r"\s+") for kind in sorted(KINDS, key=len, reverse=True))
 _AHEAD = re.compile(
@@ -67,6 +68,7 @@ _CALLED = re.compile(
     r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)(?!\s+per\b)",
     re.IGNORECASE | re.MULTILINE,
 )
+_AT_END = re.compile(r"\s+((?:at|from)\s+(?:the\s+)?[a-z]+\s+(?:pin|end))\b")
 _OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?((?:all\s+)?[a-z]+(?:\s+of\s+[a-z]+)?)")
 _COUNTED = re.compile(
     r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
@@ -76,20 +78,20 @@ _COUNTED = re.compile(
 _DAMPER = re.compile(r"\bdamper\b[^.]*$")
 _STRESSED = re.compile(r"(?<!\w)\*{1,2}([A-Za-z][A-Za-z -]*[A-Za-z])\*{1,2}(?!\w)")
 _IN_TURNS = re.compile(r"\s+in\s+(?:revolutions|turns)\s+(?:per|a)\s+minute\b")
-_PER_MINUTE = re.compile(r"\$([A-Za-z][^$\n=]{0,20})\$\s+in\s+\$?(?:1/min|rpm|r/min|rev/min|min\^)")
+_EVERY = r"(?:1|rev|r|turns|revolutions)\s?(?:/|per)\s?"
+_PER_MINUTE = re.compile(
+    rf"\$([A-Za-z][^$\n=]{{0,20}})\$\s*(?:in\s+\$?|\(\s*\$?)(?:{_EVERY}(?P<unit>s|min)|rpm|min\^|(?P<second>s\^))"
+)
 # the crank radius $r$ in m, of stiffness $k$ in N/m
 _SYMBOLS = (
     r"(?:k?g|[cmk]?m|m?s|min|h|K|[kM]?N|[kMG]?Pa|bar|[kM]?J|[kM]?W|rad|Hz)(?:\$?\^\{?-?\d\}?\$?|[²³⁴])?(?![A-Za-z\d$])"
 )
 _IN_UNIT = re.compile(rf"\$([^$\n=]{{1,40}})\$\s+in\s+({_SYMBOLS}(?:(?:\s|\\,|·|/|\*)+{_SYMBOLS})*)(?=[\s.,;:)]|\Z)")
-_PLURALS = {
-    "stiffnesses": "stiffness",
-    "inertias": "inertia",
-    "velocities": "velocity",
-    "masses": "mass",
-    "radii": "radius",
-}
-_PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient") if " " not in w}
+#: Words for several to that for one
+PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
+PLURALS["stiffnesses"] = "stiffness"
+PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient") if " " not in w}
+_BETWEEN = re.compile(r"\$\\?(?:overline)?\{?\s*[A-Z]{2}\s*\}?\s*=\s*(\\?[A-Za-z]+(?:_\w)?)\s*\$")  # the crank $OA = r$
 _UNMARKED = re.compile(  # what stands in a formula is let be
     r"(?s:\$\$.*?\$\$|\\\[.*?\\\])|\$[^$]*\$|\\begin\{[a-z*]+\}"
     rf"|\b({_KINDS}|stiffness|rate|travel|mass|angle|speed)\s+([A-Za-z])"
@@ -98,6 +100,7 @@ _UNMARKED = re.compile(  # what stands in a formula is let be
 _LETTER = r"\$[^$\n=]{1,40}\$"
 _NEXT = r"(?:,\s*(?:and\s+)?|\s+and\s+)"
 # the angles $a$, $b$ of crank and rocker; the lengths are $a$ (crank), $b$ (rod)
+_JOINED = re.compile(rf"(?:{_LETTER}{_NEXT})+\$\Z")  # of several letters all but the last
 _EACH_OF = re.compile(
     rf"\b([a-z]+)\s+({_LETTER}(?:{_NEXT}{_LETTER})+)\s+of\s+(?:the\s+)?"
     rf"([a-z]+(?: [a-z]+)?(?:{_NEXT}(?:the\s+)?[a-z]+(?: [a-z]+)?)+?)"
@@ -184,6 +187,7 @@ def nomenclature(text: str) -> dict[str, Named]:
 
 def with_marks(text: str, formulas: str) -> str:
     """A text in which letters of its formulas have dollars where a sentence calls them by name alone: the radius a."""
+    text = _BETWEEN.sub(r"$\1$", text)
     used = {*re.findall(r"(?<![A-Za-z\\])[A-Za-z](?![A-Za-z])", formulas)}
     return _UNMARKED.sub(lambda m: f"{m[1]} ${m[2]}$" if m[1] and m[2] in used else m[0], text)
 
@@ -195,7 +199,7 @@ def _each(meaning: str, count: int) -> list[str]:
     ):
         return [f"{of_both[1]} {of_both[3]}", f"{of_both[2]} {of_both[3]}"]
     if count == 2 and (both := re.fullmatch(r"(.+) (of .+?) and (of .+)", meaning)):
-        head = " ".join(_PLURALS.get(word, word) for word in both[1].split())
+        head = " ".join(PLURALS.get(word, word) for word in both[1].split())
         return [f"{head} {both[2]}", f"{head} {both[3]}"]
     apart = meaning.split(" and ")  # crank radius and rod length
     return apart if count == len(apart) == 2 else [meaning] * count
@@ -246,8 +250,12 @@ def called(text: str) -> dict[str, str]:
     text = _STRESSED.sub(r"\1", text)
     for match in _COUNTED.finditer(text):
         owner = "" if match[3].startswith("cylinders") else match[1] or ""  # the power of $z$ cylinders
-        pairs.append((match[2], " ".join([owner, *match[3].split()]).strip()))
-    pairs += [(match[1], "revolutions per minute") for match in _PER_MINUTE.finditer(text)]
+        counted = " ".join([owner, *match[3].split()]).strip()
+        before = _JOINED.search(text[max(0, match.start(2) - 80) : match.start(2)])
+        pairs += [(symbol, counted) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", before[0] if before else ""))]
+    pairs += [(symbol, "cylinders") for symbol in re.findall(r"\$([^$\n=]{1,20})\$-cylinder", text)]
+    for match in _PER_MINUTE.finditer(text):
+        pairs.append((match[1], f"revolutions per {'second' if match['unit'] == 's' or match['second'] else 'minute'}"))
     for match in _CALLED.finditer(text):
         if match[1].endswith(" and") or _AT_FIRST.match(match[1]):
             continue  # the force and $m$ the mass; in steady running $M_e = M_p$
@@ -259,10 +267,12 @@ def called(text: str) -> dict[str, str]:
             words = words.replace("that", kinds[-1], 1) if kinds else words
         if words == "coefficient" and _DAMPER.search(text[max(0, match.start() - 60) : match.end(1)]):
             words = "damping coefficient"
-        phrase = " ".join(_PLURALS.get(word, word) for word in words.split())
+        phrase = " ".join(PLURALS.get(word, word) for word in words.split())
         if of := _OF_WHAT.match(text, match.end()):  # the coefficient $k$ of fluctuation
             whole = phrase.endswith(("coefficient", "moment", "modulus", "swept volume", "mass flow"))
             phrase += f" of {of[1]}" if whole else ""
+        if at := _AT_END.match(text, match.end()):  # the mass $m_A$ at the crank pin
+            phrase += f" {at[1]}" if phrase.endswith("mass" if at[1].startswith("at") else "distance") else ""
         pairs += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
     names: dict[str, str] = {}
     for symbol, phrase in (*_shared(text), *pairs):
@@ -276,12 +286,12 @@ def _shared(text: str) -> Iterator[tuple[str, str]]:
     for match in _EACH_OF.finditer(text):
         symbols = re.findall(r"\$([^$]+)\$", match[2])
         owners = re.split(_NEXT, re.sub(r"\bthe\s+", "", " ".join(match[3].split())))
-        if len(owners) == len(symbols) and match[1] in _PLURALS:
-            yield from ((s, f"{owner} {_PLURALS[match[1]]}") for s, owner in zip(symbols, owners, strict=True))
+        if len(owners) == len(symbols) and match[1] in PLURALS:
+            yield from ((s, f"{owner} {PLURALS[match[1]]}") for s, owner in zip(symbols, owners, strict=True))
     for match in _EACH_AS.finditer(text):
-        if match[1] in _PLURALS:
+        if match[1] in PLURALS:
             pairs = re.findall(r"\$([^$]+)\$\s*\(([^()]+)\)", match[2])
-            yield from ((symbol, f"{owner} {_PLURALS[match[1]]}") for symbol, owner in pairs)
+            yield from ((symbol, f"{owner} {PLURALS[match[1]]}") for symbol, owner in pairs)
 
 
 def _cells(row: str) -> Iterator[tuple[str, str, str]]:

@@ -20,7 +20,7 @@ from mechsym.audit.read.nomenclature import Named, called, nomenclature, with_ma
 from mechsym.audit.read.refused import NO_LETTERS, SIGN, matrices_of, refused
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
-from mechsym.audit.read.subject import OPENED, listed, subject
+from mechsym.audit.read.subject import OPENED, listed, shared, subject
 from mechsym.audit.read.tree import Node, argument_of, check, number
 from mechsym.audit.read.tree import name as name_of
 from mechsym.errors import BadInput
@@ -128,10 +128,10 @@ class _Spoken:
         phrase, about = subject(before, many == 1)
         if many == 1:
             return phrase, about
-        names = listed(before, many)
+        names = listed(before, many) or [shared(before)] * many
         # of a row of many the first is what the words say, if they do not say it of all
-        shared = place == 0 or re.search(r"\b(?:are|both)\b", before[-120:])
-        return names[place] if names else phrase, about if shared else ""
+        of_all = place == 0 or re.search(r"\b(?:are|both)\b", before[-120:])
+        return names[place] or phrase, about if of_all else ""
 
 
 def read_text_whole(text: str, marked: bool = False) -> Text:

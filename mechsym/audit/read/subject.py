@@ -2,7 +2,7 @@
 
 import re
 
-from mechsym.audit.read.nomenclature import ENDS
+from mechsym.audit.read.nomenclature import ENDS, PLURALS
 from mechsym.audit.read.units import KINDS
 
 _REFERS = re.compile(r"\s+(?:refers|relates) to\s.*$")  # the mean pressure refers to the projected area
@@ -12,6 +12,12 @@ _PUT_IN = re.compile(
 _SHORT = r"(?:[A-Za-z-]+\s+){0,3}?[A-Za-z-]{3,}"
 _PLAIN = r"(?:(?!(?:the|an?|its)\s)[A-Za-z-]+\s+){0,2}[A-Za-z-]{3,}"
 _INSIDE = re.compile(rf"\s+(?:in|along|between|about)\s+(?:the|an?|its|both)\s+{_PLAIN}")
+# the efficiency, with the heating value $H$ of the fuel
+_WITH_LAST = re.compile(r"(?<=[a-z])\s*,\s+with\s+the\s+[a-z ]+$")
+_WITH_LETTER = re.compile(r",\s+with\s[^,]*\$[^,]*$")
+_OPENING = "The|With|Without|For|At|In|From|By|On|Of|If|When|Let|As|Under|Over|Both|Each|Also|Here|Then|Hence|Thus"
+_BARE = rf"(?!(?:{_OPENING})\b)[A-Z][a-z]"  # a sentence that begins with the name: Brake power of
+_OUT_OF = re.compile(r"\s+(?:follows|results)\s+(?:from|with|by)\s+(?:the|its)\s[^,]*$")
 _FOR = re.compile(r"^(?:For|With|In|At|From|By)\b.*\bthe\s+")  # for the unevenness the speeds
 # the torque is with the volume $V$ of both: a letter stands behind the last of what it is with
 _GIVEN_WITH = re.compile(r"\s(?:is|are|becomes)\s+(?:with|for|at)\s+[^,]*\$[^$]+\$(?:\s+of\s+[a-z ]+)?\s*$")
@@ -26,6 +32,7 @@ _CLOSING = re.compile(
     r"\s+(?:(?:may|can|must|is|are) (?:then |also |now )?(?:be )?"
     r"(?:taken|written|given|expressed|obtained|found|approximated|computed|calculated)(?: as| by| to be| from)?"
     r"|(?:is|are|becomes) (?:therefore|then|thus|hence|simply|now|accordingly)"
+    r"|(?:cannot|can not|can never) (?:exceed|be (?:better|more|higher|greater|larger) than)|can at best be"
     r"|is|are|be|becomes|reads|remains|equals|follows(?: as| from)?|amounts to|comes to|results(?: as)?|reduces to)$"
 )
 # the guide is loaded by, the pin carries
@@ -87,6 +94,9 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
         return f"mass at {place[1].lower()}", f"mass at {place[1].lower()}"  # the rod is replaced by two masses
     if (that := _THAT_OF.search(sentence)) and (heads := _HEAD_OF.findall(words[: -len(spoken)])):
         return "", f"{heads[-1]} of {that[1]}"  # the force of first order .., and that of second order
+    sentence = _OUT_OF.sub(" is", sentence)
+    if _WITH_LETTER.search(spoken):
+        sentence = _WITH_LAST.sub("", sentence)
     bare = _CLOSING.sub("", sentence)
     shorter = re.sub(r"\s*,\s+(?:at|with|without|for|in|by)\s+[^,]*$", "", bare)
     if bare != sentence or _CLOSING.search(shorter):  # the radial force, at a pressure angle, is
@@ -110,7 +120,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if place := _AT_DEAD_CENTRE.search(bare):
         return f"{phrase} at {place[1].lower()} dead centre", tail
     if phrase.endswith(" one"):  # the tangential force, and the radial one
-        before_it = re.findall(r"[a-z]+", words.lower().rpartition(" one")[0])
+        before_it = [PLURALS.get(w, w) for w in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0])]
         kinds = [word for word in before_it if word in (*KINDS, "speed")]
         phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
     whole = of_what.replace("-of-", " of ")
@@ -143,7 +153,9 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
     spoken: the sentence as it is printed; ends: whether a verb ended it, as in `the torque of the gas is`.
     """
     first = re.match(
-        rf"(?:The|Its|A|and the|and its|[A-Z][a-z]+'s)\s+({_SHORT})\s+(?:of|with|for|at|in|on|between|by|along)\b", bare
+        rf"(?:(?:The|Its|A|and the|and its|[A-Z][a-z]+'s)\s+|(?={_BARE}))({_SHORT})\s+"
+        r"(?:of|with|for|at|in|on|between|by|along)\b",
+        bare,
     )
     if first and _MOVES.search(first[1]):
         first = None
@@ -199,6 +211,14 @@ def _sentence(before: str) -> tuple[str, str, str]:
     whole = OPENED.sub("", before).rstrip(" \n:;.,")
     spoken = _SENTENCE.split(whole)[-1]
     return whole, spoken, " ".join(_UNWORDED.sub(" ", spoken).split())
+
+
+def shared(before: str) -> str:
+    """What a sentence calls each of several things that equations give: `The base diameters are`."""
+    words = re.sub(r"\s+(?:are|become|read)$", "", _sentence(before)[2]).split()[-3:]
+    while words and words[0] in ("the", "its", "their", "and", "of"):
+        words = words[1:]
+    return " ".join([*words[:-1], PLURALS[words[-1]]]) if words and words[-1] in PLURALS else ""
 
 
 def listed(before: str, count: int) -> list[str]:
