@@ -4,9 +4,9 @@ import ast
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from itertools import product
 
 from mechsym.audit.hosts.asking import BESIDE, Asking
+from mechsym.audit.hosts.carried import believed, carried, follows
 from mechsym.audit.hosts.energy_slip import EnergySlip, energy_slip
 from mechsym.audit.hosts.judged import AGREES, UNTOLD, Judged, of_other_left, passed, settled
 from mechsym.audit.hosts.paper import CARRIED, DEFINED
@@ -15,6 +15,7 @@ from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import misfits as of_units
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved
 from mechsym.audit.judge.forms import (
+    are_told,
     has_sense,
     is_another,
     is_one_of_several,
@@ -60,6 +61,7 @@ class Judge:
     energies: Energies
     twins: Twins
     asking: Asking
+    paired: set[int] = field(default_factory=set)  #: Sides of the last equation that the text told of
     slip: EnergySlip | None = field(init=False)  #: Of an energy, where that explains the equations of motion
 
     def __post_init__(self) -> None:
@@ -90,7 +92,10 @@ class Judge:
             return left
         own = self._by_text(order, said)
         if own.verdict in (*FINDINGS, CARRIED) or own.verdict not in ("", DEFINED) and not odd:
-            return own
+            # of a chain the text may tell of one form only
+            untold = [k for k in range(1, len(said.sides)) if k not in self.paired] if own.verdict in PASSED else []
+            slip = self._by_words(order, said, untold) if untold and len(said.sides) > 2 else None
+            return slip if slip is not None and slip.verdict == "misprint" else own
         if odd:
             slip, telling = self._by_words(order, said), {"misprint", "exact" if is_another(self.world, said) else ""}
             if slip is not None and slip.verdict in telling:
@@ -113,7 +118,9 @@ class Judge:
             if met and len(met) == len(said.sides) - 1:
                 against = f"{fit.theory.name}.{met[0].quantity}"
                 if all(m.sign > 0 for m in met):
-                    return self._carried(order, said, Judged(verdict="exact", matched=against, error=0.0))
+                    return carried(
+                        self.world, self.asking, order, said, Judged(verdict="exact", matched=against, error=0.0)
+                    )
                 if has_sense(self.world, said):
                     continue
                 return Judged(verdict="convention", matched=against, note="exact with the opposite sense")
@@ -150,11 +157,11 @@ class Judge:
                 return replace(slip, correction=to_latex(right, spelled(self.world, said)))
         return None
 
-    def _by_words(self, order: int, said: Said) -> Judged | None:
+    def _by_words(self, order: int, said: Said, sides: Sequence[int] = ()) -> Judged | None:
         # by what the letters are called, as in a program
         short = bool(said.claim or CUT_SHORT.search(said.before))
         agreed: Judged | None = None
-        for k in range(1, len(said.sides)):
+        for k in sides or range(1, len(said.sides)):
             row = self.worded.outcome(order, k) if self.asking.searches > 0 else None
             self.asking.searches -= row is not None and row["verdict"] != "agrees"
             if row is None or row["verdict"] == "misprint" and short and row["max_rel_error"] < _NEARLY:
@@ -168,9 +175,10 @@ class Judge:
             right = self.worded.in_own_letters(read_expression(row["correction"], (), AnyLetter())[0], said.sides[k])
             gone = [n for n in letters(said.sides[k]) if n not in letters(right)]
             if wrong := [n for n in gone if n in self.asking.wrong]:
-                return self._follows(wrong)
+                return follows(self.asking, wrong)
             own = "repaired by letter" not in row["note"] and any(self.worded.is_suspect(n, order) for n in gone)
-            lost = "repaired by put back" in row["note"] and not BESIDE.search(row["note"])
+            grown = not {*letters(right)} <= {*letters(said.sides[k])}
+            lost = "repaired by put back" in row["note"] and grown and not BESIDE.search(row["note"])
             if own or lost and of_units.id_of(said) not in self.asking.odd:
                 continue  # the slip is one of that letter's own equation; what is left out may be 1 there
             if isinstance(said.sides[0], ast.Name):
@@ -275,8 +283,11 @@ class Judge:
                 for reading in fitting.readings(fit, self.world, used):
                     against = f"{fit.theory.name}.{quantity}"
                     row = self.asking.asked(fit.theory, quantity, tree, reading, said)
-                    shown = all(n in fit.meant or self.world.turns(n) or self.world.phrase(n) for n in used)
-                    if row is not None and "repaired by factor" in row["note"] and not shown:
+                    if (
+                        row is not None
+                        and "repaired by factor" in row["note"]
+                        and not are_told(self.world, tree, fit.meant)
+                    ):
                         continue  # the m of a text may be of both pistons, or of one
                     if row is not None and (slip := self.asking.finding(row, said, side, against)):
                         return slip
@@ -300,9 +311,10 @@ class Judge:
         worst = next((v for v in said_all if v.verdict in (*FINDINGS, CARRIED)), None)
         if worst is not None:
             return worst
+        self.paired = {first, *(k for k, v in zip(others, said_all, strict=True) if v.verdict)}
         verdicts = [v for v in said_all if v.verdict]
         if verdicts:
-            return self._carried(order, said, max(verdicts, key=lambda v: PASSED.index(v.verdict)))
+            return carried(self.world, self.asking, order, said, max(verdicts, key=lambda v: PASSED.index(v.verdict)))
         return Judged(verdict=DEFINED if own else "", note=f"the text's own {own.letter}" if own else "")
 
     def _pair(self, order: int, said: Said, i: int, k: int) -> Judged:
@@ -342,8 +354,8 @@ class Judge:
             return nothing
         if isinstance(left, ast.Name) and left.id in theory.letters and not circular:
             return nothing
-        if believed := self._believed(order, said, i, k):
-            return believed
+        if (carry := believed(self.world, self.asking, order, said, (i, k))) is not None:
+            return carry
         # of a chain the slip may stand in the earlier form
         for wanted, printed, side in ((left, right, k), (right, left, i))[: 1 + (i > 0)]:
             row = self.asking.compared(theory, wanted, printed, said)
@@ -355,46 +367,3 @@ class Judge:
             if row is not None and (slip := self.asking.finding(row, said, said.sides[side], "the text")):
                 return slip
         return nothing
-
-    def _believed(self, order: int, said: Said, i: int, k: int) -> Judged | None:
-        # what follows from an earlier slip as it is printed, or is right without it
-        wrong = self.asking.wrong
-        if not wrong:
-            return None
-        for names, mended in product([*([w] for w in wrong), list(wrong)], (False, True)):
-            believed = {w: right if mended else printed for w, (_, printed, right) in wrong.items() if w in names}
-            theory = self.world.theory(order, believed)
-            left, right = known(self.world, said.sides[i], theory), known(self.world, said.sides[k], theory)
-            for first, second in readings(self.world, left, right, theory):
-                try:
-                    same = alike(states(steady(self.world, theory, said)), first, second)
-                except (BadInput, KeyError, RecursionError):
-                    continue
-                if same and mended:
-                    corrected = ", ".join(f"({wrong[w][0]})" for w in names)
-                    return Judged(verdict="exact", matched="the text", error=0.0, note=f"with {corrected} as corrected")
-                if same:
-                    return self._follows(names)
-        return None
-
-    def _follows(self, names: Sequence[str]) -> Judged:
-        sources = tuple(self.asking.wrong[n][0] for n in names)
-        why = f"follows from {', '.join(f'({s})' for s in sources)} as printed, and is no slip of its own"
-        return Judged(verdict=CARRIED, matched="the text", note=why, follows=sources)
-
-    def _carried(self, order: int, said: Said, verdict: Judged) -> Judged:
-        # right by the text's own letters, one of which is wrong: not so with the right one
-        own = said.sides[0].id if isinstance(said.sides[0], ast.Name) else ""
-        for letter, (source, _, right) in self.asking.wrong.items():
-            if letter == own or source == said.name:
-                continue
-            theory = self.world.theory(order, {letter: right})
-            trees = [known(self.world, s, theory) for s in said.sides]
-            if len(trees) < 3 or not any(letter in letters(t) for t in trees):
-                continue
-            try:
-                if alike(states(theory), trees[1], trees[2]) is False:
-                    return self._follows([letter])
-            except (BadInput, KeyError):
-                continue
-        return verdict

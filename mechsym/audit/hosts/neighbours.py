@@ -65,7 +65,7 @@ class Neighbours:
         if not every:
             return None
         # called like another quantity, in letters that others show to be understood, it is no excuse to be this one
-        called = [n for n in every if n.away and n.fitted.rank > 2 and n.quantity in n.fitted.quantities]
+        called = [n for n in every if n.away and n.fitted.rank > 1 and n.quantity in n.fitted.quantities]
         other, named = any(self._beside(n) for n in called), any(self._is_named(n) for n in called)
         best = max((n.fitted.rank for n in every if n.quantity in n.fitted.quantities), default=0)
         for near in every:
@@ -170,7 +170,7 @@ class Neighbours:
         # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is
         own = near.fitted.claim
         # an efficiency is no more than 1, the index of a spring no less, and a volume is counted from nothing
-        if re.search("efficiency|volume|index", " ".join((near.quantity, *near.fitted.meanings.values()))):
+        if re.search(r"efficiency|volume|index|\beta_", " ".join((near.quantity, *near.fitted.meanings.values()))):
             return True
         return any(
             other.fitted.theory is near.fitted.theory
@@ -260,7 +260,7 @@ def _is_told(near: Near, beside: Sequence[Near]) -> bool:
     if near.quantity not in fitted.quantities:
         alike = bool(beside) and of_same_letters(fitted.theory, near.form, near.quantity)
         return near.away <= _NEAR and many > 2 and (strong > 1 or alike)
-    if fitted.rank > _BY_A_SIGN and strong and many > 1 and near.away <= _TWICE:
+    if fitted.rank > _BY_A_SIGN and (strong and many > 1 or fitted.rank == WHOLLY) and near.away <= _TWICE:
         return True
     worded = many == strong and (many > 1 or fitted.rank > _BY_A_SIGN)  # all of it
     if worded or many > 4 and strong > 1 or near.away <= _NEAR and many > 2 and strong > 0:

@@ -24,6 +24,7 @@ from mechsym.audit.read.tree import (
     is_operation,
     letters,
     number,
+    renamed,
     substitute,
     value_of,
     walk,
@@ -121,6 +122,7 @@ class Worded:
                 phrase = self.world.paper.called.get(one.letter, "").split()
                 if any(word in phrase for word in said if len(word) > 2):
                     tree = ast.parse(meaning, mode="eval").body
+                    tree = renamed(tree, {k: k.replace("_", "") for k in letters(tree)})
                     if {*letters(tree)} == {*letters(one.tree)} and to_python(tree) != to_python(one.tree):
                         values = {name: 0.7 + 0.1 * k for k, name in enumerate(letters(tree))}
                         first, second = (float(evaluate(t, values, FLOATS)) for t in (tree, one.tree))

@@ -1,7 +1,6 @@
 """What an equation has to be by those before it and the words between: solved for a letter, derived, reduced."""
 
 import ast
-import math
 import re
 from collections.abc import Iterator
 from functools import reduce
@@ -11,8 +10,8 @@ from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.linear import characteristic, natural
 from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
+from mechsym.audit.judge.turn import averaged, held, stroke
 from mechsym.audit.judge.world import World
-from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.refused import SIGN
 from mechsym.audit.read.said import Said
@@ -54,6 +53,11 @@ _SPEED, _WAYS = re.compile(r"\b(?:speeds?|velocit(?:y|ies))\b", re.IGNORECASE), 
 _AT_A_VALUE = re.compile(
     rf"\b(?:At|For|With|Where)\s+\$({SIGN})\s*=\s*([^$=]+)\$\s+(?:this|that|it)\s+(?:is|becomes|gives)\s*$"
 )
+_GEARED = re.compile(r"\b(?:half|twice|double|camshaft|gear|pinion|wheel|belt|pulley|pole)", re.IGNORECASE)
+_AT_REST = re.compile(r"\b(?:equilibrium|static(?:ally)?|at rest|(?:to|must|can) hold|holds?)\b", re.IGNORECASE)
+_NEEDS = re.compile(
+    r"\b(?:needs?|takes?|requires?|absorbs?|consumes?|must (?:give|deliver|supply|provide))\b", re.IGNORECASE
+)
 _MEAN = re.compile(
     r"\b(?:mean|average)\b"
     r"|\b(?:over|in|during) (?:a|one|each|every) (?:revolution|turn)\b[^.]*\bwork\b[^.]*\b(?:that of|equals?|same)\b",
@@ -62,8 +66,6 @@ _MEAN = re.compile(
 _SEVERAL = re.compile(
     r"\b(?:two|both|three|each|every|all|twin|pair|(?!its|this|is|parts|masses)[a-z]+[a-rt-z]s)\b", re.IGNORECASE
 )
-_BOUNDS = re.compile(r"\\int_(\{[^{}]*\}|\w|\\[a-z]+)\^(\{[^{}]*\}|\w|\\[a-z]+)")
-_ROUNDING = 1e-9  # [-]
 _BEFORE = 6  # equations in front of one that it may be the derivative of
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
 
@@ -131,13 +133,20 @@ def expected(world: World, order: int) -> Iterator[Expected]:
             yield from _along_its_ways(world, said)
         if function_of(said.sides[1]) == "sqrt" and left.startswith(SPEEDS):
             yield from natural(world, order, said)
+        if "stroke" in (world.paper.called.get(left, ""), said.about):
+            yield from stroke(world, order, said)
+        if left and _AT_REST.search(words):
+            yield from held(world, said)
+        if left and _NEEDS.search(words):
+            yield from _needed(world, said)
         yield from characteristic(world, order, said)
-        yield from _of_turns(world, said)
+        if not _GEARED.search(words):
+            yield from _of_turns(world, said)
         yield from _turned(world, said, left)
         if at := _AT_A_VALUE.search(words):
             yield from _at_value(world, order, said, *at.groups())
         if _MEAN.search(words) and not re.fullmatch("[aA]_?0", left):  # Fourier's a_0 is twice the mean
-            yield from _averaged(said)
+            yield from averaged(said)
         if left and "kinetic" in f"{world.paper.called.get(left, said.about)} {words}" and not _SEVERAL.search(words):
             yield from halved(world, said)
         if left and _STORED.search(f"{world.paper.called.get(left, said.about)} {words}"):
@@ -173,25 +182,6 @@ def _at_value(world: World, order: int, said: Said, letter: str, value: str) -> 
         return
     tree = substitute(source.sides[1], lambda n: there if ast.dump(n) == ast.dump(at) else None)
     yield Expected(tree=world.plain(tree), printed=world.plain(said.sides[1]), note=f"by ({source.name}) there")
-
-
-def _averaged(said: Said) -> Iterator[Expected]:
-    """The mean over what is integrated; what is nothing elsewhere may be divided by the whole period."""
-    printed = said.sides[1]
-    integrals = [n for n in letters(printed) if n.startswith("integral")]
-    bounds = _BOUNDS.match(said.spelled.get(integrals[0], "")) if len(integrals) == 1 else None
-    if bounds is None or isinstance(printed, ast.Name):  # the integral alone is no mean
-        return
-    try:
-        low, high = (read_latex(text.strip("{}"), whole=True)[0] for text in bounds.groups())
-    except BadInput:
-        return
-    tree = over(name(integrals[0]), minus(high, low))
-    if {*letters(printed)} - {"pi"} == {*letters(tree)} - {"pi"}:
-        values = {"pi": math.pi} | {n: 1.3 + 0.4 * k for k, n in enumerate(letters(tree)) if n != "pi"}
-        one, other = (float(evaluate(part, values, FLOATS)) for part in (printed, tree))
-        if other and one / other > 1 - _ROUNDING:
-            yield Expected(tree=tree, printed=printed, note="a mean is the integral by the length that it goes over")
 
 
 def _by_primes(world: World, said: Said, left: str) -> Iterator[Expected]:
@@ -282,6 +272,17 @@ def _of_turns(world: World, said: Said) -> Iterator[Expected]:
     minute = any(value_of(n) in (30, 60, 900, 3600) for _, n in walk(printed))
     each = over(name("pi"), number(30)) if minute else times(number(2), name("pi"))
     yield Expected(tree=times(each, name(counted[0])), printed=printed, note="a turn is 2 pi")
+
+
+def _needed(world: World, said: Said) -> Iterator[Expected]:
+    """What a machine needs is what it gives by its efficiency, and not times that."""
+    printed = world.plain(said.sides[1])
+    if world.kinds.of(getattr(said.sides[0], "id", "")) not in (of_unit("W"), of_unit("N*m")):
+        return
+    for letter in _above(printed):
+        if "efficiency" in world.phrase(letter):
+            tree = over(printed, times(name(letter), name(letter)))
+            yield Expected(tree=tree, printed=printed, note="what is needed is more than what is given")
 
 
 def _differentiated(world: World, order: int, said: Said) -> Iterator[Expected]:

@@ -1,7 +1,8 @@
 """An equation of a text in the forms in which its sides are compared."""
 
 import ast
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from mechsym.audit.judge.kinds import of_unit
@@ -9,10 +10,12 @@ from mechsym.audit.judge.primes import PRIMED, primed, rated, slope_of, stems_of
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope, slope_in
-from mechsym.audit.read.tree import Node, letters, substitute, value_of, walk
+from mechsym.audit.read.tree import Node, factors, letters, substitute, value_of, walk
 from mechsym.audit.read.units import usual_unit
 from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import slope_by
+
+_WORD = re.compile(r"[A-Za-z]_?(?:piston|rod|crank|cylinder|shaft|wheel)")  # A_piston
 
 
 def known(world: World, tree: Node, theory: Theory) -> Node:
@@ -77,6 +80,12 @@ def has_sense(world: World, said: Said) -> bool:
     """Whether it gives the rate of what the text itself defines, which cannot be counted the other way."""
     stems = stems_of(said.sides[0].id) if isinstance(said.sides[0], ast.Name) else ()
     return any(d.letter in stems for d in world.defined)
+
+
+def are_told(world: World, tree: Node, meant: Mapping[str, str]) -> bool:
+    """Whether a text tells what each factor of a formula is, be it by an index that is a word."""
+    multiplied = {f.id for _, n in walk(tree) for f in factors(n) if isinstance(f, ast.Name) and f is not n}
+    return all(n in meant or world.turns(n) or world.phrase(n) or _WORD.fullmatch(n) for n in multiplied)
 
 
 def has_nothing(tree: Node) -> bool:

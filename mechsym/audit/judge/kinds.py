@@ -115,6 +115,8 @@ class Kinds:
         within = _MARKED.fullmatch(letter)
         if letter in self.printed or letter in self.inferred or self.as_rate(letter) or slope_in(letter):
             return False
+        if within and (within[1] in self.printed or within[1] in self.inferred):
+            return False  # a mean is measured as what it is the mean of
         base = _INDEX.fullmatch(within[1] if within else letter)
         if base is None or base[2][0].isdigit() and base[1] not in self.spoken:
             return False

@@ -116,9 +116,9 @@ class Lexicon:
         for phrase, meaning in (self.phrases[i] for i in sorted(alike)):
             if turns and self._is_measured_otherwise(meaning, turns):
                 continue
-            if self._has_other_index(name, meaning):
-                continue
             rank, whole = 0, _joined(phrase)
+            if whole not in joined and self._has_other_index(name, meaning):
+                continue
             if said and said[-1] == "ratio" and "ratio" not in phrase and phrase != own:
                 continue  # the connecting rod ratio is no length of the connecting rod
             if whole in joined:
@@ -154,8 +154,8 @@ class Lexicon:
         return letter is not None and dimension(letter.unit) != dimension(unit)
 
     def _has_other_index(self, name: str, meaning: str) -> bool:
-        # z_2 is no z_1 where the theory has both
-        its, own = re.fullmatch(r"(\w+?)_(\d)", meaning), re.fullmatch(r"[A-Za-z]+_?(\d)", name)
+        # z_2 is no z_1 where the theory has both, and omega_1 no mean speed where it has a first one
+        its, own = re.fullmatch(r"(\w+?)(?:_(\d))?", meaning), re.fullmatch(r"[A-Za-z]+_?(\d)", name)
         names = {*self.theory.letters, *self.theory.tape}
         return bool(its and own and its[2] != own[1] and f"{its[1]}_{own[1]}" in names)
 
@@ -239,6 +239,8 @@ _SAME = (
     (("isentropic",), ("adiabatic",)),
     (("rotational", "speed"), ("angular", "speed")),
     (("lam",), ("lambda",)),
+    (("big", "end"), ("crank", "pin")),
+    (("small", "end"), ("piston", "pin")),
     (("turns", "per"), ("revolutions", "per")),
 )
 
@@ -270,6 +272,7 @@ def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
             told = ranked[0][0] if ranked else 0
             if letter in claim.values and (
                 unsure
+                and (not ranked or _is_readable(claim.values[letter], claim, vocabulary))
                 or ranked[0] == (1, theory.angle)
                 and _has_angle(letter, claim, vocabulary)
                 or _is_told_better(letter, told, claim, vocabulary)
@@ -321,6 +324,12 @@ def _distinct(options: Sequence[Sequence[tuple[int, str]]]) -> Iterator[tuple[tu
         least = sum(r for r, _ in ranked[0])
         plain = least == sum(best)
         yield from islice((c for c in ranked if not plain or sum(r for r, _ in c) == least), _READINGS)
+
+
+def _is_readable(tree: Node, claim: Claim, vocabulary: Lexicon) -> bool:
+    # whether each letter of what a letter is has a meaning or a value
+    known = {*claim.values, *claim.written, "pi"}
+    return all(k in known or vocabulary.meanings(base(k), claim.abouts.get(base(k), "")) for k in letters(tree))
 
 
 def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon) -> bool:

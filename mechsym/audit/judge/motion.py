@@ -11,7 +11,9 @@ from mechsym.audit.read.tree import argument_of, factors, letters, walk
 
 ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
 KINETIC, _POTENTIAL = ("T", "K", "Ek", "Ekin", "EK", "calT"), ("V", "U", "Pi", "Ep", "Epot", "EP", "calV", "calU")
-_FIXED = re.compile(r"\b(?:bank|half|phase|pressure|helix|lead|contact|inclination|slope)\b")
+_FIXED = re.compile(
+    r"\b(?:[vV]|vee|swash plate|cone|tilt|bank|half|phase|pressure|helix|lead|contact|inclination|slope)\b"
+)
 
 
 def even_rate(said: Said) -> str:

@@ -68,11 +68,15 @@ _CALLED = re.compile(
     r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)(?!\s+per\b)",
     re.IGNORECASE | re.MULTILINE,
 )
-_AT_END = re.compile(r"\s+((?:at|from)\s+(?:the\s+)?[a-z]+\s+(?:pin|end))\b")
+_AT_END = re.compile(
+    r"\s+(?:of\s+(?:its|the|their)\s+cent(?:re|er)\s+of\s+(?:mass|gravity)\s+)?"
+    r"((?:at|from)\s+(?:the\s+)?[a-z]+\s+(?:pin|end))\b"
+)
 _OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?((?:all\s+)?[a-z]+(?:\s+of\s+[a-z]+)?)")
 _COUNTED = re.compile(
     r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
-    r"(?:in\s+)?((?:revolutions|turns(?!\s+(?:by|about|with|at|on|round|through))|strokes|cycles|cylinders|teeth)"
+    r"(?:in\s+)?((?:revolutions|turns(?!\s+(?:by|about|with|at|on|round|through))|strokes|cycles|cylinders|teeth"
+    r"|(?:active )?coils)"
     r"(?:\s+per\s+[a-z]+)?)"
 )
 _DAMPER = re.compile(r"\bdamper\b[^.]*$")
@@ -113,11 +117,11 @@ _AT_FIRST = re.compile(r"(?:In|For|At|Under|During|On|From|By|With)\s")
 #: A word at the end of a phrase that belongs to what comes behind it
 ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
 _MEASURED = re.compile(  # a spring of stiffness $k$
-    r"^((?!moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
+    r"^((?!(?:[a-z-]+ )?moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
     r"((?:[a-z]+ )?stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|"
-    r"volume|exponent)$"
+    r"volume|exponent|rate|mass flow)$"
 )
-_BEGINS = re.compile(r"(?<!\bof )\b(?:the|an?|its|their|whose|and|with|by|has|is)\s+", re.IGNORECASE)
+_BEGINS = re.compile(r"(?<!\bof )(?<!\babout )\b(?:the|an?|its|their|whose|and|with|by|has|is)\s+", re.IGNORECASE)
 # what goes on to a display, as `the volume of both is`
 _AHEAD_OF = re.compile(
     r"(?:\s+(?:of|in|for|with|at|on|between)\b[^.;:$]{0,60}?)?(?:\s+(?:is|are|becomes))?\s*(?:\$\$|\\\[|\\begin)"

@@ -15,7 +15,10 @@ _INSIDE = re.compile(rf"\s+(?:in|along|between|about)\s+(?:the|an?|its|both)\s+{
 # the efficiency, with the heating value $H$ of the fuel
 _WITH_LAST = re.compile(r"(?<=[a-z])\s*,\s+with\s+the\s+[a-z ]+$")
 _WITH_LETTER = re.compile(r",\s+with\s[^,]*\$[^,]*$")
-_OPENING = "The|With|Without|For|At|In|From|By|On|Of|If|When|Let|As|Under|Over|Both|Each|Also|Here|Then|Hence|Thus"
+_OPENING = (
+    "The|With|Without|For|At|In|From|By|On|Of|If|When|Let|As|Under|Over|Both|Each|Also|Here|Then|Hence|Thus|Half|Part"
+    "|Some|All|Most|One|Two|Three|Any|Every|Such|What|Which|There|It|This|That|These|Those|We|Here|Where|While|So|But"
+)
 _BARE = rf"(?!(?:{_OPENING})\b)[A-Z][a-z]"  # a sentence that begins with the name: Brake power of
 _OUT_OF = re.compile(r"\s+(?:follows|results)\s+(?:from|with|by)\s+(?:the|its)\s[^,]*$")
 _FOR = re.compile(r"^(?:For|With|In|At|From|By)\b.*\bthe\s+")  # for the unevenness the speeds
@@ -70,6 +73,8 @@ _VERB = re.compile(
 )
 # a shaft of the diameter $d$ has: the diameter is said of its own letter
 _LETTER_LAST = re.compile(r"\b(?:the|an?|its|of)\s+(?:[a-z-]+\s+){1,4}\$[^$]+\$\s*(?:is|are|has|be|becomes)?\s*$", re.I)
+# what the letter is called
+_OF_LETTER = re.compile(r"\s+(?:the|an?|its|of)\s+(?:(?!the\b|an?\b|its\b)[a-z-]+\s*){1,4}$")
 _PER = re.compile(r"\bper\s+(?:unit|metre|meter|kilogram|mass|volume|area|length|mole|cycle|degree)\b")
 #: Where a display begins, at the end of what stands in front of it
 OPENED = re.compile(r"(?:\\begin\{[a-z*]+\}|\$\$|\\\[|```math)\s*$")
@@ -108,6 +113,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if clause != bare and not _VERB.search(clause):
         bare = clause
     bare = _AT_LAST.sub(r"\1", _FUSED.sub(r"\1-of-\2", bare))
+    bare = _OF_LETTER.sub("", bare) if _LETTER_LAST.search(spoken) and bare == sentence else bare
     tail = _FOR.sub("", " ".join(bare.split()[-_LAST:]).replace("-of-", " of "))
     if not alone:
         return "", tail
@@ -120,6 +126,7 @@ def subject(before: str, alone: bool) -> tuple[str, str]:
     if place := _AT_DEAD_CENTRE.search(bare):
         return f"{phrase} at {place[1].lower()} dead centre", tail
     if phrase.endswith(" one"):  # the tangential force, and the radial one
+        words = re.sub(r"\bwith the [a-z -]+", "", words)
         before_it = [PLURALS.get(w, w) for w in re.findall(r"[a-z]+", words.lower().rpartition(" one")[0])]
         kinds = [word for word in before_it if word in (*KINDS, "speed")]
         phrase = f"{phrase[:-4]} {kinds[-1]}" if kinds else ""
@@ -209,16 +216,15 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
 def _sentence(before: str) -> tuple[str, str, str]:
     # what stands in front of an equation, its last sentence as it is printed, and its words alone
     whole = OPENED.sub("", before).rstrip(" \n:;.,")
-    spoken = _SENTENCE.split(whole)[-1]
+    spoken = re.sub(r"\s*\([^()$]*\)$", "", _SENTENCE.split(whole)[-1])
     return whole, spoken, " ".join(_UNWORDED.sub(" ", spoken).split())
 
 
 def shared(before: str) -> str:
     """What a sentence calls each of several things that equations give: `The base diameters are`."""
-    words = re.sub(r"\s+(?:are|become|read)$", "", _sentence(before)[2]).split()[-3:]
-    while words and words[0] in ("the", "its", "their", "and", "of"):
-        words = words[1:]
-    return " ".join([*words[:-1], PLURALS[words[-1]]]) if words and words[-1] in PLURALS else ""
+    words = re.sub(r"\s+(?:are|become|read)$", "", _sentence(before)[2])
+    last = re.search(r"\b(?:the|its|their)\s+((?:(?!and\b)[a-z-]+\s+){0,2})([a-z]+)$", words, re.IGNORECASE)
+    return f"{last[1]}{PLURALS[last[2]]}" if last and last[2] in PLURALS else ""
 
 
 def listed(before: str, count: int) -> list[str]:
@@ -231,7 +237,6 @@ def listed(before: str, count: int) -> list[str]:
     parts = re.split(r"\s*,\s*(?:and\s+)?|\s+and\s+", bare)
     if bare == sentence or len(parts) != count:
         return []
-    heads = [
-        re.split(r"\s+(?:of|on|in|for|at)\s+", re.sub(r"^(?:the|its|an?)\s+", "", p, flags=re.I))[0] for p in parts
-    ]
+    bare_parts = [re.split(r"'s\s+", re.sub(r"^(?:the|its|an?)\s+", "", p, flags=re.I))[-1] for p in parts]
+    heads = [re.split(r"\s+(?:of|on|in|for|at)\s+", part)[0] for part in bare_parts]
     return heads if all(re.fullmatch(_SHORT, head) for head in heads) else []

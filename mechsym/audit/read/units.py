@@ -31,7 +31,8 @@ KINDS = {
     "power": "W", "torque": "N*m", "force": "N", "pressure": "Pa", "work": "J", "energy": "J", "heat": "J",
     "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
     "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
-    "width": "m", "distance": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m", "module": "m",
+    "width": "m", "distance": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m",
+    "lift": "m", "travel": "m", "module": "m",
     "stress": "Pa", "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
     "angular acceleration": "rad/s^2", "piston speed": "m/s", "shear modulus": "Pa", "young modulus": "Pa",
     "elasticity": "Pa", "density": "kg/m^3", "power density": "", "energy density": "", "frequency": "Hz",
@@ -40,7 +41,7 @@ KINDS = {
 #: Words that change what the next one is measured in
 OTHERS = re.compile(
     "per|unit|specific|by|relative|(?:non)?dimension(?:less|al)|normali[sz]ed|scaled|molar|section|internal|moment|polar"
-    "|linear|flux|current|charge|probability|spectral|generali[sz]ed|cent(?:er|re)|vector|array"
+    "|linear|flux|current|charge|probability|spectral|generali[sz]ed|cent(?:er|re)s?|vector|array"
 )
 
 #: Words between what something is and what it is of
@@ -89,7 +90,8 @@ def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
     step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
     changed = step or _RATIO.search(meaning) or any(OTHERS.fullmatch(word) for word in words)
     unit = "" if changed else KINDS.get(called, "")
-    if re.search(r"(?<!area )\bmoment of inertia$", meaning) and letter.startswith(("J", "Theta")):
+    of_mass = re.search(r"\bmoment of inertia$", meaning) and not re.search(r"\b(?:area|polar|second)\b", meaning)
+    if of_mass and letter.startswith(("J", "Theta")):
         unit = "kg*m^2"  # an I may be one of an area
     # small letters of work and heat are often those of a kilogram
     return "" if unit == "J" and letter[0].islower() else unit
