@@ -37,7 +37,8 @@ from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import to_latex
-from mechsym.audit.read.tree import function_of, is_operation, letters, negative, value_of
+from mechsym.audit.read.subject import last_sentence
+from mechsym.audit.read.tree import Node, function_of, is_operation, letters, negative, value_of
 from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import minus, plus
 from mechsym.audit.verdict import FINDINGS, PASSED
@@ -46,6 +47,11 @@ from mechsym.errors import BadInput
 _CASE = re.compile(
     r"(?:^|[.:]\s)\s*(?:For|In|Under|During)\s[^,.:$]*,"  # for method B, it is
     r"|\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
+)
+_REWRITTEN = re.compile(
+    r"\b(?:simplif\w+|equivalent|again|rewrit\w+|other words|substitut\w+|thus|hence|therefore|so that|becomes?|gives?"
+    r"|yields?|follows?|that is|written|express\w+|obtain\w+|reduc\w+|insert\w+)\b",
+    re.IGNORECASE,
 )
 _NEARLY = 0.1  # what is cut short is off by at the most, of its largest value [-]
 
@@ -341,6 +347,16 @@ class Judge:
                 return Judged(verdict="exact", matched="the text", error=0.0)
         return self._unlike(order, said, i, k, theory)
 
+    def _is_of_case(self, order: int, left: Node, note: str) -> bool:
+        # of a letter that is given anew, unless a word says that it is the same in another form
+        said = self.world.paper.said[order]
+        if not isinstance(left, ast.Name):
+            return False
+        before = [one.sides[0] for one in self.world.paper.said[:order] if len(one.sides) == 2 and not one.inline]
+        again = any(isinstance(one, ast.Name) and one.id == left.id for one in before)
+        number = again and "repaired by factor" in note and not _REWRITTEN.search(last_sentence(said.before))
+        return "left out" in note or number
+
     def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:
         nothing = Judged(verdict="")
         left, right = known(self.world, said.sides[i], theory), known(self.world, said.sides[k], theory)
@@ -361,8 +377,8 @@ class Judge:
             row = self.asking.compared(theory, wanted, printed, said)
             if row is not None and row["verdict"] in PASSED:
                 return passed(row, "the text")
-            if row is not None and "left out" in row["note"] and isinstance(said.sides[i], ast.Name):
-                continue  # a letter that is given anew, with a term more, is one of another case
+            if row is not None and self._is_of_case(order, said.sides[i], row["note"]):
+                continue  # a letter that is given anew, with a term more or another number, is one of another case
             row = settled(row) if row is not None and has_sense(self.world, said) else row
             if row is not None and (slip := self.asking.finding(row, said, said.sides[side], "the text")):
                 return slip

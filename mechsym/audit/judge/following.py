@@ -73,10 +73,14 @@ _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
 def solved(world: World, order: int) -> tuple[Node, int] | None:
     """The letter of an equation as the one before it gives it, and that one's place; None where no word says so."""
     said = world.paper.said[order]
-    place = next((k for k in range(order - 1, -1, -1) if not world.paper.said[k].inline), None)
-    if place is None or len(said.sides) != 2 or not isinstance(said.sides[0], ast.Name) or said.claim:
+    if len(said.sides) != 2 or not isinstance(said.sides[0], ast.Name) or said.claim:
         return None
-    source, letter = world.paper.said[place], said.sides[0].id
+    letter = said.sides[0].id
+    # of the sentence in front, with which it is solved, before the display in front of that
+    near = [k for k in range(order - 1, -1, -1) if not world.paper.said[k].inline or _has(world.paper.said[k], letter)]
+    if not near:
+        return None
+    place, source = near[0], world.paper.said[near[0]]
     between = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))
     steady = len(between) > 1 and _STEADY.search(between[-1]) is not None
     if (
@@ -104,6 +108,10 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
         return None
     tree = isolate(sides[inside.index(True)], letter, sides[inside.index(False)])
     return None if tree is None else (tree, place)
+
+
+def _has(said: Said, letter: str) -> bool:
+    return any(letter in letters(side) for side in said.sides[1:]) and not said.equates
 
 
 def expected(world: World, order: int) -> Iterator[Expected]:

@@ -220,6 +220,11 @@ def _sentence(before: str) -> tuple[str, str, str]:
     return whole, spoken, " ".join(_UNWORDED.sub(" ", spoken).split())
 
 
+def last_sentence(before: str) -> str:
+    """The words of the last sentence in front of an equation."""
+    return _sentence(before)[2]
+
+
 def shared(before: str) -> str:
     """What a sentence calls each of several things that equations give: `The base diameters are`."""
     words = re.sub(r"\s+(?:are|become|read)$", "", _sentence(before)[2])
