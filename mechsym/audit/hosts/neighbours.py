@@ -169,8 +169,11 @@ class Neighbours:
     def _is_settled(self, near: Near) -> bool:
         # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is
         own = near.fitted.claim
-        # an efficiency is no more than 1, the index of a spring no less, and a volume is counted from nothing
+        # an efficiency is no more than 1, the index of a spring no less, a volume is counted from nothing, and what is
+        # relative is by something else
         if re.search(r"efficiency|volume|index|\beta_", " ".join((near.quantity, *near.fitted.meanings.values()))):
+            return True
+        if own.about.startswith("relative "):
             return True
         return any(
             other.fitted.theory is near.fitted.theory
@@ -233,7 +236,8 @@ def _met(fitted: Fitted, form: Formula, states: Probes, si: bool) -> Iterator[tu
         if met is not None:
             seen.add(quantity)
             right = of_sign(met.ratio) if si else of_units(met.ratio) or met.shift
-            if right or is_slip(met.ratio):
+            wholly = fitted.rank == WHOLLY and fitted.strong == len(fitted.meanings) > 1  # a ratio that is turned over
+            if right or is_slip(met.ratio) or wholly:
                 yield (0.0 if right else max(met.away, 1e-9)), quantity
     many = len(fitted.meanings)
     if many > 2 or many > 1 and fitted.strong and seen:

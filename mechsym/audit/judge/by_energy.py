@@ -135,7 +135,8 @@ def _kinetic(world: World, order: int) -> Iterator[tuple[str, Node]]:
         letter = getattr(source.sides[0], "id", "") if len(source.sides) > 1 else ""
         whole = world.plain(source.sides[-1]) if letter else None
         base = letter.rstrip("0123456789")
-        sums_up = letter in KINETIC or letter == base and world.phrase(letter) == "kinetic energy"
+        told = world.phrase(letter) == "kinetic energy" or source.about.endswith("kinetic energy")
+        sums_up = letter in KINETIC or letter == base and told
         if whole is not None and sums_up:
             yield f"by the energy of ({source.name})", whole
         elif (

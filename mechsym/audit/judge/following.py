@@ -10,7 +10,7 @@ from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.linear import characteristic, natural
 from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
-from mechsym.audit.judge.turn import averaged, held, stroke
+from mechsym.audit.judge.turn import averaged, held, over_a_turn
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.refused import SIGN
@@ -119,7 +119,7 @@ def expected(world: World, order: int) -> Iterator[Expected]:
     said = world.paper.said[order]
     between = _DISPLAY.split(OPENED.sub("", said.before.rstrip()))
     # the velocities are v_1 = .. and v_2 = ..
-    words = between[-2] if len(between) > 1 and between[-1].strip() == "and" else between[-1]
+    words = between[-2] if len(between) > 1 and between[-1].strip() in ("and", "to be", "as") else between[-1]
     if len(said.sides) == 2 and not said.claim:
         yield from _transmitted(world, said)
         left = getattr(said.sides[0], "id", "")
@@ -141,8 +141,8 @@ def expected(world: World, order: int) -> Iterator[Expected]:
             yield from _along_its_ways(world, said)
         if function_of(said.sides[1]) == "sqrt" and left.startswith(SPEEDS):
             yield from natural(world, order, said)
-        if "stroke" in (world.paper.called.get(left, ""), said.about):
-            yield from stroke(world, order, said)
+        if {"stroke", "compression ratio"} & {world.paper.called.get(left, ""), said.about}:
+            yield from over_a_turn(world, order, said)
         if left and _AT_REST.search(words):
             yield from held(world, said)
         if left and _NEEDS.search(words):

@@ -15,15 +15,13 @@ from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.said import Said
-from mechsym.audit.read.tree import letters, name, negative, number
-from mechsym.audit.theory.record import complete
-from mechsym.audit.theory.tape import is_zero, minus, over, slope_by
+from mechsym.audit.read.tree import Node, letters, name, negative, number, substitute
+from mechsym.audit.theory.tape import is_zero, minus, over, slope_by, times
 from mechsym.errors import BadInput
 
 _BOUNDS = re.compile(r"\\int_(\{[^{}]*\}|\w|\\[a-z]+)\^(\{[^{}]*\}|\w|\\[a-z]+)")
 _ROUNDING = 1e-9  # [-]
-_STEPS = 721  # angles of a turn at which a way is looked for its ends
-_LARGEST = 8  # numerator and denominator of a factor that a slip of the pen leaves
+_DEEPEST, _MOST = 6, 0.5  # definitions within definitions; share of the states [-]
 
 
 def averaged(said: Said) -> Iterator[Expected]:
@@ -45,33 +43,45 @@ def averaged(said: Said) -> Iterator[Expected]:
             yield Expected(tree=tree, printed=printed, note="a mean is the integral by the length that it goes over")
 
 
-def stroke(world: World, order: int, said: Said) -> Iterator[Expected]:
-    """The stroke of the way that was given last: how far it goes in a turn, where that is a number of times what is
-    printed."""
-    printed = world.plain(said.sides[1])
-    before = [d.letter for d in world.defined if d.order < order and world.turns(d.letter)]
-    ways = [k for k in before if world.kinds.of(k) in (of_unit("m"), None)]
-    if not ways or not world.angle or world.angle in letters(printed):
+def over_a_turn(world: World, order: int, said: Said) -> Iterator[Expected]:
+    """The stroke of the way that was given last, or the ratio of a volume's ends, at quarters of a turn."""
+    printed, called = world.plain(said.sides[1]), world.paper.called.get(getattr(said.sides[0], "id", ""), said.about)
+    kind = of_unit("m" if called == "stroke" else "m^3")
+    moving = [d.letter for d in world.defined if d.order < order and world.turns(d.letter)]
+    way = next((k for k in reversed(moving) if world.kinds.of(k) in (kind, None)), "")
+    if not way or not world.angle or world.angle in letters(printed):
         return
-    theory = world.theory(order)
-    at = states(theory).values
-    count = at["pi"].size
-    turn = np.tile(np.linspace(0.0, 2 * math.pi, _STEPS), count)
-    values = {k: np.repeat(v, _STEPS) for k, v in at.items()} | {world.angle: turn}
+    whole, at = _expanded(world, order, way), states(world.bare)
+    quarters = [times(number(k), over(name("pi"), number(2))) for k in range(4)]
+    places = [_at_angle(whole, world.angle, quarter) for quarter in quarters]
     try:
-        with np.errstate(all="ignore"):
-            complete(theory, values, [ways[-1], *letters(printed)], FLOATS)
-            way, told = (np.asarray(evaluate(tree, values, FLOATS)) for tree in (name(ways[-1]), printed))
-            ratio = np.abs(told).reshape(count, _STEPS)[:, 0] / np.ptp(
-                np.broadcast_to(way, turn.shape).reshape(count, _STEPS), axis=1
-            )
-    except (BadInput, KeyError, ValueError):
+        ends, between = (
+            np.array([at.value(tree) for tree in trees])
+            for trees in (places, [_at_angle(whole, world.angle, number(Fraction(k, 7))) for k in range(1, 44)])
+        )
+    except (BadInput, KeyError, RecursionError):
         return
-    share = Fraction(float(ratio[0])).limit_denominator(_LARGEST) if np.isfinite(ratio).all() else Fraction(0)
-    if (
-        share and share.numerator <= _LARGEST and np.abs(ratio - float(share)).max() < 1e-4
-    ):  # ends lie between the steps
-        yield Expected(tree=over(printed, number(share)), printed=printed, note=f"the way of {ways[-1]} in a turn")
+    first, last = ends.argmin(axis=0), ends.argmax(axis=0)
+    low, high = np.bincount(first).argmax(), np.bincount(last).argmax()
+    usual = (first == low) & (last == high)  # the tangent of an angle that is drawn at random may have either sign
+    inside = (between >= ends.min(axis=0)) & (between <= ends.max(axis=0))
+    if inside.all() and usual.mean() > _MOST and low != high:
+        least, largest = places[low], places[high]
+        tree = minus(largest, least) if called == "stroke" else over(largest, least)
+        yield Expected(tree=tree, printed=printed, note=f"the ends of {way} in a turn")
+
+
+def _expanded(world: World, order: int, letter: str) -> Node:
+    # what turns, with all that turns in it as the text defines it
+    trees = {d.letter: d.tree for d in world.defined if d.order < order and world.turns(d.letter)}
+    tree: Node = name(letter)
+    for _ in range(_DEEPEST):
+        tree = substitute(tree, lambda n: trees.get(n.id) if isinstance(n, ast.Name) else None)
+    return tree
+
+
+def _at_angle(tree: Node, angle: str, value: Node) -> Node:
+    return substitute(tree, lambda n: value if isinstance(n, ast.Name) and n.id == angle else None)
 
 
 def held(world: World, said: Said) -> Iterator[Expected]:

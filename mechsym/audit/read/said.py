@@ -20,7 +20,7 @@ from mechsym.audit.read.nomenclature import Named, called, nomenclature, with_ma
 from mechsym.audit.read.refused import NO_LETTERS, SIGN, matrices_of, refused
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
-from mechsym.audit.read.subject import OPENED, listed, shared, subject
+from mechsym.audit.read.subject import OPENED, behind, listed, shared, subject
 from mechsym.audit.read.tree import Node, argument_of, check, number
 from mechsym.audit.read.tree import name as name_of
 from mechsym.errors import BadInput
@@ -36,6 +36,7 @@ _NO_PRODUCT = re.compile(
     r"\\(?:text|mathrm|rm)\s*\{?\s*[ij]\s*\}"
     r"|(?:(?<![A-Za-z])E|\\math(?:cal|bb|scr)\s*\{?\s*[A-Z]\s*\}?)\s*(?:\\left)?\s*\\\{"
 )
+_END = re.compile(r"\$\$|\\end\{[a-z]+\*?\}|\\\]")  # of a display
 _CLOSED = re.compile(r"(?:\\end\{[a-z]+\*?\}|\$\$|\\\])$")  # where a display ends
 _SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
@@ -65,6 +66,7 @@ _TIDY = (
 )
 
 
+_IN_FRONT = 400  # characters in front of an equation that may say what it is
 _FLAT = "it stands in plain text, where 12 may be 1/2 and x2 a square; give it between $$, as LaTeX"
 
 
@@ -182,12 +184,15 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         section = sum(start <= lines[equation.line - 1] for start in starts)
         opens = rows.get(equation.opens, equation.opens)
         words_end = opens or equation.begins  # of a row of many, the words in front of all
-        before = text[max(0, words_end - 240) : words_end]
+        before = text[max(0, words_end - _IN_FRONT) : words_end]
         one = _read(equation, spelling, section, before, inline)
         left = one.sides[0] if one.sides and not inline else None
         left = left and (argument_of(left, "sin", "cos", "tan") or left)
         if isinstance(left, ast.Name):
             phrase, last = spoken.of(opens, before)
+            if not phrase and (after := _END.search(text, equation.begins + len(equation.text))):
+                phrase = behind(text[after.end() : after.end() + 80])
+                last = phrase or last
             one = replace(one, about=last)
             if phrase:
                 ahead.setdefault(left.id, phrase)

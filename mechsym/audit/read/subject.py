@@ -160,7 +160,7 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
     spoken: the sentence as it is printed; ends: whether a verb ended it, as in `the torque of the gas is`.
     """
     first = re.match(
-        rf"(?:(?:The|Its|A|and the|and its|[A-Z][a-z]+'s)\s+|(?={_BARE}))({_SHORT})\s+"
+        rf"(?:(?:[Tt]he|[Ii]ts|A|and the|and its|[A-Z][a-z]+'s)\s+|(?={_BARE}))({_SHORT})\s+"
         r"(?:of|with|for|at|in|on|between|by|along)\b",
         bare,
     )
@@ -218,6 +218,14 @@ def _sentence(before: str) -> tuple[str, str, str]:
     whole = OPENED.sub("", before).rstrip(" \n:;.,")
     spoken = re.sub(r"\s*\([^()$]*\)$", "", _SENTENCE.split(whole)[-1])
     return whole, spoken, " ".join(_UNWORDED.sub(" ", spoken).split())
+
+
+def behind(after: str) -> str:
+    """What the words behind an equation call what it gives: `is the relative eccentricity`; empty where they do not."""
+    match = re.match(
+        rf"\s*(?:is|denotes)\s+(?:called\s+)?(?:the|an?)\s+({_SHORT})(?=\s*[,.;:]|\s+(?:and|of|where|with)\b)", after
+    )
+    return match[1] if match else ""
 
 
 def last_sentence(before: str) -> str:
