@@ -21,17 +21,64 @@ from mechsym.files import write_text
 from mechsym.mechanisms.crank_train.firing import lateness
 from mechsym.mechanisms.crank_train.parameters import CrankTrainParameters, each
 from mechsym.plausible import Doubt
-from mechsym.quantities import RPM
+from mechsym.quantities import RPM, record
 from mechsym.quantities.units import Metre, Pure
 from mechsym.torsion.modes import stiffness_factor
 
 _MOST = 12
 _COMPRESSION = ((0.1, 10), (0.14, 9), (math.inf, 8))  # widest bore [m], compression ratio below knock
 PISTON_MASS = 780  # mass of a piston by the cube of the bore [kg/m^3]
-ROD_MASS = 900  # of a rod by the same
+ROD_MASS = 900  # of a rod by the same [kg/m^3]
 _DAMPING = 0.12  # of the first mode: no order up to 12 is magnified by more than 5, wherever it is critical
 # mean piston speed at the speed of operation, usual at full power [m/s]
-_PISTON_SPEED = {"crosshead": 4.7, "small": 10.0, "four-stroke": 12.0}
+_PISTON_SPEED = {"crosshead": 4.7, "ship": 8.0, "small": 10.0, "four-stroke": 12.0}
+
+
+@record
+class _Build:
+    """Masses and widths of a crank train, and the rules by which they follow from bore and stroke."""
+
+    piston: float  #: What moves with the piston [kg]
+    rod: float  #: [kg]
+    throw: float  #: With webs and counterweights [kg]
+    inertia: float  #: Of a throw with its share of a rod [kg*m^2]
+    flywheel: float  #: Of an engine with three throws and more [kg*m^2]
+    pin: float  #: Radius of the piston pin, by the bore [-]
+    crank: float  #: Radius of crank pins and journals, by the bore [-]
+    wide: float  #: Width of the shaft, by the bore [-]
+    friction: float  #: Coefficient of the guides [-]
+    rules: Mapping[str, str]  #: Of each value, in words
+
+
+def _trunk(bore: float, stroke: float, flywheel: float = 160.0) -> _Build:
+    """Of an engine whose pistons guide themselves."""
+    piston, rod, square = PISTON_MASS * bore**3, ROD_MASS * bore**3, (stroke / 2) ** 2
+    rules = {
+        "of_rod": "900 kg/m3 of the cube of the bore", "of_throw": "four pistons",
+        "of_guide": "piston skirt, mixed lubrication",
+        "of_piston": "780 kg/m3 of the cube of the bore; piston, rings and pin", "of_inertia": "11 piston masses",
+        "of_pin": "an eighth of the bore", "of_crank": "0.3 of the bore", "of_flywheel": "piston",
+    }  # fmt: skip
+    return _Build(
+        piston=piston, rod=rod, throw=4 * piston, inertia=11 * piston * square, flywheel=flywheel * piston * square,
+        pin=1 / 8, crank=0.3, wide=0.6, friction=0.05, rules=rules,
+    )  # fmt: skip
+
+
+def _crossheads(bore: float, stroke: float) -> _Build:
+    """Of a large two-stroke: masses of a crosshead engine of bore 0.3 m and stroke 1 m, scaled."""
+    size, square = bore**2 * stroke / 0.09, (stroke / 2) ** 2
+    rod = 150 * size
+    rules = {
+        "of_rod": "1670 kg/m3 of bore^2 * stroke", "of_throw": "7.5 rods",
+        "of_guide": "shoe of the crosshead, oil film",
+        "of_piston": "5100 kg/m3 of bore^2 * stroke; piston, its rod and the crosshead", "of_inertia": "3 rod masses",
+        "of_pin": "of the crosshead, 0.42 of the bore", "of_crank": "0.55 of the bore", "of_flywheel": "rod",
+    }  # fmt: skip
+    return _Build(
+        piston=460 * size, rod=rod, throw=7.5 * rod, inertia=3 * rod * square, flywheel=100 * rod * square,
+        pin=0.42, crank=0.55, wide=1.1, friction=0.02, rules=rules,
+    )  # fmt: skip
 
 
 def write_engine(
@@ -55,47 +102,43 @@ def write_engine(
         layout = lay_out(count, hangs)
         what = words.format(n=count, angle=2 * layout.bank[-1]) if count > 1 else "engine, one cylinder"
         head = _head("crank_train", f"Four-stroke {what}, bore {1e3 * bore:g} mm", stroke, "four-stroke")
-        engine = head + _train(layout, bore, stroke, 3.5)
+        engine = head + _train(layout, bore, stroke, 3.5, _trunk(bore, stroke))
     else:
         engine = _KINDS[kind](bore, stroke, count)
-    text = _detuned(engine + _load_of(kind, gas, bore, stroke), bore, stroke)
+    build = (_crossheads if kind == "two-stroke-crosshead" else _trunk)(bore, stroke)
+    text = _detuned(engine + _load_of(kind, gas, bore, stroke), bore, build)
     file = out / f"{name or f'{kind}-{count}'}.toml"
     if file.exists():
         raise BadInput(f"{file} exists; choose another NAME or remove it")
     return [write_text(file, text)]
 
 
-def _detuned(text: str, bore: float, stroke: float) -> str:
+def _detuned(text: str, bore: float, build: _Build) -> str:
     """The text with the shaft of its crank train, if it has one, away from its major orders."""
     if "<k>" not in text:
         return text
     with TemporaryDirectory() as folder:
         first = Path(folder) / "first.toml"
-        first.write_text(fill(text, **_shaft(bore, stroke, 1, 1.0)), encoding="utf-8")
+        first.write_text(fill(text, **_shaft(bore, build, 1, 1.0)), encoding="utf-8")
         case = load(str(first))
     parameters, turns = case.need("parameters"), 2 if four_stroke(case.need("cycle")) else 1
     z = sorted(set(each(parameters, "z")))
     long = {"bay": min(np.diff(z)) / bore} if len(z) > 1 else {}
-    plain = dataclasses.replace(parameters, k=_shaft(bore, stroke, 1, 1.0, **long)["k"])
+    plain = dataclasses.replace(parameters, k=_shaft(bore, build, 1, 1.0, **long)["k"])
     factor = stiffness_factor(plain, case.need("operation").speed, 2 * math.pi * turns)
-    return fill(text, **_shaft(bore, stroke, max(parameters.throw), factor or 1.0, **long))
+    return fill(text, **_shaft(bore, build, max(parameters.throw), factor or 1.0, **long))
 
 
-def _shaft(bore: float, stroke: float, throws: int, factor: Pure, bay: Pure = 1.2) -> dict[str, float]:
+def _shaft(bore: float, build: _Build, throws: int, factor: Pure, bay: Pure = 1.2) -> dict[str, float]:
     """Stiffness [N*m/rad] and damping [N*m*s/rad] of a section, and the width of its shaft by the bore [-].
 
-    factor: of the stiffness, by that of a shaft of 0.6 bores. bay: length of a section, by the bore.
+    factor: of the stiffness, by that of a shaft as wide as usual. bay: length of a section, by the bore.
     """
-    wide = 0.6 * factor**0.25
+    wide = build.wide * factor**0.25
     stiffness = 0.5 * 80e9 * math.pi / 32 * (wide * bore) ** 4 / (bay * bore)
     # first natural frequency of equal throws on equal sections whose flywheel stands still
-    first = 2 * math.sqrt(stiffness / _throw_inertia(bore, stroke)) * math.sin(math.pi / (4 * throws + 2))
+    first = 2 * math.sqrt(stiffness / build.inertia) * math.sin(math.pi / (4 * throws + 2))
     return {"k": stiffness, "c": 2 * _DAMPING * stiffness / first, "wide": wide}
-
-
-def _throw_inertia(bore: float, stroke: float) -> float:
-    """Of a throw with its share of a rod: 11 piston masses at the crank radius [kg*m^2]."""
-    return 11 * PISTON_MASS * bore**3 * (stroke / 2) ** 2
 
 
 def _head(mechanism: str, about: str, stroke: float, usual: str) -> str:
@@ -126,10 +169,9 @@ def fill(text: str, **values: float | str) -> str:
 def _crosshead(bore: float, stroke: float, count: int) -> str:
     if count > 1:
         about = f"Two-stroke engine, {count} cylinders in line with crossheads, bore {1e3 * bore:g} mm"
-        head = _head("crank_train", about, stroke, "crosshead")
-        # slow pistons under a high pressure: ten times the flywheel of a fast engine for a ripple of a few per cent
-        train = _train(in_line(count, turns=1), bore, stroke, 4.6, flywheel=1600)
-        return head + train + fill(_start("two_stroke_large"), bore=bore * 1e3)
+        row = dataclasses.replace(in_line(count, turns=1), pitch=1.7)
+        train = _head("crank_train", about, stroke, "ship") + _train(row, bore, stroke, 2.5, _crossheads(bore, stroke))
+        return train + fill(_start("two_stroke_large"), bore=bore * 1e3)
     # masses, spring, guide and limits of an engine of bore 0.3 m and stroke 1 m that can be built, scaled
     size, area = bore**2 * stroke / 0.09, bore**2 / 0.09
     head = _head("crosshead", f"Two-stroke crosshead engine, bore {1e3 * bore:g} mm", stroke, "crosshead")
@@ -148,7 +190,11 @@ def _crosshead(bore: float, stroke: float, count: int) -> str:
 def _opposed(bore: float, stroke: float, count: int) -> str:
     about = f"Two-stroke engine, {count} cylinder{'s' * (count > 1)} with two opposed pistons, bore {1e3 * bore:g} mm"
     head = _head("crank_train", about, stroke, "small")
-    return head + _train(opposed(count), bore, stroke, 3.75) + fill(_start("two_stroke_small"), bore=bore * 1e3)
+    return (
+        head
+        + _train(opposed(count), bore, stroke, 3.75, _trunk(bore, stroke))
+        + fill(_start("two_stroke_small"), bore=bore * 1e3)
+    )
 
 
 def _hypocycloid(bore: float, stroke: float, count: int) -> str:
@@ -157,8 +203,8 @@ def _hypocycloid(bore: float, stroke: float, count: int) -> str:
     head = _head("hypocycloid", f"Four-stroke geared hypocycloid, bore {1e3 * bore:g} mm", stroke, "four-stroke")
     size = bore**3
     values = {"e": stroke / 4 * 1e3, "module": stroke / 52 * 1e3, "pin": bore * 1e3 / 4, "I1": 30 * size * stroke**2}
-    values |= {"piston": 780 * size, "planet": 300 * size, "I2": 300 * size * (stroke / 4) ** 2 / 2}
-    values["flywheel"] = 320 * 780 * size * (stroke / 2) ** 2
+    values |= {"piston": PISTON_MASS * size, "planet": 300 * size, "I2": 300 * size * (stroke / 4) ** 2 / 2}
+    values["flywheel"] = 320 * PISTON_MASS * size * (stroke / 2) ** 2
     return head + fill(_start("hypocycloid"), **values)
 
 
@@ -185,10 +231,10 @@ def _load_of(kind: str, gas: str, bore: float, stroke: float) -> str:
     )  # fmt: skip
 
 
-def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, flywheel: float = 160.0) -> str:
-    """Section `[parameters]` of a crank train but for its shaft: rods of `ratio` crank radii, the flywheel's masses."""
+def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, build: _Build) -> str:
+    """Section `[parameters]` of a crank train but for its shaft: rods of `ratio` crank radii."""
     radius, rod = stroke / 2, ratio * stroke / 2
-    piston, rod_mass = PISTON_MASS * bore**3, ROD_MASS * bore**3
+    piston, rod_mass = build.piston, build.rod
     throws = max(layout.throw)
     # the big end's share, with the centre of mass a third from it
     turning = (rod_mass * 2 / 3 + layout.turned * (piston + rod_mass / 3)) * radius
@@ -199,7 +245,8 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, fly
         there = sum(complex(math.cos(p), math.sin(p)) for p in pins)
         angle = round(math.degrees(math.atan2(there.imag, there.real)) % 360, 6)
         middles.append(angle if abs(there) > 1e-9 else 0.0)
-    heavy = flywheel * (2 if throws < 3 else 1)  # few throws push unevenly
+    inertia = build.flywheel * (2 if throws < 3 else 1)  # few throws push unevenly
+    of_flywheel = {"piston": piston, "rod": rod_mass}[build.rules["of_flywheel"]]
     far = 2 * (radius + rod + bore) + 0.02 * stroke
     ranked = sorted(range(len(layout.firing)), key=lambda i: layout.firing[i])
     together = len(set(layout.firing)) == 1 and len(ranked) > 1
@@ -207,26 +254,28 @@ def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, fly
     row = throws // 2 if layout.opposed else throws  # those of opposed pistons stand beside each other
     lists = {
         "throw": str(list(layout.throw)), "bank": _numbers(layout.bank, "deg"), "phase": _numbers(layout.phase, "deg"),
-        "order": (" and " if together else "-").join(str(i + 1) for i in ranked), **_rods(layout, bore, radius, rod),
+        "order": (" and " if together else "-").join(str(i + 1) for i in ranked),
+        **_rods(layout, bore, radius, rod, rod_mass),
         "weights": f"counterweights balance the turning part of the rods{also}",
         "u0": _numbers(unbalance, "kg*m"), "u_phase": _numbers(middles, "deg"),
         "z": _numbers([k % row * layout.pitch * bore * 1e3 for k in range(throws)], "mm"), "axes": _axes(layout, far),
     }  # fmt: skip
     numbers = {
-        "period": layout.period, "r": radius * 1e3, "rod": rod_mass, "piston": piston, "m0": 4 * piston,
-        "I0": _throw_inertia(bore, stroke), "I_f": heavy * piston * radius**2, "heavy": heavy, "ratio": ratio,
-        "pitch": layout.pitch, "pin": bore * 1e3 / 8, "r_crank": 0.3 * bore * 1e3, "ring": bore * 1e3 / 45,
+        "period": layout.period, "r": radius * 1e3, "rod": rod_mass, "piston": piston, "m0": build.throw,
+        "I0": build.inertia, "I_f": inertia, "heavy": inertia / (of_flywheel * radius**2), "ratio": ratio,
+        "pitch": layout.pitch, "pin": bore * 1e3 * build.pin, "r_crank": build.crank * bore * 1e3,
+        "ring": bore * 1e3 / 45, "mu_guide": build.friction,
     }  # fmt: skip
-    return fill(_start("train"), **lists, **numbers)
+    return fill(_start("train"), **lists, **numbers, **build.rules)
 
 
-def _rods(layout: CylinderLayout, bore: float, radius: float, rod: float) -> dict[str, str]:
+def _rods(layout: CylinderLayout, bore: float, radius: float, rod: float, mass: float) -> dict[str, str]:
     """Lengths and inertia of the rods, where and on which they hang, and when their cylinders fire.
 
     A rod that hangs is shorter by the radius of its knuckle pin, and its piston not quite at the top when the crank
     points to it.
     """
-    mass, firing = ROD_MASS * bore**3, layout.firing
+    firing = layout.firing
     if not layout.master:
         lengths = {"l1": f'"{rod / 3 * 1e3:.4g} mm"', "l2": f'"{rod * 2 / 3 * 1e3:.4g} mm"'}
         inertia = f'"{0.2 * mass * rod**2:.4g} kg*m^2"'

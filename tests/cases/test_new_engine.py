@@ -197,3 +197,13 @@ def test_brake_figures_stand_first(engine, tmp_path):
         assert friction["indicated_power"] - friction["power"] == pytest.approx(
             1e3 * told["brake_power_kw"][0], rel=2e-4
         )
+
+
+def test_crossheads_of_one_cylinder_and_of_many_are_as_heavy(tmp_path):
+    one, many = (
+        cases.load(str(write_engine("two-stroke-crosshead", 0.6, 2.4, count, tmp_path)[0])).need("parameters")
+        for count in (1, 6)
+    )
+    moving, rod = one.m3 + one.m4 + one.m5, one.m2
+    assert many.m_piston == pytest.approx(moving, rel=1e-3) and many.m_rod == pytest.approx(rod, rel=1e-3)
+    assert max(many.z) / 5 == pytest.approx(1.7 * 0.6)
