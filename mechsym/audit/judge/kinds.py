@@ -159,7 +159,7 @@ class Kinds:
         if is_left(inner):
             raise Unknown
         if any(inner[:4]) and function != "log":  # log p + n log V is right in any unit
-            raise Clash(f"the argument of {function} has the unit {text(inner)}")
+            raise Clash(f"the argument of {function} has the unit {shown(inner)}")
         return PURE
 
     def _operation(self, tree: ast.BinOp) -> Kind:
@@ -193,7 +193,7 @@ class Kinds:
                 return second if value_of(left) == 0 else first
             if is_left(first) or is_left(second):
                 raise Unknown
-            raise Clash(f"{text(first)} is added to {text(second)}")
+            raise Clash(f"{shown(first)} is added to {shown(second)}")
         return first if any(first[4:]) else second
 
 
@@ -210,9 +210,19 @@ def text(kind: Kind) -> str:
     return " ".join(shown) or "1"
 
 
+def shown(kind: Kind) -> str:
+    """A kind as people write its unit: N in place of kg m s^-2."""
+    return _NAMES.get(kind[:4]) or text(kind)
+
+
 def of_unit(unit: str) -> Kind:
     """Kind of a printed unit."""
     return (*map(Fraction, dimension(unit)), Fraction(0), Fraction(0))
+
+
+_NAMES = {
+    of_unit(unit)[:4]: name for unit, name in (("N", "N"), ("Pa", "Pa"), ("J", "J or N m"), ("W", "W"), ("Hz", "1/s"))
+}
 
 
 def kinds_of(paper: Text) -> Kinds:

@@ -4,7 +4,7 @@ import ast
 from collections import Counter
 from collections.abc import Sequence
 
-from mechsym.audit.judge.kinds import PURE, SIXTY, THOUSAND, Clash, Kind, Kinds, Unknown, letters_of, text
+from mechsym.audit.judge.kinds import PURE, SIXTY, THOUSAND, Clash, Kind, Kinds, Unknown, letters_of, shown
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.tree import letters, value_of
@@ -55,7 +55,7 @@ def _unlike(kinds: Kinds, one: Said, sides: Sequence[tuple[int, Kind]]) -> list[
     plain = Counter(k[:4] for _, k in sides)
     common = plain.most_common(1)[0][0] if len(sides) > 2 else sides[0][1][:4]
     misfits = [
-        Odd(said=one, part=i, why=f"its unit is {text(k)}, and that of the other side {text((*common, *PURE[4:]))}")
+        Odd(said=one, part=i, why=f"its unit is {shown(k)}, and that of the other side {shown((*common, *PURE[4:]))}")
         for i, k in sides if k[:4] != common
     ]  # fmt: skip
     if misfits:

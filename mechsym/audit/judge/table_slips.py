@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from mechsym.audit.judge.kinds import Kind, Kinds, converted, infer, letters_of, of_unit, text
+from mechsym.audit.judge.kinds import Kind, Kinds, converted, infer, letters_of, of_unit, shown
 from mechsym.audit.judge.misfits import Odd, id_of, odd
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
@@ -46,7 +46,7 @@ def table_slips(paper: Text, kinds: Kinds, misfits: Sequence[Odd]) -> tuple[list
         kinds.inferred.pop(letter, None)
         left, _ = odd(kinds, paper.said)
         names = list(dict.fromkeys(o.said.name for o in mended if all(o.said.name != m.said.name for m in left)))
-        slips.append(TableSlip(letter=letter, printed=about.unit, wanted=text(kind), line=about.line, equations=names))
+        slips.append(TableSlip(letter=letter, printed=about.unit, wanted=shown(kind), line=about.line, equations=names))
     return slips, left
 
 
