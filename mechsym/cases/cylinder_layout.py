@@ -11,6 +11,13 @@ _ORDERS = {
     1: (1,), 2: (1, 2), 3: (1, 3, 2), 4: (1, 3, 4, 2), 5: (1, 2, 4, 5, 3), 6: (1, 5, 3, 6, 2, 4),
     8: (1, 6, 2, 5, 8, 3, 7, 4),
 }  # fmt: skip
+# of two-strokes, whose cranks stand in the order of firing: the couples of first and second order on the frame are
+# small, as in the engines of the large builders (of six none of first order)
+_TWO_STROKE_ORDERS = {
+    4: (1, 3, 2, 4), 5: (1, 4, 3, 2, 5), 6: (1, 5, 3, 4, 2, 6), 7: (1, 7, 2, 5, 4, 3, 6), 8: (1, 8, 3, 4, 7, 2, 5, 6),
+    9: (1, 9, 2, 7, 4, 5, 6, 3, 8), 10: (1, 8, 5, 7, 2, 9, 4, 6, 3, 10), 11: (1, 10, 3, 8, 6, 5, 7, 4, 9, 2, 11),
+    12: (1, 8, 12, 4, 2, 9, 10, 5, 3, 7, 11, 6),
+}  # fmt: skip
 # of a V whose order is not twice that of a bank: eight on pins a quarter of a turn apart, with no second-order force
 _V_ORDERS = {8: (1, 5, 4, 2, 6, 3, 7, 8)}
 _BANKS = {2: 90, 4: 90, 6: 60, 8: 90, 10: 72, 12: 60}  # angle between the banks of a V engine [deg]
@@ -33,7 +40,8 @@ class CylinderLayout:
 
 def in_line(count: int, turns: int) -> CylinderLayout:
     """Cylinders in line, evenly fired, one throw each. turns: 1 for two-stroke, 2 for four-stroke."""
-    order = _ORDERS.get(count, (*range(1, count + 1, 2), *range(count - count % 2, 0, -2)))
+    usual = _ORDERS.get(count, (*range(1, count + 1, 2), *range(count - count % 2, 0, -2)))
+    order = _TWO_STROKE_ORDERS.get(count, usual) if turns == 1 else usual
     firing, bank = firing_angles(order, turns * 2 * math.pi), (0.0,) * count
     throw, phase = tuple(range(1, count + 1)), _degrees(crank_phases(firing, bank))
     return CylinderLayout(throw=throw, bank=bank, firing=_degrees(firing), phase=phase, period=360.0 * turns)

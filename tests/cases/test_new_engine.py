@@ -207,3 +207,14 @@ def test_crossheads_of_one_cylinder_and_of_many_are_as_heavy(tmp_path):
     moving, rod = one.m3 + one.m4 + one.m5, one.m2
     assert many.m_piston == pytest.approx(moving, rel=1e-3) and many.m_rod == pytest.approx(rod, rel=1e-3)
     assert max(many.z) / 5 == pytest.approx(1.7 * 0.6)
+
+
+@pytest.mark.parametrize("count", range(4, 13))
+def test_a_two_stroke_fires_in_an_order_that_leaves_small_couples(count):
+    # m r omega^2 of one cylinder at one pitch is 1; the order 1-3-5-..-4-2 leaves more than one of it up to 29
+    z = np.arange(count) - (count - 1) / 2
+    pins = np.radians(in_line(count, turns=1).phase)
+    couples = [abs(np.sum(z * np.exp(1j * k * pins))) for k in (1, 2)]
+    assert sorted(in_line(count, turns=1).phase) == pytest.approx([360 * i / count for i in range(count)])
+    assert couples[0] < 1.5 and (couples[1] < 1.5 or count in (4, 5, 6))
+    assert count != 6 or couples[0] < 1e-9
