@@ -37,7 +37,6 @@ from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope
 from mechsym.audit.read.spelling import to_latex
-from mechsym.audit.read.subject import last_sentence
 from mechsym.audit.read.tree import Node, function_of, is_operation, letters, negative, value_of
 from mechsym.audit.theory.record import Theory
 from mechsym.audit.theory.tape import minus, plus
@@ -48,9 +47,8 @@ _CASE = re.compile(
     r"(?:^|[.:]\s)\s*(?:For|In|Under|During)\s[^,.:$]*,"  # for method B, it is
     r"|\b(?:if|when|whenever|otherwise|unless|else)\b|\\(?:leq?|geq?|lt|gt|ll|gg)(?![A-Za-z])|(?<!\w)[<>](?=\s)"
 )
-_REWRITTEN = re.compile(
-    r"\b(?:simplif\w+|equivalent|again|rewrit\w+|other words|substitut\w+|thus|hence|therefore|so that|becomes?|gives?"
-    r"|yields?|follows?|that is|written|express\w+|obtain\w+|reduc\w+|insert\w+)\b",
+_OTHER_CASE = re.compile(
+    r"\b(?:type|case|variant|version|option|method)\s(?:\d|[ivx]+\b|[a-c]\b)|\b(?:doubl|halv|tripl)\w+|\binstead\b",
     re.IGNORECASE,
 )
 _NEARLY = 0.1  # what is cut short is off by at the most, of its largest value [-]
@@ -348,13 +346,13 @@ class Judge:
         return self._unlike(order, said, i, k, theory)
 
     def _is_of_case(self, order: int, left: Node, note: str) -> bool:
-        # of a letter that is given anew, unless a word says that it is the same in another form
+        # of a letter that is given anew, with a term more, or with another number where words tell of another case
         said = self.world.paper.said[order]
         if not isinstance(left, ast.Name):
             return False
         before = [one.sides[0] for one in self.world.paper.said[:order] if len(one.sides) == 2 and not one.inline]
         again = any(isinstance(one, ast.Name) and one.id == left.id for one in before)
-        number = again and "repaired by factor" in note and not _REWRITTEN.search(last_sentence(said.before))
+        number = again and "repaired by factor" in note and _OTHER_CASE.search(said.before) is not None
         return "left out" in note or number
 
     def _unlike(self, order: int, said: Said, i: int, k: int, theory: Theory) -> Judged:

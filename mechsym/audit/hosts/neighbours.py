@@ -236,7 +236,8 @@ def _met(fitted: Fitted, form: Formula, states: Probes, si: bool) -> Iterator[tu
         if met is not None:
             seen.add(quantity)
             right = of_sign(met.ratio) if si else of_units(met.ratio) or met.shift
-            wholly = fitted.rank == WHOLLY and fitted.strong == len(fitted.meanings) > 1  # a ratio that is turned over
+            # a ratio that is turned over
+            wholly = met.ratio is None and fitted.rank == WHOLLY and fitted.strong == len(fitted.meanings) > 1
             if right or is_slip(met.ratio) or wholly:
                 yield (0.0 if right else max(met.away, 1e-9)), quantity
     many = len(fitted.meanings)

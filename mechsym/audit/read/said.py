@@ -66,7 +66,7 @@ _TIDY = (
 )
 
 
-_IN_FRONT = 400  # characters in front of an equation that may say what it is
+_IN_FRONT = 240  # characters in front of an equation that may say what it is
 _FLAT = "it stands in plain text, where 12 may be 1/2 and x2 a square; give it between $$, as LaTeX"
 
 

@@ -160,7 +160,7 @@ def _chosen(bare: str, spoken: str, ends: bool) -> tuple[str, str]:
     spoken: the sentence as it is printed; ends: whether a verb ended it, as in `the torque of the gas is`.
     """
     first = re.match(
-        rf"(?:(?:[Tt]he|[Ii]ts|A|and the|and its|[A-Z][a-z]+'s)\s+|(?={_BARE}))({_SHORT})\s+"
+        rf"(?:(?:The|Its|A|and the|and its|[A-Z][a-z]+'s)\s+|(?={_BARE}))({_SHORT})\s+"
         r"(?:of|with|for|at|in|on|between|by|along)\b",
         bare,
     )
@@ -226,11 +226,6 @@ def behind(after: str) -> str:
         rf"\s*(?:is|denotes)\s+(?:called\s+)?(?:the|an?)\s+({_SHORT})(?=\s*[,.;:]|\s+(?:and|of|where|with)\b)", after
     )
     return match[1] if match else ""
-
-
-def last_sentence(before: str) -> str:
-    """The words of the last sentence in front of an equation."""
-    return _sentence(before)[2]
 
 
 def shared(before: str) -> str:
