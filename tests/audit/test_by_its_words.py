@@ -27,7 +27,7 @@ DISCS = (
         ),
         (POTENTIAL + "At rest the motor has to hold\n", r"\tau", r"m g s\cos q", r"m g s\sin q"),
         (
-            "The pump of the displacement $V_g$ in m^3 and the efficiency $\\eta$ at the pressure $p$ needs the torque\n",
+            "A pump of the displacement $V_g$ in m^3 and the efficiency $\\eta$ at the pressure $p$ needs a torque\n",
             "M", r"\frac{V_g p}{2\pi\eta}", r"\frac{V_g p}{2\pi}\eta",
         ),
         (DISCS, r"\omega^4 - \omega^2\left(\frac{c}{J_1} + \frac{c}{J_2}\right)", "0", None),
