@@ -79,3 +79,12 @@ def test_what_stands_behind_an_equation_names_it(tmp_path):
     )
     rows = [judged(tmp_path, text % form, "text.md")[-1] for form in (r"\frac{e}{c}", r"\frac{c}{e}")]
     assert [row["verdict"] for row in rows] == ["exact", "misprint"]
+
+
+def test_a_gear_whose_ratio_is_told_the_other_way_round_is_no_other_gear(tmp_path):
+    text = (
+        "A gear with the gear ratio $i = %s$ moves the moment of inertia $J_2$ to the first shaft, where the reduced\n"
+        "inertia is\n$$ J_{red} = \\frac{J_2}{i^2} $$"
+    )
+    rows = [judged(tmp_path, text % ratio, "text.md")[-1] for ratio in (r"\omega_1/\omega_2", r"\omega_2/\omega_1")]
+    assert rows[0]["verdict"] == "exact" and rows[1]["verdict"] != "exact"

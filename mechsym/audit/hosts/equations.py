@@ -16,6 +16,7 @@ from mechsym.audit.judge import misfits as of_units
 from mechsym.audit.judge.following import CUT_SHORT, expected, solved
 from mechsym.audit.judge.forms import (
     are_told,
+    has_nothing,
     has_sense,
     is_another,
     is_one_of_several,
@@ -177,6 +178,8 @@ class Judge:
                 agreed = agreed or Judged(verdict=verdict, matched=row["claim"], note=row.get("note", ""), error=error)
                 continue
             right = self.worded.in_own_letters(read_expression(row["correction"], (), AnyLetter())[0], said.sides[k])
+            if has_nothing(right):
+                continue
             gone = [n for n in letters(said.sides[k]) if n not in letters(right)]
             if wrong := [n for n in gone if n in self.asking.wrong]:
                 return follows(self.asking, wrong)

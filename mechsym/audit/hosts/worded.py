@@ -9,7 +9,7 @@ from functools import cache
 from mechsym.audit.hosts.neighbours import Neighbours
 from mechsym.audit.judge.kinds import kind_in, of_unit
 from mechsym.audit.judge.lexicon import Lexicon
-from mechsym.audit.judge.sampled import vanishes
+from mechsym.audit.judge.sampled import alike, states, vanishes
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.programs.claims import Claim
@@ -35,6 +35,8 @@ from mechsym.audit.theory.catalogue import named, shipped
 from mechsym.audit.theory.record import Theory
 
 _ALONE = 4  # operations of a formula of one letter that is held against theories: (2/(k + 1))^(k/(k - 1))
+_SPEED = re.compile(r"(?:omega|Omega|w|n|N)(?=\d$)")  # of the first shaft, and of the second
+_TRANSMISSIONS = {"gear ratio", "transmission ratio", "speed ratio"}
 _SUM = "forcesum"  # letter for a sum of forces
 _FROM_TOP = re.compile(r"\b(?:from|after|past)\s+(?:the\s+|its\s+)?(?:top|inner|upper)\s+dead\s+cent", re.IGNORECASE)
 # slider cranks are counted from the other dead centre in every theory
@@ -122,11 +124,21 @@ class Worded:
                 phrase = self.world.paper.called.get(one.letter, "").split()
                 if any(word in phrase for word in said if len(word) > 2):
                     tree = ast.parse(meaning, mode="eval").body
-                    tree = renamed(tree, {k: k.replace("_", "") for k in letters(tree)})
                     if {*letters(tree)} == {*letters(one.tree)} and to_python(tree) != to_python(one.tree):
                         values = {name: 0.7 + 0.1 * k for k, name in enumerate(letters(tree))}
                         first, second = (float(evaluate(t, values, FLOATS)) for t in (tree, one.tree))
                         return abs(first - second) > 1e-9 * abs(first)
+        return self._turns_its_ratio(theory)
+
+    def _turns_its_ratio(self, theory: Theory) -> bool:
+        # whether a ratio of two speeds is the other way round than in a theory
+        for one in self.world.defined:
+            own = _in_letters_of(theory, one.tree) if "ratio" in self.world.phrase(one.letter) else None
+            for meaning, said in theory.words.items() if own is not None else ():
+                if meaning not in theory.letters and not _TRANSMISSIONS.isdisjoint(said) and own is not None:
+                    tree = read_expression(meaning, (), AnyLetter())[0]
+                    if {*letters(tree)} & {*letters(own), *theory.tape} and alike(states(theory), own, tree) is False:
+                        return True
         return False
 
     def outcome(self, order: int, side: int) -> Row | None:
@@ -171,6 +183,14 @@ class Worded:
                 right = read_expression(row["correction"], (), AnyLetter())[0]
                 if letter not in letters(right):
                     yield order, claim.tree, right, row["claim"]
+
+
+def _in_letters_of(theory: Theory, tree: Node) -> Node | None:
+    # omega2/omega1 as n_2/n_1 of a theory that counts turns; None where it is no ratio of speeds, or not of these
+    known = {n.replace("_", ""): n for n in (*theory.letters, *theory.tape)}
+    meant = {n: known.get(n) or known.get(_SPEED.sub("n", n)) for n in letters(tree) if _SPEED.match(n)}
+    ratio = is_operation(tree, ast.Div) and len(meant) == len(letters(tree)) == 2
+    return renamed(tree, {n: m for n, m in meant.items() if m}) if ratio and all(meant.values()) else None
 
 
 def _ruled_out(before: str, prose: str) -> str:

@@ -89,9 +89,9 @@ def are_told(world: World, tree: Node, meant: Mapping[str, str]) -> bool:
 
 
 def has_nothing(tree: Node) -> bool:
-    """Whether something in an expression is taken from itself."""
-    differences = [n for _, n in walk(tree) if isinstance(n, ast.BinOp) and isinstance(n.op, ast.Sub)]
-    return any(ast.dump(n.left) == ast.dump(n.right) for n in differences)
+    """Whether something in an expression is taken from itself, or divided by itself."""
+    pairs = [n for _, n in walk(tree) if isinstance(n, ast.BinOp) and isinstance(n.op, (ast.Sub, ast.Div))]
+    return any(ast.dump(n.left) == ast.dump(n.right) for n in pairs)
 
 
 def is_one_of_several(world: World, said: Said) -> bool:
