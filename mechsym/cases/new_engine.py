@@ -35,7 +35,7 @@ _PISTON_SPEED = {"crosshead": 4.7, "ship": 8.0, "small": 10.0, "four-stroke": 12
 
 
 @record
-class _Build:
+class _Proportions:
     """Masses and widths of a crank train, and the rules by which they follow from bore and stroke."""
 
     piston: float  #: What moves with the piston [kg]
@@ -50,7 +50,7 @@ class _Build:
     rules: Mapping[str, str]  #: Of each value, in words
 
 
-def _trunk(bore: float, stroke: float, flywheel: float = 160.0) -> _Build:
+def _trunk(bore: float, stroke: float, flywheel: float = 160.0) -> _Proportions:
     """Of an engine whose pistons guide themselves."""
     piston, rod, square = PISTON_MASS * bore**3, ROD_MASS * bore**3, (stroke / 2) ** 2
     rules = {
@@ -59,13 +59,13 @@ def _trunk(bore: float, stroke: float, flywheel: float = 160.0) -> _Build:
         "of_piston": "780 kg/m3 of the cube of the bore; piston, rings and pin", "of_inertia": "11 piston masses",
         "of_pin": "an eighth of the bore", "of_crank": "0.3 of the bore", "of_flywheel": "piston",
     }  # fmt: skip
-    return _Build(
+    return _Proportions(
         piston=piston, rod=rod, throw=4 * piston, inertia=11 * piston * square, flywheel=flywheel * piston * square,
         pin=1 / 8, crank=0.3, wide=0.6, friction=0.05, rules=rules,
     )  # fmt: skip
 
 
-def _crossheads(bore: float, stroke: float) -> _Build:
+def _crossheads(bore: float, stroke: float) -> _Proportions:
     """Of a large two-stroke: masses of a crosshead engine of bore 0.3 m and stroke 1 m, scaled."""
     size, square = bore**2 * stroke / 0.09, (stroke / 2) ** 2
     rod = 150 * size
@@ -75,7 +75,7 @@ def _crossheads(bore: float, stroke: float) -> _Build:
         "of_piston": "5100 kg/m3 of bore^2 * stroke; piston, its rod and the crosshead", "of_inertia": "3 rod masses",
         "of_pin": "of the crosshead, 0.42 of the bore", "of_crank": "0.55 of the bore", "of_flywheel": "rod",
     }  # fmt: skip
-    return _Build(
+    return _Proportions(
         piston=460 * size, rod=rod, throw=7.5 * rod, inertia=3 * rod * square, flywheel=100 * rod * square,
         pin=0.42, crank=0.55, wide=1.1, friction=0.02, rules=rules,
     )  # fmt: skip
@@ -113,7 +113,7 @@ def write_engine(
     return [write_text(file, text)]
 
 
-def _detuned(text: str, bore: float, build: _Build) -> str:
+def _detuned(text: str, bore: float, build: _Proportions) -> str:
     """The text with the shaft of its crank train, if it has one, away from its major orders."""
     if "<k>" not in text:
         return text
@@ -129,7 +129,7 @@ def _detuned(text: str, bore: float, build: _Build) -> str:
     return fill(text, **_shaft(bore, build, max(parameters.throw), factor or 1.0, **long))
 
 
-def _shaft(bore: float, build: _Build, throws: int, factor: Pure, bay: Pure = 1.2) -> dict[str, float]:
+def _shaft(bore: float, build: _Proportions, throws: int, factor: Pure, bay: Pure = 1.2) -> dict[str, float]:
     """Stiffness [N*m/rad] and damping [N*m*s/rad] of a section, and the width of its shaft by the bore [-].
 
     factor: of the stiffness, by that of a shaft as wide as usual. bay: length of a section, by the bore.
@@ -231,7 +231,7 @@ def _load_of(kind: str, gas: str, bore: float, stroke: float) -> str:
     )  # fmt: skip
 
 
-def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, build: _Build) -> str:
+def _train(layout: CylinderLayout, bore: float, stroke: float, ratio: float, build: _Proportions) -> str:
     """Section `[parameters]` of a crank train but for its shaft: rods of `ratio` crank radii."""
     radius, rod = stroke / 2, ratio * stroke / 2
     piston, rod_mass = build.piston, build.rod

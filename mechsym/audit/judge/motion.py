@@ -3,11 +3,12 @@
 import ast
 import re
 from collections import Counter
+from functools import partial, reduce
 
 from mechsym.audit.read.said import Said, Text
 from mechsym.audit.read.slopes import slope_in
 from mechsym.audit.read.spelling import SPEEDS
-from mechsym.audit.read.tree import argument_of, factors, letters, walk
+from mechsym.audit.read.tree import Node, argument_of, binary, factors, letters, name, substitute, walk
 
 ANGLES = ("varphi", "phi", "theta", "alpha", "gamma", "psi")
 KINETIC, _POTENTIAL = ("T", "K", "Ek", "Ekin", "EK", "calT"), ("V", "U", "Pi", "Ep", "Epot", "EP", "calV", "calU")
@@ -61,3 +62,17 @@ def energies_of(paper: Text) -> tuple[str, ...]:
     called = [k for k in defined if k in _POTENTIAL and "energy" in paper.called.get(k, "")]
     potential = called or near
     return (*kinetic, *potential) if len(potential) < 2 else ()
+
+
+def with_angle(tree: Node, rate: str, angle: str) -> Node:
+    """The tree with an angle in place of the product of its rate and time."""
+
+    def changed(node: Node) -> Node | None:
+        parts = factors(node)
+        names = [f.id for f in parts if isinstance(f, ast.Name)]
+        if names.count("t") != 1 or names.count(rate) != 1:
+            return None
+        rest = [f for f in parts if not (isinstance(f, ast.Name) and f.id in ("t", rate))]
+        return reduce(partial(binary, ast.Mult), [*(with_angle(f, rate, angle) for f in rest), name(angle)])
+
+    return substitute(tree, changed)

@@ -10,10 +10,10 @@ import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, partial, reduce
+from functools import cached_property
 
 from mechsym.audit.judge.kinds import PURE, Kinds, text
-from mechsym.audit.judge.motion import ANGLES, angle_of, energies_of, even_rate
+from mechsym.audit.judge.motion import ANGLES, angle_of, energies_of, even_rate, with_angle
 from mechsym.audit.judge.primes import is_rate, stems_of
 from mechsym.audit.judge.solving import isolate, targets
 from mechsym.audit.read.reader import RESERVED
@@ -24,7 +24,6 @@ from mechsym.audit.read.tree import (
     Node,
     argument_of,
     binary,
-    factors,
     function_of,
     is_operation,
     letters,
@@ -93,7 +92,7 @@ class World:
         if len(rates) != 1 or not angle:
             return
         rate = rates.pop()
-        said = [replace(one, sides=tuple(_with_angle(s, rate, angle) for s in one.sides)) for one in self.paper.said]
+        said = [replace(one, sides=tuple(with_angle(s, rate, angle) for s in one.sides)) for one in self.paper.said]
         if any("t" in letters(side) for one in said for side in one.sides):
             return
         sign = rf"\{rate} t" if len(rate) > 1 else f"{rate} t"
@@ -368,20 +367,6 @@ class World:
             return Letter(unit=unit, value=value, sign="any")  # at 1 a rate that is left out would not be missed
         share = zlib.crc32(letter.encode()) % 100 / 250
         return Letter(unit=unit, value=4.0 if rod else 0.8 + share, sign="positive")
-
-
-def _with_angle(tree: Node, rate: str, angle: str) -> Node:
-    """The tree with an angle in place of the product of its rate and time."""
-
-    def changed(node: Node) -> Node | None:
-        parts = factors(node)
-        names = [f.id for f in parts if isinstance(f, ast.Name)]
-        if names.count("t") != 1 or names.count(rate) != 1:
-            return None
-        rest = [f for f in parts if not (isinstance(f, ast.Name) and f.id in ("t", rate))]
-        return reduce(partial(binary, ast.Mult), [*(_with_angle(f, rate, angle) for f in rest), name(angle)])
-
-    return substitute(tree, changed)
 
 
 def _in_order(tape: Mapping[str, Node]) -> Iterator[tuple[str, Node]]:
