@@ -151,14 +151,7 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     indexed = frozenset(
         base for base, both in pairs.items() if len(both) > 1 and all(abs(int(i) - int(j)) in (1, 3) for i, j in both)
     )
-    named: dict[str, Named] = {}
-    for symbol, about in written.items():
-        if plain := _plain(symbol, words, twofold):
-            named.setdefault(plain, about)
-    ahead: dict[str, str] = {plain: about.meaning for plain, about in named.items() if about.meaning}
-    for symbol, phrase in called(spoken_of).items():
-        if plain := _plain(symbol, words, twofold):
-            ahead[plain] = phrase
+    named, ahead = _names(written, called(spoken_of), words, twofold)
     starts = [m.start() for m in _SECTION.finditer(text)]
     lines = [0]
     lines += [m.end() for m in re.finditer("\n", text)]
@@ -199,6 +192,21 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         if one.sides or not inline:
             said.append(one)
     return Text(said=said, named=named, called=ahead, prose=text)
+
+
+def _names(
+    written: Mapping[str, Named], spoken: Mapping[str, str], words: Sequence[str], twofold: Sequence[str]
+) -> tuple[dict[str, Named], dict[str, str]]:
+    # what tables and sentences say of letters, by plain name, and what each is called
+    named: dict[str, Named] = {}
+    for symbol, about in written.items():
+        if plain := _plain(symbol, words, twofold):
+            named.setdefault(plain, about)
+    ahead = {plain: about.meaning for plain, about in named.items() if about.meaning}
+    for symbol, phrase in spoken.items():
+        if plain := _plain(symbol, words, twofold):
+            ahead[plain] = phrase
+    return named, ahead
 
 
 def _rows(text: str, shown: Sequence[Displayed]) -> dict[int, int]:
