@@ -157,6 +157,8 @@ def texts() -> None:
     print(f"OpenFAST: {right:.0f}, {left:.0f} and {flat} m of liquid, in all {right + left + flat:.0f} m")
     flow, volume_of_kg, low, high = 10, 1e-3, 1e5, 10e5
     pumped = flow * volume_of_kg * (high - low) / 1e3
+    inertia = 2 * (12000 + np.pi**2) / 20.944**2
+    print(f"dontCompete: {30 * inertia:.0f} kg m^2 as written, {inertia:.1f} kg m^2")
     print(f"CBE20255: a pump that takes {-pumped:.0f} kW as written, {pumped:.0f} kW")
     strength, turn = 5, np.linspace(0, 2 * np.pi, 3601)
     x, y = np.cos(turn), np.sin(turn)

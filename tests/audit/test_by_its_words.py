@@ -46,9 +46,9 @@ def test_what_words_ask_for_is_right_or_one_slip_away(before, left, right, wrong
 
 
 def test_a_determinant_tells_a_frequency_that_is_wrong(tmp_path):
-    wrong = r"\omega^4 - \omega^2\left(\frac{c}{J_1} - \frac{c}{J_2}\right) = 0"
-    row = judged(tmp_path, f"{DISCS}$$ {wrong} $$", "text.md")[-1]
-    assert row["verdict"] == "misprint" and "determinant" in row["note"] or "repaired by sign" in row["note"]
+    right, wrong = (rf"\omega^4 - \omega^2\left(\frac{{c}}{{J_1}} {sign} \frac{{c}}{{J_2}}\right)" for sign in "+-")
+    row = judged(tmp_path, f"{DISCS}$$ {wrong} = 0 $$", "text.md")[-1]
+    assert row["verdict"] == "misprint" and same(row["correction"], right)
 
 
 def test_letters_of_a_plain_sentence_and_of_one_head_are_known(tmp_path):

@@ -258,17 +258,16 @@ def _above(tree: Node) -> list[str]:
 
 def _transmitted(world: World, said: Said) -> Iterator[Expected]:
     """A torque by another one and the ratio of their speeds: what goes in comes out, so that the ratio is turned."""
-    printed = world.plain(said.sides[1])
-    own, speeds = getattr(said.sides[0], "id", ""), [k for k in letters(said.sides[1]) if k.startswith(SPEEDS)]
-    torques = [k for k in letters(printed) if k[0] == own[:1] and k[1:] != own[1:]]
-    if len(torques) != 1 or len(speeds) != 2 or {k.lstrip("omegaw") for k in speeds} != {own[1:], torques[0][1:]}:
+    own, used = getattr(said.sides[0], "id", ""), letters(said.sides[1])
+    speeds = {k.removeprefix(s): k for k in used for s in SPEEDS if k.startswith(s)}  # by their indices
+    torques = [k for k in used if k not in speeds.values()]
+    if len(torques) != 1 or torques[0][:1] != own[:1] or own[1:] == torques[0][1:]:
         return
-    first = next(k for k in speeds if k.endswith(own[1:]))
-    second = next(k for k in speeds if k != first)
-    tree = times(name(torques[0]), over(name(second), name(first)))
-    if {*letters(said.sides[1])} == {torques[0], *speeds}:
+    if speeds.keys() == {own[1:], torques[0][1:]}:
+        tree = times(name(torques[0]), over(name(speeds[torques[0][1:]]), name(speeds[own[1:]])))
         for whole in (tree, negative(tree)):
-            yield Expected(tree=world.plain(whole), printed=printed, note="the power of both is the same")
+            note = "the power of both is the same"
+            yield Expected(tree=world.plain(whole), printed=world.plain(said.sides[1]), note=note)
 
 
 def _of_turns(world: World, said: Said) -> Iterator[Expected]:

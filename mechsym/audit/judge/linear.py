@@ -55,11 +55,10 @@ def characteristic(world: World, order: int, said: Said) -> Iterator[Expected]:
         return
     rows: dict[str, Node] = {}
     for place, source in enumerate(world.paper.said[:order]):
-        two = len(source.sides) == 2 and not source.inline
-        left = mended(world, place) or source.sides[0] if two else number(0)
-        whole = minus(left, source.sides[1]) if two else number(0)
-        own = [k.removesuffix("dd") for k in letters(whole) if k.endswith("dd") and len(k) > 2]
-        rows |= {own[0]: whole} if len(own) == 1 else {}
+        rates = {k for side in source.sides for k in letters(side) if k.endswith("dd") and len(k) > 2}
+        if len(source.sides) == 2 and not source.inline and len(rates) == 1:
+            left = mended(world, place) or source.sides[0]
+            rows[rates.pop().removesuffix("dd")] = minus(left, source.sides[1])
     if not 1 < len(rows) <= _MOST:
         return
     square, zero = times(name(frequency), name(frequency)), number(0)

@@ -45,8 +45,9 @@ def averaged(said: Said) -> Iterator[Expected]:
 
 def over_a_turn(world: World, order: int, said: Said) -> Iterator[Expected]:
     """The stroke of the way that was given last, or the ratio of a volume's ends, at quarters of a turn."""
-    printed, called = world.plain(said.sides[1]), world.paper.called.get(getattr(said.sides[0], "id", ""), said.about)
-    kind = of_unit("m" if called == "stroke" else "m^3")
+    printed = world.plain(said.sides[1])
+    is_stroke = "stroke" in (said.about, world.paper.called.get(getattr(said.sides[0], "id", "")))
+    kind = of_unit("m" if is_stroke else "m^3")
     moving = [d.letter for d in world.defined if d.order < order and world.turns(d.letter)]
     way = next((k for k in reversed(moving) if world.kinds.of(k) in (kind, None)), "")
     if not way or not world.angle or world.angle in letters(printed):
@@ -67,7 +68,7 @@ def over_a_turn(world: World, order: int, said: Said) -> Iterator[Expected]:
     inside = (between >= ends.min(axis=0)) & (between <= ends.max(axis=0))
     if inside.all() and usual.mean() > _MOST and low != high:
         least, largest = places[low], places[high]
-        tree = minus(largest, least) if called == "stroke" else over(largest, least)
+        tree = minus(largest, least) if is_stroke else over(largest, least)
         yield Expected(tree=tree, printed=printed, note=f"the ends of {way} in a turn")
 
 

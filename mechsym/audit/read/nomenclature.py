@@ -97,8 +97,7 @@ PLURALS["stiffnesses"] = "stiffness"
 PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient") if " " not in w}
 _BETWEEN = re.compile(r"\$\\?(?:overline)?\{?\s*[A-Z]{2}\s*\}?\s*=\s*(\\?[A-Za-z]+(?:_\w)?)\s*\$")  # the crank $OA = r$
 _UNMARKED = re.compile(  # what stands in a formula is let be
-    r"(?s:\$\$.*?\$\$|\\\[.*?\\\])|\$[^$]*\$|\\begin\{[a-z*]+\}"
-    rf"|\b({_KINDS}|stiffness|rate|travel|mass|angle|speed)\s+([A-Za-z])"
+    rf"\$\$[^$]*\$\$|\$[^$]*\$|\b({_KINDS}|stiffness|rate|travel|mass|angle|speed)\s+([A-Za-z])"
     r"(?=[,.;:)]|\s+(?:and|of|is|joins|turns)\b|\s*\n\s*\n)"
 )
 _LETTER = r"\$[^$\n=]{1,40}\$"
