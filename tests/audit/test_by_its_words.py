@@ -26,10 +26,6 @@ DISCS = (
             r"\varepsilon", r"1 + \frac{2 A r}{V_c}", r"1 + \frac{A r}{V_c}",
         ),
         (POTENTIAL + "At rest the motor has to hold\n", r"\tau", r"m g s\cos q", r"m g s\sin q"),
-        (
-            "A pump of the displacement $V_g$ in m^3 and the efficiency $\\eta$ at the pressure $p$ needs a torque\n",
-            "M", r"\frac{V_g p}{2\pi\eta}", r"\frac{V_g p}{2\pi}\eta",
-        ),
         (DISCS, r"\omega^4 - \omega^2\left(\frac{c}{J_1} + \frac{c}{J_2}\right)", "0", None),
         (
             "The speeds are $\\omega_a$ and $\\omega_b$, the mean speed is\n",
@@ -39,7 +35,7 @@ DISCS = (
 )  # fmt: skip
 def test_what_words_ask_for_is_right_or_one_slip_away(before, left, right, wrong, tmp_path):
     row = judged(tmp_path, f"{before}$$ {left} = {right} $$", "text.md")[-1]
-    assert row["verdict"] in ("exact", "units agree"), row
+    assert row["verdict"] == "exact", row
     if wrong is not None:
         row = judged(tmp_path, f"{before}$$ {left} = {wrong} $$", "text.md")[-1]
         assert row["verdict"] == "misprint" and same(row["correction"], right), row
@@ -66,25 +62,37 @@ def test_another_case_of_a_letter_is_none_of_its_slips(tmp_path):
     assert blamed(judged(tmp_path, text, "text.md")) == []
 
 
-def test_a_name_is_no_part_of_a_longer_one(tmp_path):
-    text = "The polar section modulus of the shaft of diameter $d$ in m is\n$$ W = \\frac{\\pi d^3}{%d} $$"
-    rows = [judged(tmp_path, text % number, "text.md")[-1] for number in (16, 32)]
-    assert [row["verdict"] for row in rows] == ["exact", "misprint"]
+SECTION = "The polar section modulus of the shaft of diameter $d$ in m is\n$$ W = \\frac{\\pi d^3}{%s} $$"
+JOURNAL = (
+    "With the eccentricity $e$ in m and the radial clearance $c$ in m\n$$ \\epsilon = %s $$\n"
+    "is the relative eccentricity of the journal in its bearing.\n"
+)
+GEAR = (
+    "A gear with the gear ratio $i = %s$ moves the moment of inertia $J_2$ to the first shaft, where the reduced\n"
+    "inertia is\n$$ J_{red} = \\frac{J_2}{i^2} $$"
+)
+
+PUMP = (
+    "A pump of the displacement $V_g$ in m^3 and the efficiency $\\eta$ at the pressure $p$ needs a torque\n"
+    "$$ M = %s $$"
+)
 
 
-def test_what_stands_behind_an_equation_names_it(tmp_path):
-    text = (
-        "With the eccentricity $e$ in m and the radial clearance $c$ in m\n$$ \\epsilon = %s $$\n"
-        "is the relative eccentricity of the journal in its bearing.\n"
-    )
-    rows = [judged(tmp_path, text % form, "text.md")[-1] for form in (r"\frac{e}{c}", r"\frac{c}{e}")]
-    assert [row["verdict"] for row in rows] == ["exact", "misprint"]
-
-
-def test_a_gear_whose_ratio_is_told_the_other_way_round_is_no_other_gear(tmp_path):
-    text = (
-        "A gear with the gear ratio $i = %s$ moves the moment of inertia $J_2$ to the first shaft, where the reduced\n"
-        "inertia is\n$$ J_{red} = \\frac{J_2}{i^2} $$"
-    )
-    rows = [judged(tmp_path, text % ratio, "text.md")[-1] for ratio in (r"\omega_1/\omega_2", r"\omega_2/\omega_1")]
-    assert rows[0]["verdict"] == "exact" and rows[1]["verdict"] != "exact"
+@pytest.mark.parametrize(
+    ("text", "right", "wrong", "verdicts"),
+    [
+        (SECTION, "16", "32", ("exact", "misprint")),  # which is that in bending
+        (JOURNAL, r"\frac{e}{c}", r"\frac{c}{e}", ("exact", "misprint")),  # named behind the equation
+        (
+            GEAR,
+            r"\omega_1/\omega_2",
+            r"\omega_2/\omega_1",
+            ("exact", "units agree"),
+        ),  # counted the other way round by its text
+        # of what is needed a word tells that it is more than what is given, and not how much that is
+        (PUMP, r"\frac{V_g p}{2\pi\eta}", r"\frac{V_g p}{2\pi}\eta", ("units agree", "misprint")),
+    ],
+)
+def test_of_two_forms_that_are_alike_one_is_right(text, right, wrong, verdicts, tmp_path):
+    rows = [judged(tmp_path, text % form, "text.md")[-1] for form in (right, wrong)]
+    assert [row["verdict"] for row in rows] == [*verdicts]

@@ -123,9 +123,8 @@ class Judge:
             if met and len(met) == len(said.sides) - 1:
                 against = f"{fit.theory.name}.{met[0].quantity}"
                 if all(m.sign > 0 for m in met):
-                    return carried(
-                        self.world, self.asking, order, said, Judged(verdict="exact", matched=against, error=0.0)
-                    )
+                    exact = Judged(verdict="exact", matched=against, error=0.0)
+                    return carried(self.world, self.asking, order, said, exact)
                 if has_sense(self.world, said):
                     continue
                 return Judged(verdict="convention", matched=against, note="exact with the opposite sense")
@@ -290,11 +289,8 @@ class Judge:
                 for reading in fitting.readings(fit, self.world, used):
                     against = f"{fit.theory.name}.{quantity}"
                     row = self.asking.asked(fit.theory, quantity, tree, reading, said)
-                    if (
-                        row is not None
-                        and "repaired by factor" in row["note"]
-                        and not are_told(self.world, tree, fit.meant)
-                    ):
+                    by_factor = row is not None and "repaired by factor" in row["note"]
+                    if by_factor and not are_told(self.world, tree, fit.meant):
                         continue  # the m of a text may be of both pistons, or of one
                     if row is not None and (slip := self.asking.finding(row, said, side, against)):
                         return slip

@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import product
 
 from mechsym.audit.hosts.neighbours import Neighbours
 from mechsym.audit.judge.kinds import kind_in, of_unit
@@ -132,14 +133,13 @@ class Worded:
 
     def _turns_its_ratio(self, theory: Theory) -> bool:
         # whether a ratio of two speeds is the other way round than in a theory
-        for one in self.world.defined:
-            own = _in_letters_of(theory, one.tree) if "ratio" in self.world.phrase(one.letter) else None
-            for meaning, said in theory.words.items() if own is not None else ():
-                if meaning not in theory.letters and not _TRANSMISSIONS.isdisjoint(said) and own is not None:
-                    tree = read_expression(meaning, (), AnyLetter())[0]
-                    if {*letters(tree)} & {*letters(own), *theory.tape} and alike(states(theory), own, tree) is False:
-                        return True
-        return False
+        named = [d.tree for d in self.world.defined if "ratio" in self.world.phrase(d.letter)]
+        own = [ratio for tree in named if (ratio := _ratio_of_speeds(theory, tree)) is not None]
+        its = [m for m, said in theory.words.items() if m not in theory.letters and _TRANSMISSIONS & {*said}]
+        return any(
+            alike(states(theory), ratio, read_expression(meaning, (), AnyLetter())[0]) is False
+            for ratio, meaning in product(own, its)
+        )
 
     def outcome(self, order: int, side: int) -> Row | None:
         """What theories say of one side of an equation; None where they say nothing."""
@@ -185,12 +185,12 @@ class Worded:
                     yield order, claim.tree, right, row["claim"]
 
 
-def _in_letters_of(theory: Theory, tree: Node) -> Node | None:
-    # omega2/omega1 as n_2/n_1 of a theory that counts turns; None where it is no ratio of speeds, or not of these
+def _ratio_of_speeds(theory: Theory, tree: Node) -> Node | None:
+    # omega2/omega1 in the letters of a theory, which may count turns; None where it is no such ratio
     known = {n.replace("_", ""): n for n in (*theory.letters, *theory.tape)}
-    meant = {n: known.get(n) or known.get(_SPEED.sub("n", n)) for n in letters(tree) if _SPEED.match(n)}
+    meant = {n: known.get(n) or known.get(_SPEED.sub("n", n)) or "" for n in letters(tree) if _SPEED.match(n)}
     ratio = is_operation(tree, ast.Div) and len(meant) == len(letters(tree)) == 2
-    return renamed(tree, {n: m for n, m in meant.items() if m}) if ratio and all(meant.values()) else None
+    return renamed(tree, meant) if ratio and all(meant.values()) else None
 
 
 def _ruled_out(before: str, prose: str) -> str:
