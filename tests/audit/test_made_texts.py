@@ -152,7 +152,8 @@ def test_words_in_front_of_letters_name_them():
         "the moments of inertia $J_1$ and $J_2$, the sun has $z_s$ teeth."
     )
     assert called(text) == {
-        "S": "rod force", "N": "side thrust", "k": "spring stiffness", "F": "load", "\\varepsilon": "compression ratio",
+        "S": "rod force", "N": "side thrust", "k": "spring stiffness", "F": "load", "q": "load per metre",
+        "\\varepsilon": "compression ratio",
         "J_1": "moment of inertia", "J_2": "moment of inertia", "z_s": "sun teeth",
     }  # fmt: skip
 
@@ -345,7 +346,7 @@ def test_words_belong_to_their_letter(sentence, letter, name):
             "The angular velocity and the angular acceleration of the rod are",
             ["angular velocity", "angular acceleration"],
         ),
-        ("At the pin are the side force and the torque", []),
+        ("At the pin are the side force and the torque", ["side force", "torque"]),
         ("the tangential and radial forces", ["tangential force", "radial force"]),
     ],
 )

@@ -68,11 +68,14 @@ class Neighbours:
         called = [n for n in every if n.away and n.fitted.rank > 1 and n.quantity in n.fitted.quantities]
         other, named = any(self._beside(n) for n in called), any(self._is_named(n) for n in called)
         best = max((n.fitted.rank for n in every if n.quantity in n.fitted.quantities), default=0)
+        outranked = set[tuple[str, str]]()  # right, but that another quantity is called so wholly
         for near in every:
             if best == WHOLLY > near.fitted.rank and near.quantity in near.fitted.quantities:
+                outranked |= {(near.fitted.theory.name, near.quantity)} if near.away == 0.0 else set()
                 continue  # a polar section modulus is no section modulus
             own = near.fitted.theory.words  # that have another name for it
             excused = not other and not (named and near.quantity in own) and not self._clashes(near)
+            excused = excused and not self._is_another(near)
             if near.away == 0.0 and (near.quantity in near.fitted.quantities or excused):
                 sense, against = self._sense(near), f"{near.fitted.theory.name}.{near.quantity}"
                 if sense and _is_rate_of_its_own(near):
@@ -89,7 +92,12 @@ class Neighbours:
         beside = [(near, self._beside(near)) for near in every if near.quantity]
         beside.sort(key=lambda b: _unlikely(*b))
         worse, misprints = None, []
-        asked = ((n, o) for n, o in beside if n.away and _is_told(n, o) and not self._has_other_name(n))
+        asked = (
+            (n, o)
+            for n, o in beside
+            if n.away and (n.fitted.theory.name, n.quantity) not in outranked
+            and _is_told(n, o) and not self._has_other_name(n)
+        )  # fmt: skip
         for near, others in islice(asked, _ASKED):
             if _is_right_undefined(near):
                 return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"}
@@ -154,7 +162,7 @@ class Neighbours:
                 states = _states(vocabulary, at_rest(fitted.theory, form))
                 met = list(_met(fitted, form, states, self.si))
                 for away, quantity in met:
-                    if claim.ruled_out and claim.ruled_out in quantity:
+                    if any(kind in quantity for kind in claim.ruled_out):
                         continue
                     yield Near(away=away, fitted=fitted, form=form, quantity=quantity, states=states)
                 if not met and len(fitted.meanings) > 1:
@@ -165,6 +173,11 @@ class Neighbours:
         own = near.fitted.claim
         others = self.exact.get((near.fitted.theory.name, near.quantity, own.scope), set()) - {own.name}
         return bool(others) and near.quantity not in near.fitted.quantities
+
+    def _is_another(self, near: Near) -> bool:
+        # two names of one function with one formula, of which neither is called so: one of them is something else
+        own = near.fitted.claim
+        return self.si and bool(self.exact.get((near.fitted.theory.name, near.quantity, own.scope), set()) - {own.name})
 
     def _is_settled(self, near: Near) -> bool:
         # i = z_2/z_1 = n_2/n_1: the first form tells which way round the ratio is
@@ -237,7 +250,7 @@ def _met(fitted: Fitted, form: Formula, states: Probes, si: bool) -> Iterator[tu
             seen.add(quantity)
             right = of_sign(met.ratio) if si else of_units(met.ratio) or met.shift
             # a ratio that is turned over
-            wholly = met.ratio is None and fitted.rank == WHOLLY and fitted.strong == len(fitted.meanings) > 1
+            wholly = met.ratio is None and fitted.rank > _BY_A_SIGN and fitted.strong == len(fitted.meanings) > 1
             if right or is_slip(met.ratio) or wholly:
                 yield (0.0 if right else max(met.away, 1e-9)), quantity
     many = len(fitted.meanings)
@@ -267,7 +280,8 @@ def _is_told(near: Near, beside: Sequence[Near]) -> bool:
         return near.away <= _NEAR and many > 2 and (strong > 1 or alike)
     if fitted.rank > _BY_A_SIGN and (strong and many > 1 or fitted.rank == WHOLLY) and near.away <= _TWICE:
         return True
-    worded = many == strong and (many > 1 or fitted.rank > _BY_A_SIGN)  # all of it
+    angles = sum(m == fitted.theory.angle for m in fitted.meanings.values()) if fitted.rank > _BY_A_SIGN else 0
+    worded = many <= strong + angles and (many > 1 or fitted.rank > _BY_A_SIGN)  # all of it
     if worded or many > 4 and strong > 1 or near.away <= _NEAR and many > 2 and strong > 0:
         return True
     if beside:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from mechsym.audit.judge.asked import Asked, question_of
-from mechsym.audit.judge.conventions import also_exact, holds_with, told
+from mechsym.audit.judge.conventions import RATIO, also_exact, holds_with, told
 from mechsym.audit.judge.lexicon import Fitted, safe
 from mechsym.audit.judge.nearness import Near, Probes, at_rest
 from mechsym.audit.judge.question import Question
@@ -53,7 +53,8 @@ def asked_once(
         verdict = decide(question, settled=settled, one=not twice)
         if twice and verdict.repairs and len({edit.kind for edit in verdict.repairs[0].edits}) > 1:
             verdict = decide(question, one=True)
-        if verdict.verdict == "untestable" and _is_told_otherwise(verdict.note, own, beside):
+        turned = RATIO in verdict.note and not _is_ratio(theory, quantity)
+        if verdict.verdict == "untestable" and (turned or _is_told_otherwise(verdict.note, own, beside)):
             verdict = decide(question, settled=True, one=True)
         right = also_exact(question, from_top) if verdict.verdict not in PASSED else ()
         if right and any(not _holds_beside(near, right, own) for near in of_angle):
@@ -71,6 +72,12 @@ def _question(text: str, theory: Theory, quantity: str, own: Mapping[str, str], 
     against = f"{theory.name}.{quantity}"
     asked = Asked(text=text, against=against, letters=own, hidden="noted", given=theory, assume=assume)
     return question_of(asked, statement(text))
+
+
+def _is_ratio(theory: Theory, quantity: str) -> bool:
+    # which may be counted either way, as a life may not
+    called = theory.words.get(quantity, ())
+    return not called or any("ratio" in said for said in (quantity, *called))
 
 
 def _is_told_otherwise(note: str, own: Mapping[str, str], beside: Sequence[Near]) -> bool:
@@ -203,7 +210,9 @@ def _slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row |
     twice, wrong = _is_of_two_alike(fitted, form, states), None
     printed, expected = states.values(states.random, form, quantity)
     good = np.isfinite(printed) & np.isfinite(expected)
-    against = float(np.sum((printed * expected)[good])) < 0
+    # the square of a difference says nothing of its sense
+    squared = any(map(_is_squared_difference, ast.walk(form.tree)))
+    against = squared or float(np.sum((printed * expected)[good])) < 0
     # an offset lies on either side, as it does for an angle from the bottom
     sided = any(one.unit == "m" and not one.positive for one in fitted.theory.letters.values())
     from_top = fitted.claim.from_top and not sided
@@ -223,10 +232,18 @@ def _slip(near: Near, beside: Sequence[Near], of_angle: Sequence[Near]) -> Row |
                 row |= {"correction": to_python(_negative(repair.tree) if turned else repair.tree)}
                 meant = {base(k).replace(OF, "."): v for k, v in fitted.meanings.items()}
                 return _renamed(row, fitted, own) | {"letters": meant}
-        if row["verdict"] not in ("wrong", "nearer"):
+        if row["verdict"] not in ("wrong", "nearer") and (turned or not squared):
             return None
         wrong = row | {"verdict": "wrong"}
     return wrong
+
+
+def _is_squared_difference(node: ast.AST) -> bool:
+    # of two letters: (w_1 - w_2)**2
+    if not isinstance(node, ast.BinOp) or not isinstance(node.op, ast.Pow) or trees.value_of(node.right) != 2:
+        return False
+    sides = (node.left.left, node.left.right) if trees.is_operation(node.left, ast.Sub) else ()
+    return bool(sides) and all(isinstance(side, ast.Name) for side in sides)
 
 
 def _negative(tree: Node) -> Node:

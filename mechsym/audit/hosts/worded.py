@@ -38,6 +38,8 @@ from mechsym.audit.theory.record import Theory
 _ALONE = 4  # operations of a formula of one letter that is held against theories: (2/(k + 1))^(k/(k - 1))
 _SPEED = re.compile(r"(?:omega|Omega|w|n|N)(?=\d$)")  # of the first shaft, and of the second
 _TRANSMISSIONS = {"gear ratio", "transmission ratio", "speed ratio"}
+_COUNTS = {"two": 2, "three": 3, "four": 4}
+_EACH_HAS = re.compile(r"\b(two|three|four)\s+[a-z]+\s+each\b[^.$]*$", re.IGNORECASE)
 _SUM = "forcesum"  # letter for a sum of forces
 _FROM_TOP = re.compile(r"\b(?:from|after|past)\s+(?:the\s+|its\s+)?(?:top|inner|upper)\s+dead\s+cent", re.IGNORECASE)
 # slider cranks are counted from the other dead centre in every theory
@@ -67,7 +69,7 @@ class Worded:
         solved = {d.letter for d in self.world.defined if not d.side and d.letter in paper.named}
         # the angle that turns is the one that the text's motion goes by, and follows from nothing
         plain = {k for k, words in paper.called.items() if words == "angle"}
-        vague = {k for k in plain if k in values or self.world.angle in plain - {k}}
+        vague = {k for k in plain if k in values or self.world.angle not in ("", k)}
         called = {k: words for k, words in paper.called.items() if k not in vague}
         turning = {n for n in self.world.used if n.rstrip("0123456789") in self.world.kinds.turns and n not in called}
         called |= dict.fromkeys((*self.world.kinds.turns, *sorted(turning)), "revolutions per minute")
@@ -80,6 +82,9 @@ class Worded:
                 letter, over = letter.right, True
             angle = argument_of(letter, "sin", "cos", "tan")
             function, letter = (f"a{function_of(letter)}", angle) if angle is not None else ("", letter)
+            of_two = is_operation(letter, ast.Div) and all(isinstance(n, ast.Name) for n in (letter.left, letter.right))
+            if of_two and said.about:  # the critical pressure ratio p_k/p_0
+                letter = name_of("ratio")
             if not isinstance(letter, ast.Name):
                 continue
             left = letter.id
@@ -147,11 +152,24 @@ class Worded:
             claim = self.claims.get((order, side))
             row = self.neighbours.outcome(claim) if claim is not None and self.neighbours is not None else None
             row = row if row is not None and row["verdict"] in ("agrees", "misprint") else None
+            told = row is not None and row["verdict"] == "misprint"
+            if row is not None and claim is not None and told and self._counts_twice(order, claim.tree, row):
+                row = None
             if row is not None and (order, side) in self.sums:
                 written = f"({to_python(self.sums[order, side])})"
                 row = row | {key: row[key].replace(_SUM, written) for key in ("correction", "note") if row.get(key)}
             self.outcomes[order, side] = row
         return self.outcomes[order, side]
+
+    def _counts_twice(self, order: int, tree: Node, row: Row) -> bool:
+        # z cylinders with two pistons each: the factor that is blamed is what the sentence says
+        said = _EACH_HAS.search(self.world.paper.said[order].before)
+        if said is None:
+            return False
+        right = read_expression(row["correction"], (), AnyLetter())[0]
+        values = {name: 0.7 + 0.1 * k for k, name in enumerate({*letters(tree), *letters(right)})}
+        first, second = (float(evaluate(t, values, FLOATS)) for t in (tree, right))
+        return abs(first - _COUNTS[said[1].lower()] * second) < 1e-9 * abs(first)
 
     def agrees(self, order: int) -> bool:
         """Whether an equation is exactly what its words say in every form."""
@@ -193,7 +211,18 @@ def _ratio_of_speeds(theory: Theory, tree: Node) -> Node | None:
     return renamed(tree, meant) if ratio and all(meant.values()) else None
 
 
-def _ruled_out(before: str, prose: str) -> str:
+def _ruled_out(before: str, prose: str) -> tuple[str, ...]:
+    """What names of quantities have that a text speaks against, or nothing in it says, as that springs stand side by
+    side.
+    """
+    rows = re.search(r"\b(?:series|one behind the other|in a row|add up)\b", prose, re.IGNORECASE)
+    beside = re.search(r"\b(?:parallel|side by side|both|together)\b", prose, re.IGNORECASE)
+    kinds = ["parallel"] if rows and not beside else ["series"] if beside and not rows else []
+    other = _other_kind(before, prose)
+    return (*kinds, *([other] if other else []))
+
+
+def _other_kind(before: str, prose: str) -> str:
     """What names of quantities have that a text speaks against: of a disc that it is a ring, of a ring that it is a
     disc, and of engines with two strokes and with four the kind that the sentence in front of an equation does not
     name, or that a text never names; of what is no engine all of these.

@@ -64,12 +64,13 @@ def under(question: Question, condition: Condition) -> Question:
     return replace(question, hold={**question.hold, **dict.fromkeys(condition.letters, 0.0)})
 
 
+RATIO = "the ratio the other way round"  #: Told of a convention
 _TOLD = {
     "bottom": "the angle from bottom dead centre",
     "reversed": "the angle the other way round",
     "quadrature": "the angle from the perpendicular, pi/2 - angle",
     "sign": "the quantity reversed",
-    "inverse": "the ratio the other way round",
+    "inverse": RATIO,
     "double": "twice the quantity, as a diameter for a radius",
     "half": "half of the quantity, as a radius for a diameter",
     "turns": "in turns where the quantity is in radians",
@@ -213,8 +214,8 @@ def reading(judged: Judges, tree: Node) -> str:
 
 def _others(kind: Kind | None, values: Values, called: str) -> Iterator[tuple[str, Values]]:
     if kind == NUMBER:
-        yield "the ratio the other way round", 1 / values
-        yield "the ratio the other way round, reversed", -1 / values
+        yield RATIO, 1 / values
+        yield f"{RATIO}, reversed", -1 / values
     round_ones = kind != kind_of_unit("m") or called[0] in _ROUND and "_d" not in called or "radius" in called
     elastic = kind != kind_of_unit("Pa") or called[0] in _ELASTIC
     for words, factor in _FACTORS.get(kind, {}).items() if kind and round_ones and elastic else ():

@@ -213,6 +213,8 @@ def _choices(fit: Match, world: World, letter: str, strong: bool) -> list[str]:
     if not strong:
         return []  # a product of three letters is one of many things
     every = [n for n in fit.of_kind(kind) if kind is not None or n in fit.theory.letters or n in fit.theory.results]
+    heats = {"cp", "cv"}  # of which none is taken for the other
+    every = [n for n in every if {letter.lower(), n.lower().replace("_", "")} != heats]
     return [n for n in every if n in fit.theory.letters or not _is_called_otherwise(n, world.phrase(letter))][:24]
 
 

@@ -12,12 +12,12 @@ from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.turn import averaged, held, over_a_turn
 from mechsym.audit.judge.world import World
+from mechsym.audit.read.clause import OPENED
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.refused import SIGN
 from mechsym.audit.read.said import Said
 from mechsym.audit.read.slopes import Slope, slope_in
 from mechsym.audit.read.spelling import SPEEDS
-from mechsym.audit.read.subject import OPENED
 from mechsym.audit.read.tree import (
     Node,
     function_of,

@@ -332,8 +332,16 @@ def _numbers_of_turns(kinds: Kinds, said: Sequence[Said]) -> None:
     # N/60 in two equations, or wherever it stands: N counts revolutions a minute, and is sixty times its value in all
     for letter in kinds.turns:
         uses = [one for one in said if letter in letters_of(one) and not _is_exponent(one, letter)]
+        uses = [one for one in uses if converted(one, letter) or not _is_of_two_speeds(kinds, one, letter)]
         if (count := sum(converted(one, letter) for one in uses)) > 1 or count == len(uses):
             kinds.printed[letter] = (*kinds.printed[letter][:4], Fraction(1), Fraction(0))
+
+
+def _is_of_two_speeds(kinds: Kinds, said: Said, letter: str) -> bool:
+    # n_3 = n_1/i holds for turns in a minute and in a second
+    left = said.sides[0]
+    speed = kinds.of(left.id) if isinstance(left, ast.Name) and left.id != letter else None
+    return speed is not None and speed[:4] == of_unit("1/s")[:4]
 
 
 def _is_exponent(said: Said, letter: str) -> bool:

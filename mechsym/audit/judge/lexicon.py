@@ -2,9 +2,11 @@
 
 import ast
 import re
+import tomllib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache, lru_cache
+from importlib import resources
 from itertools import islice, product
 
 from mechsym.audit.read import tree as trees
@@ -40,7 +42,9 @@ class Fitted:
 def words(text: str) -> tuple[str, ...]:
     """The words of a name or a comment: 'crankRad_1' is crank, rad, 1; a single letter keeps its case."""
     parts = re.findall(r"[A-Za-z]+|\d+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", text))
-    return _same(tuple(p if len(p) == 1 else p.lower() for p in parts))
+    said = tuple(p if len(p) == 1 else p.lower() for p in parts if p not in ("the", "its", "their"))
+    # the friction moment is a torque
+    return _same((*said[:-1], "torque") if len(said) > 1 and said[-1] == "moment" else said)
 
 
 @lru_cache(maxsize=20_000)
@@ -155,6 +159,8 @@ class Lexicon:
 
     def _has_other_index(self, name: str, meaning: str) -> bool:
         # z_2 is no z_1 where the theory has both, and omega_1 no mean speed where it has a first one
+        if {name.lower(), meaning.replace("_", "")} == {"cp", "cv"}:
+            return True
         its, own = re.fullmatch(r"(\w+?)(?:_(\d))?", meaning), re.fullmatch(r"[A-Za-z]+_?(\d)", name)
         names = {*self.theory.letters, *self.theory.tape}
         return bool(its and own and its[2] != own[1] and f"{its[1]}_{own[1]}" in names)
@@ -179,6 +185,7 @@ class Lexicon:
 _DERIVATIVE = re.compile(r"d_?(?P<of>\w+?)_?d_?(?P<by>[A-Za-z]+)")
 # (rad/sec) says nothing of a crank rad: what stands in brackets and has short words only
 _UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-z]))*[\])]")
+_BY_SIGN = 1  # rank of a name that is one sign
 WHOLLY = 5  #: Rank of a name that a comment is
 _ANY = "any"  # mass: the rocker's as well
 _SILENT = frozenset("the a an its their".split())
@@ -216,33 +223,8 @@ def _is_of(phrase: tuple[str, ...], said: tuple[str, ...]) -> bool:
     return head == own and len(content) > 1 and before <= content <= whole
 
 
-#: Words that mean the same, to the one that stands for them
-_SAME = (
-    (("gudgeon", "pin"), ("piston", "pin")),
-    (("wrist", "pin"), ("piston", "pin")),
-    (("con", "rod"), ("connecting", "rod")),
-    (("conrod",), ("connecting", "rod")),
-    (("resultant",), ("resulting",)),
-    (("inclination", "of"), ("angle", "of")),
-    (("walls",), ("wall",)),
-    (("liner",), ("cylinder", "wall")),
-    (("crankshaft",), ("crank",)),
-    (("brake", "power"), ("effective", "power")),
-    (("brake", "torque"), ("effective", "torque")),
-    (("stroke", "volume"), ("swept", "volume")),
-    (("displaced", "volume"), ("swept", "volume")),
-    (("crank", "throw"), ("crank", "radius")),
-    (("oscillating",), ("reciprocating",)),
-    (("irregularity",), ("fluctuation",)),
-    (("non", "uniformity"), ("fluctuation",)),
-    (("unevenness",), ("fluctuation",)),
-    (("isentropic",), ("adiabatic",)),
-    (("rotational", "speed"), ("angular", "speed")),
-    (("lam",), ("lambda",)),
-    (("big", "end"), ("crank", "pin")),
-    (("small", "end"), ("piston", "pin")),
-    (("turns", "per"), ("revolutions", "per")),
-)
+_SYNONYMS = tomllib.loads((resources.files("mechsym.audit.judge") / "synonyms.toml").read_text(encoding="utf-8"))
+_SAME = [(tuple(words_of.split()), tuple(instead.split())) for words_of, instead in _SYNONYMS.items()]
 
 
 def _same(said: tuple[str, ...]) -> tuple[str, ...]:
@@ -255,6 +237,17 @@ def _same(said: tuple[str, ...]) -> tuple[str, ...]:
 
 def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
     """A claim in a theory's letters, the best told way first; none where a name in it means nothing there."""
+    seen = set()
+    for deep in (False, True):
+        for fitted in _readings(claim, vocabulary, deep):
+            key = ast.dump(fitted.tree), *sorted(fitted.meanings.items())
+            if key not in seen:
+                seen.add(key)
+                yield fitted
+
+
+def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]:
+    # deep: with what a letter is in its place also where only a sign tells what it means
     theory = vocabulary.theory
     rank, called = _called(claim, vocabulary)
     tree, options = _of_either_sign(claim.tree), dict[str, list[tuple[int, str]]]()
@@ -275,7 +268,7 @@ def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
                 and (not ranked or _is_readable(claim.values[letter], claim, vocabulary))
                 or ranked[0] == (1, theory.angle)
                 and _has_angle(letter, claim, vocabulary)
-                or _is_told_better(letter, told, claim, vocabulary)
+                or _is_told_better(letter, told, claim, vocabulary, deep)
             ):
                 put_in[letter] = claim.values[letter]
             elif ranked:
@@ -332,11 +325,13 @@ def _is_readable(tree: Node, claim: Claim, vocabulary: Lexicon) -> bool:
     return all(k in known or vocabulary.meanings(base(k), claim.abouts.get(base(k), "")) for k in letters(tree))
 
 
-def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon) -> bool:
-    # phi = radians(pressure_angle): another letter in its place, whose name says more
-    inside = letters(claim.values[letter])
-    named = [k for k in inside if k != "pi"]
-    return len(named) == 1 and vocabulary.meaning(base(named[0]), claim.abouts.get(base(named[0]), ""))[0] > told
+def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon, deep: bool) -> bool:
+    # phi = radians(pressure_angle): another letter in its place, whose name says more; several where a sign alone does
+    named = [k for k in letters(claim.values[letter]) if k != "pi"]
+    told_of = [vocabulary.meaning(base(k), claim.abouts.get(base(k), "")) for k in named]
+    angle = vocabulary.theory.angle if len(named) > 1 else ""
+    ranks = [rank for rank, meaning in told_of if not angle or meaning != angle]
+    return bool(ranks) and min(ranks) > told and (len(named) == 1 or deep and told == _BY_SIGN)
 
 
 def _has_angle(letter: str, claim: Claim, vocabulary: Lexicon) -> bool:

@@ -3,8 +3,10 @@ r"""What a text calls its letters: tables, lists, and the words in front of them
 import re
 from collections.abc import Iterator, Sequence
 
+from mechsym.audit.read.called import spoken
+from mechsym.audit.read.phrases import PLURALS
 from mechsym.audit.read.spelling import SYMBOLS
-from mechsym.audit.read.units import KINDS, OTHERS, PREPOSITIONS, unit_of
+from mechsym.audit.read.units import KINDS, OTHERS, unit_of
 from mechsym.quantities import record
 
 
@@ -59,42 +61,12 @@ _AHEAD = re.compile(
     rf"\b(\w{{1,20}})\s+({_KINDS})\s+"
     r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$(?!\s+per\b)"
 )
-# words in front of a letter, and of an equation: as many as a name has
-_PHRASE = r"(?:[A-Za-z-]{2,20}\s+){0,6}[A-Za-z-]{3,20}"
-_NAMED = r"\$([^$\n=]{1,40})(?:=[^$\n]*)?\$"
-_CALLED = re.compile(
-    rf"(?:\b(?:the|an?|its|their|and|of|with)\s+|(?:^|[,;:(])[ \t]*)({_PHRASE})"
-    rf"(?:\s+(?:is|are|be)\s+|\s+|,\s+(?=\$[^$\n]+\$,)){_NAMED}"
-    r"((?:(?:,|\s+and)\s+\$[^$\n=]{1,40}\$)*)(?!\s+per\b)",
-    re.IGNORECASE | re.MULTILINE,
-)
-_AT_END = re.compile(
-    r"\s+(?:of\s+(?:its|the|their)\s+cent(?:re|er)\s+of\s+(?:mass|gravity)\s+)?"
-    r"((?:at|from)\s+(?:the\s+)?[a-z]+\s+(?:pin|end))\b"
-)
-_OF_WHAT = re.compile(r"\s+of\s+(?:the\s+)?((?:all\s+)?[a-z]+(?:\s+of\s+[a-z]+)?)")
-_COUNTED = re.compile(
-    r"(?:\b([a-z]+)\s+(?:has|have|with|of)\s+)?\$([^$\n=]{1,40})\$\s+"
-    r"(?:in\s+)?((?:revolutions|turns(?!\s+(?:by|about|with|at|on|round|through))|strokes|cycles|cylinders|teeth"
-    r"|(?:active )?coils)"
-    r"(?:\s+per\s+[a-z]+)?)"
-)
-_DAMPER = re.compile(r"\bdamper\b[^.]*$")
-_STRESSED = re.compile(r"(?<!\w)\*{1,2}([A-Za-z][A-Za-z -]*[A-Za-z])\*{1,2}(?!\w)")
-_IN_TURNS = re.compile(r"\s+in\s+(?:revolutions|turns)\s+(?:per|a)\s+minute\b")
-_EVERY = r"(?:1|rev|r|turns|revolutions)\s?(?:/|per)\s?"
-_PER_MINUTE = re.compile(
-    rf"\$([A-Za-z][^$\n=]{{0,20}})\$\s*(?:in\s+\$?|\(\s*\$?)(?:{_EVERY}(?P<unit>s|min)|rpm|min\^|(?P<second>s\^))"
-)
 # the crank radius $r$ in m, of stiffness $k$ in N/m
+_IN_TURNS = re.compile(r"\s+in\s+(?:revolutions|turns)\s+(?:per|a)\s+minute\b")
 _SYMBOLS = (
     r"(?:k?g|[cmk]?m|m?s|min|h|K|[kM]?N|[kMG]?Pa|bar|[kM]?J|[kM]?W|rad|Hz)(?:\$?\^\{?-?\d\}?\$?|[²³⁴])?(?![A-Za-z\d$])"
 )
 _IN_UNIT = re.compile(rf"\$([^$\n=]{{1,40}})\$\s+in\s+({_SYMBOLS}(?:(?:\s|\\,|·|/|\*)+{_SYMBOLS})*)(?=[\s.,;:)]|\Z)")
-#: Words for several to that for one
-PLURALS = {"inertias": "inertia", "velocities": "velocity", "masses": "mass", "radii": "radius"}
-PLURALS["stiffnesses"] = "stiffness"
-PLURALS |= {f"{w}s": w for w in (*KINDS, "moment", "angle", "speed", "coefficient") if " " not in w}
 _BETWEEN = re.compile(r"\$\\?(?:overline)?\{?\s*[A-Z]{2}\s*\}?\s*=\s*(\\?[A-Za-z]+(?:_\w)?)\s*\$")  # the crank $OA = r$
 _UNMARKED = re.compile(  # what stands in a formula is let be
     rf"\$\$[^$]*\$\$|\$[^$]*\$|\b({_KINDS}|stiffness|rate|travel|mass|angle|speed)\s+([A-Za-z])"
@@ -103,22 +75,8 @@ _UNMARKED = re.compile(  # what stands in a formula is let be
 _LETTER = r"\$[^$\n=]{1,40}\$"
 _NEXT = r"(?:,\s*(?:and\s+)?|\s+and\s+)"
 # the angles $a$, $b$ of crank and rocker; the lengths are $a$ (crank), $b$ (rod)
-_JOINED = re.compile(rf"(?:{_LETTER}{_NEXT})+\$\Z")  # of several letters all but the last
-_EACH_OF = re.compile(
-    rf"\b([a-z]+)\s+({_LETTER}(?:{_NEXT}{_LETTER})+)\s+of\s+(?:the\s+)?"
-    rf"([a-z]+(?: [a-z]+)?(?:{_NEXT}(?:the\s+)?[a-z]+(?: [a-z]+)?)+?)"
-    r"(?=\s+(?:is|are|have|from|with)\b|[.;:)]|\s*\n\s*\n|\Z)"
-)
 _EACH_AS = re.compile(
     rf"\b([a-z]+)\s+(?:are\s+)?((?:{_LETTER}\s*\([a-z][a-z -]*\)(?:{_NEXT}|(?=\s*[.;:]|\s[a-z]))){{2,}})"
-)
-_AT_FIRST = re.compile(r"(?:In|For|At|Under|During|On|From|By|With)\s")
-#: A word at the end of a phrase that belongs to what comes behind it
-ENDS = re.compile(r"(?:^|\s+)(?:from|with|at|to|by|is|and|of|for|in|on|about|let|where|here|when|if)$", re.IGNORECASE)
-_MEASURED = re.compile(  # a spring of stiffness $k$
-    r"^((?!(?:[a-z-]+ )?moment|coefficient|modulus|centre|center|number|rate|ratio)[a-z-]+(?: [a-z-]+)?) of "
-    r"((?:[a-z]+ )?stiffness|radius|length|diameter|mass|width|height|thickness|weight|bore|stroke|area|"
-    r"volume|exponent|rate|mass flow)$"
 )
 _BEGINS = re.compile(r"(?<!\bof )(?<!\babout )\b(?:the|an?|its|their|whose|and|with|by|has|is)\s+", re.IGNORECASE)
 # what goes on to a display, as `the volume of both is`
@@ -248,49 +206,15 @@ def _is_called_before(text: str, match: re.Match[str]) -> bool:
 
 
 def called(text: str) -> dict[str, str]:
-    """Letters as they are spelled there, with the words in front of them: the rod force $S$."""
-    pairs = []
-    text = _STRESSED.sub(r"\1", text)
-    for match in _COUNTED.finditer(text):
-        owner = "" if match[3].startswith("cylinders") else match[1] or ""  # the power of $z$ cylinders
-        counted = " ".join([owner, *match[3].split()]).strip()
-        before = _JOINED.search(text[max(0, match.start(2) - 80) : match.start(2)])
-        pairs += [(symbol, counted) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", before[0] if before else ""))]
-    pairs += [(symbol, "cylinders") for symbol in re.findall(r"\$([^$\n=]{1,20})\$-cylinder", text)]
-    for match in _PER_MINUTE.finditer(text):
-        pairs.append((match[1], f"revolutions per {'second' if match['unit'] == 's' or match['second'] else 'minute'}"))
-    for match in _CALLED.finditer(text):
-        if match[1].endswith(" and") or _AT_FIRST.match(match[1]):
-            continue  # the force and $m$ the mass; in steady running $M_e = M_p$
-        words = ENDS.sub("", _BEGINS.split(" ".join(match[1].split()))[-1])
-        if words.partition(" ")[0] in PREPOSITIONS:
-            continue  # the crosshead is in equilibrium under $F$
-        if words.startswith("that of"):  # the reciprocating mass is that of the piston
-            kinds = re.findall(_KINDS, text[max(0, match.start() - 60) : match.end(1)].rpartition("that of")[0])
-            words = words.replace("that", kinds[-1], 1) if kinds else words
-        if words == "coefficient" and _DAMPER.search(text[max(0, match.start() - 60) : match.end(1)]):
-            words = "damping coefficient"
-        phrase = " ".join(PLURALS.get(word, word) for word in words.split())
-        if of := _OF_WHAT.match(text, match.end()):  # the coefficient $k$ of fluctuation
-            whole = phrase.endswith(("coefficient", "moment", "modulus", "swept volume", "mass flow"))
-            phrase += f" of {of[1]}" if whole else ""
-        if at := _AT_END.match(text, match.end()):  # the mass $m_A$ at the crank pin
-            phrase += f" {at[1]}" if phrase.endswith("mass" if at[1].startswith("at") else "distance") else ""
-        pairs += [(symbol, phrase) for symbol in (match[2], *re.findall(r"\$([^$]+)\$", match[3]))]
+    """Letters as they are spelled there, with what sentences call them: the rod force $S$."""
     names: dict[str, str] = {}
-    for symbol, phrase in (*_shared(text), *pairs):
-        if phrase:
-            names.setdefault(spelled(symbol), _MEASURED.sub(r"\1 \2", phrase.replace(" of the ", " of ")))
+    for symbol, phrase in (*_shared(text), *spoken(text)):
+        names.setdefault(spelled(symbol), phrase)
     return names
 
 
 def _shared(text: str) -> Iterator[tuple[str, str]]:
     # letters with one head, and what each is of
-    for match in _EACH_OF.finditer(text):
-        symbols = re.findall(r"\$([^$]+)\$", match[2])
-        owners = re.split(_NEXT, re.sub(r"\bthe\s+", "", " ".join(match[3].split())))
-        if len(owners) == len(symbols) and match[1] in PLURALS:
-            yield from ((s, f"{owner} {PLURALS[match[1]]}") for s, owner in zip(symbols, owners, strict=True))
     for match in _EACH_AS.finditer(text):
         if match[1] in PLURALS:
             pairs = re.findall(r"\$([^$]+)\$\s*\(([^()]+)\)", match[2])

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from itertools import islice
 from zlib import crc32
 
+from mechsym.audit.read.clause import OPENED
 from mechsym.audit.read.displays import MOST, Displayed, displayed, flattened
 from mechsym.audit.read.lagrange import LagrangeEquation, calligraphic, lagrange_equation
 from mechsym.audit.read.latex import read_latex
@@ -20,8 +21,8 @@ from mechsym.audit.read.nomenclature import Named, called, nomenclature, with_ma
 from mechsym.audit.read.refused import NO_LETTERS, SIGN, matrices_of, refused
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
-from mechsym.audit.read.subject import OPENED, behind, listed, shared, subject
-from mechsym.audit.read.tree import Node, argument_of, check, number
+from mechsym.audit.read.subject import behind, listed, shared, subject
+from mechsym.audit.read.tree import Node, argument_of, check, is_operation, number, value_of
 from mechsym.audit.read.tree import name as name_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -66,7 +67,8 @@ _TIDY = (
 )
 
 
-_IN_FRONT = 240  # characters in front of an equation that may say what it is
+# characters in front of an equation that may say what it is; what its last sentence is in
+_IN_FRONT, _SPOKEN = 240, 700
 _FLAT = "it stands in plain text, where 12 may be 1/2 and x2 a square; give it between $$, as LaTeX"
 
 
@@ -81,6 +83,7 @@ class _Spelling:
     delta: bool = False  #: Whether a delta stands alone, so that one before a letter is a factor
     diameter: bool = False  #: Whether a d is a letter of its own, so that one before a letter is a factor
     twofold: Sequence[str] = ()  #: Greek letters that its formulas have in both forms, which are two letters then
+    rated: Sequence[str] = ()  #: Letters with a dot beside the same ones with the index d, which are two letters, too
 
 
 @record
@@ -145,13 +148,16 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     written = nomenclature(spoken_of)
     words = _words(written, shown)
     twofold = tuple(v for v in _TWOFOLD if all(re.search(rf"\\{c}{v}(?![A-Za-z])", formulas) for c in ("", "var")))
+    dotted = sorted({*re.findall(r"\\dot\s*\{?\s*([A-Za-z])(?!\w|\s*\}?\s*_)", formulas)})
+    rated = tuple(k for k in dotted if re.search(rf"(?<![A-Za-z\\]){k}_(?:d(?![A-Za-z])|\{{d\}})", formulas))
+    plain = _Spelling(words=words, indexed=frozenset(), twofold=twofold, rated=rated)
     pairs: dict[str, set[tuple[str, str]]] = {}
     for match in _INDEXED.finditer(text):
         pairs.setdefault(match[1], set()).add((match[2].strip("{}"), match[3].strip("{}")))
     indexed = frozenset(
         base for base, both in pairs.items() if len(both) > 1 and all(abs(int(i) - int(j)) in (1, 3) for i, j in both)
     )
-    named, ahead = _names(written, called(spoken_of), words, twofold)
+    named, ahead = _names(written, called(spoken_of), plain)
     starts = [m.start() for m in _SECTION.finditer(text)]
     lines = [0]
     lines += [m.end() for m in re.finditer("\n", text)]
@@ -159,14 +165,13 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         bare = [] if marked else flattened(text)
         lost = [Said(shown=e, name=e.number or f"line {e.line}", why=_FLAT) for e in bare]
         return Text(said=lost, named=named, called=ahead, prose=text)
-    spelling = _Spelling(
-        words=words,
+    spelling = replace(
+        plain,
         indexed=indexed,
         applied=_applied(shown),
         matrices=matrices_of(shown),
         delta=bool(_ALONE_DELTA.search(text)),
         diameter="d" in ahead,
-        twofold=twofold,
     )
     aside = [*_inline(text), *_tabled(written, lines)]
     everything = sorted([*((e, False) for e in shown), *((e, True) for e in aside)], key=lambda p: p[0].begins)
@@ -179,32 +184,41 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         words_end = opens or equation.begins  # of a row of many, the words in front of all
         before = text[max(0, words_end - _IN_FRONT) : words_end]
         one = _read(equation, spelling, section, before, inline)
-        left = one.sides[0] if one.sides and not inline else None
-        left = left and (argument_of(left, "sin", "cos", "tan") or left)
-        if isinstance(left, ast.Name):
-            phrase, last = spoken.of(opens, before)
+        left = _named_by_words(one.sides[0]) if one.sides and not inline else None
+        if left is not None:
+            phrase, last = spoken.of(opens, text[max(0, words_end - _SPOKEN) : words_end].partition(" ")[2])
             if not phrase and (after := _END.search(text, equation.begins + len(equation.text))):
                 phrase = behind(text[after.end() : after.end() + 80])
                 last = phrase or last
             one = replace(one, about=last)
-            if phrase:
+            if phrase and isinstance(left, ast.Name):
                 ahead.setdefault(left.id, phrase)
         if one.sides or not inline:
             said.append(one)
     return Text(said=said, named=named, called=ahead, prose=text)
 
 
+def _named_by_words(left: Node) -> Node | None:
+    # what the words in front of an equation may name: a letter, as of sin psi or 1/E, or the ratio of two
+    left = argument_of(left, "sin", "cos", "tan") or left
+    if is_operation(left, ast.Div):
+        left = left.right if value_of(left.left) == 1 else left
+        if isinstance(left, ast.BinOp) and isinstance(left.left, ast.Name) and isinstance(left.right, ast.Name):
+            return left
+    return left if isinstance(left, ast.Name) else None
+
+
 def _names(
-    written: Mapping[str, Named], spoken: Mapping[str, str], words: Sequence[str], twofold: Sequence[str]
+    written: Mapping[str, Named], spoken: Mapping[str, str], spelling: _Spelling
 ) -> tuple[dict[str, Named], dict[str, str]]:
     # what tables and sentences say of letters, by plain name, and what each is called
     named: dict[str, Named] = {}
     for symbol, about in written.items():
-        if plain := _plain(symbol, words, twofold):
+        if plain := _plain(symbol, spelling):
             named.setdefault(plain, about)
     ahead = {plain: about.meaning for plain, about in named.items() if about.meaning}
     for symbol, phrase in spoken.items():
-        if plain := _plain(symbol, words, twofold):
+        if plain := _plain(symbol, spelling):
             ahead[plain] = phrase
     return named, ahead
 
@@ -255,10 +269,9 @@ def _words(written: Mapping[str, Named], shown: Sequence[Displayed]) -> list[str
     return sorted(words - NO_LETTERS, key=len, reverse=True)
 
 
-def _plain(symbol: str, words: Sequence[str], twofold: Sequence[str]) -> str:
-    plain = _Spelling(words=words, indexed=frozenset(), twofold=twofold)
+def _plain(symbol: str, spelling: _Spelling) -> str:
     try:
-        tree = read_latex(_prepared(symbol.partition("=")[0].strip(), plain), whole=True)[0]
+        tree = read_latex(_prepared(symbol.partition("=")[0].strip(), spelling), whole=True)[0]
     except BadInput:
         return ""
     return tree.id if isinstance(tree, ast.Name) else ""
@@ -273,6 +286,8 @@ def _prepared(text: str, spelling: _Spelling) -> str:
         text = pattern.sub(instead, text)
     for letter in spelling.twofold:
         text = re.sub(rf"\\var{letter}(?![A-Za-z])", rf"\\Var{letter} ", text)
+    for letter in spelling.rated:
+        text = re.sub(rf"(?<![A-Za-z\\]){letter}_(?:d(?![A-Za-z])|\{{d\}})", rf"{letter}_{{\\text{{{_INDEX}}}}}", text)
     if spelling.delta:
         text = re.sub(r"\\delta(?=\s*(?:\\[,;:! ]\s*)?\\?[A-Za-z])", r"{\\delta}", text)
     if spelling.diameter and "int" not in text:  # pi d b is no differential, which stands above another one
@@ -294,6 +309,7 @@ def _letter_alone(match: re.Match[str]) -> str:
 
 
 _TWOFOLD = ("theta", "phi", "rho", "epsilon")
+_INDEX = "dx"  # d as an index
 _VARIANT = re.compile(r"\\V(ar[a-z]+)")
 _ALONE_DELTA = re.compile(r"\\delta\s*[=$,)}^]")
 _COMMANDS = {sign: "lambda" if name == "lam" else name for name, sign in SYMBOLS.items()} | {"ϕ": "varphi"}
@@ -334,7 +350,8 @@ def _read(shown: Displayed, spelling: _Spelling, section: int, before: str, inli
             sign = f"integral{crc32(shown.text.encode()):08x}"  # one symbol, of which the energies tell
             return replace(head, law=law, sides=(name_of(sign), number(0)), texts=(shown.text, "0"))
         whole = _sides(head, _prepared(shown.text, spelling))
-        return replace(whole, spelled={k: _VARIANT.sub(r"\\v\1", v) for k, v in whole.spelled.items()})
+        own = {k: _VARIANT.sub(r"\\v\1", v).replace(rf"\text{{{_INDEX}}}", "d") for k, v in whole.spelled.items()}
+        return replace(whole, spelled=own)
     except BadInput as error:
         return replace(head, why=str(error))
     except RecursionError:

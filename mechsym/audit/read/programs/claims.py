@@ -41,7 +41,7 @@ class Claim:
     abouts: Mapping[str, str] = field(default_factory=dict)
     parameters: Sequence[str] = ()
     whole: str = ""  #: The same with all that it is of
-    ruled_out: str = ""  #: What names of quantities have that its words speak against: `two_stroke`
+    ruled_out: tuple[str, ...] = ()  #: What names of quantities have that its words speak against: `two_stroke`
     from_top: bool = False  #: Whether the text says that its angle counts from the top dead centre
     last: bool = False  #: Of a function that gives nothing back by `return`: what it ends with
 
