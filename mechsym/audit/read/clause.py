@@ -1,7 +1,7 @@
 """The last clause of a text, and which of its phrases names what the equation behind it gives."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from mechsym.audit.read.phrases import NO_NAMES, pieces
 from mechsym.audit.read.units import KINDS
@@ -25,25 +25,12 @@ _FOLLOWS = frozenset(
     " fall drop grow increase decrease change exceed".split()
 )
 # what comes with a verb: fires with the frequency
-_MEASURED = frozenset(
-    (
-        *KINDS,
-        "angle",
-        "speed",
-        "rate",
-        "amplitude",
-        "moment",
-        "reaction",
-        "magnitude",
-        "component",
-        "function",
-        "life",
-        "decrement",
-        "factor",
-    )
-)
+_BESIDE_KINDS = "angle speed rate amplitude moment reaction magnitude component function life decrement factor"
+_MEASURED = frozenset((*KINDS, *_BESIDE_KINDS.split()))
+_HOLDING = ("at", "with", "by", "to", "into", "below", "above")
 _CHANGES = frozenset("raise lower limit reduce increase keep change".split())
 _VERBS = ("is", "gives", "moves")
+_REFERS = ("this", "that", "it", "they", "there", "which")
 _AMOUNTS = ("magnitude", "amount", "size", "value")
 _KIND_OF_CHANGE = re.compile(r"(?:isentrop|adiabat|polytrop)ic|isothermal")  # the compression is polytropic
 
@@ -62,20 +49,19 @@ class Clause:
             self.parts.pop()
         if len(self.parts) > 2 and self.parts[-2].words == ("what",):  # is what remains
             self.parts = self.parts[:-2]
-        joints = [
-            k
-            for k, p in enumerate(self.parts[:-1])
-            if p.kind == "that" and self.kind(k - 1) in ("", "comma", "that", "and")
-        ]
-        if len(self.parts) > 2 and self.parts[-2].words == ("what",):  # is what remains
-            self.parts = self.parts[:-2]
-        joints = [k for k in joints if self.parts[k].head not in ("which", "whose") or self.kind(k - 1) != "comma"]
+        joints = [k for k in range(len(self.parts) - 1) if self._joins(k)]
         if joints:  # so that the torque is; where the angle
             self.parts = self.parts[joints[-1] + 1 :]
 
     def kind(self, at: int) -> str:
         """Kind of the piece at a place, empty outside."""
         return self.parts[at].kind if 0 <= at < len(self.parts) else ""
+
+    def _joins(self, at: int) -> bool:
+        # whether a clause of its own begins there, and none of what a phrase is
+        if self.kind(at) != "that" or self.kind(at - 1) not in ("", "comma", "that", "and"):
+            return False
+        return self.parts[at].head not in ("which", "whose") or self.kind(at - 1) != "comma"
 
     def is_governed(self, at: int) -> bool:
         """Whether a preposition stands in front of a phrase, or of the list that it is in."""
@@ -139,43 +125,43 @@ class Clause:
         return at
 
     def _named_last(self) -> int | None:
-        # what a verb gives, what a quantity is, what comes with something else, or a name alone
-        last, start = len(self.parts) - 1, self._last_phrase()
-        behind, named = self.kind(start - 2), self.kind(start) == "thing" and not self.parts[start].lettered
-        if (
-            named
-            and self.parts[start - 1].words == ("with",)
-            and (behind in ("", "comma", "and") or behind == "moves" and not self._is_relative(start - 2))
-        ):
-            return start
-        if self._listed_with(start):
-            return start
-        if named and self.parts[start - 1].words == ("for",) and behind in ("", "and"):
+        # what comes with something else, what a verb gives, what a quantity is, or a name alone
+        start = self._last_phrase()
+        if self._comes_with(start) or self._listed_with(start):
             return start
         for k in self._finite():
-            objects = [j for j in range(k + 1, last + 1) if self._is_free(j)]
-            if not objects:
-                continue
-            if self._begins_clause(objects[-1]) and len(objects) > 1:
-                return objects[-1]
-            front = self.in_front(k)
-            if self.kind(k) == "is" and self.parts[objects[0]].lettered and not self.parts[objects[0]].words:
-                return None  # the density is rho
-            pronoun = front is None or self.parts[front].head in ("this", "that", "it", "they", "there", "which")
-            if self.kind(k) == "is" and _KIND_OF_CHANGE.fullmatch(self.parts[objects[0]].head):
-                return None
-            changes = self.kind(k) == "moves" and self.parts[k].head in _FOLLOWS or self.parts[k].head == "follow"
-            if self.parts[k].kind == "is" or changes:
-                held = self._with_it(k + 1) if self.parts[k].head == "exceed" else None
-                return held if held is not None else objects[0] if pronoun else front
-            held = self._with_it(k + 1)
-            if held is None and self.parts[objects[0]].lettered:  # bears the force F with the specific load
-                held = self._with_it(k + 1, measured=False)
-            if self.parts[objects[0]].head in _AMOUNTS and not pronoun:
-                return front  # the centrifugal force has the magnitude
-            indirect = objects[1:2] == [objects[0] + 1]  # gives each piston the force
-            return held if held is not None else objects[1] if indirect else objects[0]
+            if objects := [j for j in range(k + 1, len(self.parts)) if self._is_free(j)]:
+                return self._said_by(k, objects)
         return self._fragment()
+
+    def _said_by(self, verb: int, objects: Sequence[int]) -> int | None:
+        # what a verb says of what it is said of, with the phrases behind it that nothing governs
+        first, front = self.parts[objects[0]], self.in_front(verb)
+        if self._begins_clause(objects[-1]) and len(objects) > 1:
+            return objects[-1]
+        is_of = self.kind(verb) == "is"
+        if is_of and (first.lettered and not first.words or _KIND_OF_CHANGE.fullmatch(first.head)):
+            return None  # the density is rho, the compression is polytropic
+        pronoun = front is None or self.parts[front].head in _REFERS
+        word = self.parts[verb].head
+        if is_of or word == "follow" or self.kind(verb) == "moves" and word in _FOLLOWS:
+            held = self._with_it(verb + 1) if word == "exceed" else None
+            return held if held is not None else objects[0] if pronoun else front
+        if first.head in _AMOUNTS and not pronoun:
+            return front  # the centrifugal force has the magnitude
+        # bears the force F with the specific load
+        held = self._with_it(verb + 1) or (self._with_it(verb + 1, measured=False) if first.lettered else None)
+        indirect = objects[1:2] == [objects[0] + 1]  # gives each piston the force
+        return held if held is not None else objects[1] if indirect else objects[0]
+
+    def _comes_with(self, at: int) -> bool:
+        # with the damping; and fires with the frequency; for the degree of irregularity
+        if self.kind(at) != "thing" or self.parts[at].lettered:
+            return False
+        joint, behind = self.parts[at - 1].words, self.kind(at - 2)
+        alone = behind in ("", "and") or behind == "comma" and joint == ("with",)
+        verb = behind == "moves" and joint == ("with",) and not self._is_relative(at - 2)
+        return joint in (("with",), ("for",)) and (alone or verb)
 
     def _last_phrase(self) -> int:
         # the place of the phrase at the end, less what it is of
@@ -226,9 +212,7 @@ class Clause:
                     return k
                 if self.parts[k - 1].head == "to" and self.parts[k - 2].head == "proportion":
                     return k
-                if self.parts[k - 1].head in ("at", "with", "by", "to", "into", "below", "above") and (
-                    part.head in _MEASURED or not measured
-                ):
+                if self.parts[k - 1].head in _HOLDING and (part.head in _MEASURED or not measured):
                     return k
         return None
 

@@ -13,7 +13,7 @@ _EMPTY = frozenset(  # words in front of a name that say nothing of it
     "required corresponding necessary needed desired respective associated sought following so-called said same usual"
     " present above".split()
 )
-_LAST, _NEAR = 6, 400  # words of a sentence that say what it is about; characters that one before it may refer to
+_NEAR = 400  # characters that a sentence may refer to
 _AT_DEAD_CENTRE = re.compile(r"\bat (?:the )?(top|bottom) dead cent(?:re|er)\b", re.IGNORECASE)
 _TWO_MASSES = re.compile(r"\bpoint masses\b|\btwo masses\b")
 _PIN = re.compile(r"(?:[a-z]+ )+(?:pin|end)")
@@ -28,27 +28,26 @@ _WALL = re.compile(r"\b(?:guide|liner|wall)s?\b|\bcylinder\b")
 
 
 def subject(before: str, alone: bool) -> tuple[str, str]:
-    """What the sentence in front of an equation says that it gives, and of what, or its last words.
+    """What the sentence in front of an equation says that it gives, and the same with what it is of; empty for nothing.
 
     before: the text up to the equation. alone: whether it gives one thing.
     """
     clause = Clause(before)
     if _LEFT.search(clause.plain):
         return "", ""  # of a quantity another one is left
-    tail = ""
     if alone and (said := _mass_at_pin(clause, before)):
         return said, said
     if alone and (said := _by_verb(clause)):
-        return said, tail
+        return said, ""
     at = clause.subject()
     if at is None or clause.parts[at].lettered:
-        return "", tail
+        return "", ""
     name = _name(clause, at)
     if name == "force" and (who := _presses(clause, at)):
         name = who
     whole = _whole(clause, at, name) if name else ""
     refers = not alone or clause.parts[at].words == ("that",)
-    return "" if refers else name, whole or tail
+    return "" if refers else name, whole
 
 
 def _name(clause: Clause, at: int) -> str:
@@ -80,15 +79,9 @@ def _name(clause: Clause, at: int) -> str:
         return "" if {"and", "to"} & {*behind} or not behind else " ".join([plain, *behind])
     if place := _AT_DEAD_CENTRE.search(clause.plain):
         return f"{plain} at {place[1].lower()} dead centre"
-    front = clause.parts[at - 1] if at else None
-    if (
-        plain == "force"
-        and front is not None
-        and front.kind == "thing"
-        and not clause.is_governed(at - 1)
-        and at == len(clause.parts) - 1
-    ):
-        return f"force on the {' '.join(front.words)}"  # the guide carries .., and the rod the force
+    beside = clause.kind(at - 1) == "thing" and not clause.is_governed(at - 1) and at == len(clause.parts) - 1
+    if plain == "force" and beside:  # the guide carries .., and the rod the force
+        return f"force on the {' '.join(clause.parts[at - 1].words)}"
     return plain
 
 
