@@ -215,6 +215,15 @@ def test_a_theory_says_what_it_is_not_of(tmp_path):
     assert blamed(judged(tmp_path, text.format("Both pistons are opposed. "), "text.md")) == []
 
 
+def test_a_theory_may_be_of_texts_with_a_word_of_its_own(tmp_path):
+    """Two rods of a rodless mechanism have together an energy that does not swing."""
+    text = "{} mechanism has the crank radius $r$ and turns with the angular velocity $\\omega$. "
+    text += "With the mass $m$ of a rod the energy of both rods is\n$$ E = m r^2\\omega^2 $$"
+    (row,) = blamed(judged(tmp_path, text.format("A rodless"), "text.md"))
+    assert row["verdict"] == "misprint" and same(row["correction"], r"2 m r^2\omega^2")
+    assert blamed(judged(tmp_path, text.format("A"), "text.md")) == []
+
+
 CHAIN = r"""The shaft vibrates freely,
 $$ J_1\ddot\vartheta_1 + c_1(\vartheta_1 - \vartheta_2) = 0 $$
 $$ J_2\ddot\vartheta_2 + c_1(\vartheta_2 - \vartheta_1) + c_2(\vartheta_2 - \vartheta_3) = 0 $$

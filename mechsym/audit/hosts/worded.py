@@ -123,6 +123,8 @@ class Worded:
     def _contradicts(self, theory: Theory) -> bool:
         # of another mechanism: by a word, or by its stroke of four throws, where that of the theory is two
         prose = self.world.paper.prose.lower()
+        if theory.only_of and not any(word in prose for word in theory.only_of):
+            return True
         if any(word in prose for word in theory.not_of) or theory.rods and _FROM_BOTTOM.search(prose):
             return True
         for meaning, said in theory.words.items():

@@ -2,6 +2,7 @@
 
 angle = "phi"                       # runs over a turn; phid and phidd are its rates
 not_of = ["opposed piston"]         # words of texts that are about something else
+only_of = ["slider crank"]          # words of which a text has to have one
 small = ["lam"]                     # numbers that go to zero; rods = ["l"]: lengths that grow without limit
 [letters]
 r = "30 mm"                         # a value with its unit; "rad" alone: the value is 1
@@ -256,7 +257,7 @@ def _square_sum(a: Node, b: Node) -> Node:
     return plus(*(binary(ast.Pow, e, number(2)) for e in (a, b)))
 
 
-_KEYS = tuple("name about source angle not_of small rods letters define units conditions symbols words".split())
+_KEYS = tuple("name about source angle not_of only_of small rods letters define units conditions symbols words".split())
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)?\s*(.*?)\s*$")
 
@@ -319,6 +320,7 @@ def _theory(content: Json, name: str, where: str) -> Theory:
         data=where,
         words={k: tuple(map(str, v)) for k, v in _table(content, "words").items() if isinstance(v, list)},
         not_of=tuple(map(str, content.get("not_of", []))),
+        only_of=tuple(map(str, content.get("only_of", []))),
     )
 
 
