@@ -175,7 +175,7 @@ class Neighbours:
         return bool(others) and near.quantity not in near.fitted.quantities
 
     def _is_another(self, near: Near) -> bool:
-        # two names of one function with one formula, of which neither is called so: one of them is something else
+        # another letter of the text is this quantity, too: one of the two is something else
         own = near.fitted.claim
         return self.si and bool(self.exact.get((near.fitted.theory.name, near.quantity, own.scope), set()) - {own.name})
 

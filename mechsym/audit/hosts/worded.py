@@ -15,19 +15,15 @@ from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.programs.claims import Claim
 from mechsym.audit.read.reader import AnyLetter, read_expression
+from mechsym.audit.read.said import named_by_words
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import (
     Node,
-    argument_of,
-    binary,
-    call,
     function_of,
     is_operation,
     letters,
-    number,
     renamed,
     substitute,
-    value_of,
     walk,
 )
 from mechsym.audit.read.tree import name as name_of
@@ -77,17 +73,12 @@ class Worded:
         for order, said in enumerate(paper.said):
             if not said.sides or said.claim or said.inline:
                 continue
-            letter, over = said.sides[0], False
-            if is_operation(letter, ast.Div) and value_of(letter.left) == 1:  # 1/E = 1/E_1 + ..
-                letter, over = letter.right, True
-            angle = argument_of(letter, "sin", "cos", "tan")
-            function, letter = (f"a{function_of(letter)}", angle) if angle is not None else ("", letter)
-            of_two = is_operation(letter, ast.Div) and all(isinstance(n, ast.Name) for n in (letter.left, letter.right))
-            if of_two and said.about:  # the critical pressure ratio p_k/p_0
-                letter = name_of("ratio")
-            if not isinstance(letter, ast.Name):
+            if (named := named_by_words(said.sides[0])) is None:
                 continue
-            left = letter.id
+            letter, solved_for = named
+            if not isinstance(letter, ast.Name) and not said.about:
+                continue
+            left = letter.id if isinstance(letter, ast.Name) else "ratio"  # the critical pressure ratio p_k/p_0
             about = called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
                 if (
@@ -96,8 +87,7 @@ class Worded:
                     and not any(function_of(n) == "sum" for _, n in walk(side))
                 ):
                     others = {name: tree for name, tree in values.items() if name not in (left, *called)}
-                    whole = call(function, side) if function else binary(ast.Div, number(1), side) if over else side
-                    tree = self._with_one_force(order, k, whole)
+                    tree = self._with_one_force(order, k, solved_for(side))
                     self.claims[order, k] = Claim(
                         scope="", name=left, tree=tree, line=said.shown.line, about=about, case=0, values=others,
                         abouts=called | {_SUM: "resulting force"}, ruled_out=_ruled_out(said.before, paper.prose),
@@ -154,8 +144,7 @@ class Worded:
             claim = self.claims.get((order, side))
             row = self.neighbours.outcome(claim) if claim is not None and self.neighbours is not None else None
             row = row if row is not None and row["verdict"] in ("agrees", "misprint") else None
-            told = row is not None and row["verdict"] == "misprint"
-            if row is not None and claim is not None and told and self._counts_twice(order, claim.tree, row):
+            if row and claim and row["verdict"] == "misprint" and self._counts_twice(order, claim.tree, row):
                 row = None
             if row is not None and (order, side) in self.sums:
                 written = f"({to_python(self.sums[order, side])})"
@@ -218,7 +207,7 @@ def _ruled_out(before: str, prose: str) -> tuple[str, ...]:
     side.
     """
     rows = re.search(r"\b(?:series|one behind the other|in a row|add up)\b", prose, re.IGNORECASE)
-    beside = re.search(r"\b(?:parallel|side by side|both|together)\b", prose, re.IGNORECASE)
+    beside = re.search(r"\b(?:parallel|side by side)\b", prose, re.IGNORECASE)
     kinds = ["parallel"] if rows and not beside else ["series"] if beside and not rows else []
     other = _other_kind(before, prose)
     return (*kinds, *([other] if other else []))

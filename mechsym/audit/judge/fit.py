@@ -15,6 +15,7 @@ import numpy as np
 
 from mechsym.audit.judge.dimensions import kind_of
 from mechsym.audit.judge.kinds import Kinds
+from mechsym.audit.judge.lexicon import are_both_heats
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.said import Said
@@ -213,8 +214,7 @@ def _choices(fit: Match, world: World, letter: str, strong: bool) -> list[str]:
     if not strong:
         return []  # a product of three letters is one of many things
     every = [n for n in fit.of_kind(kind) if kind is not None or n in fit.theory.letters or n in fit.theory.results]
-    heats = {"cp", "cv"}  # of which none is taken for the other
-    every = [n for n in every if {letter.lower(), n.lower().replace("_", "")} != heats]
+    every = [n for n in every if not are_both_heats(letter, n)]
     return [n for n in every if n in fit.theory.letters or not _is_called_otherwise(n, world.phrase(letter))][:24]
 
 

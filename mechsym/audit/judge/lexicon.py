@@ -54,6 +54,11 @@ def _word_list(text: str) -> tuple[str, ...]:
     return own[:-1] if len(own) > 2 and own[-1] == "v" and own[-2].isdigit() else own
 
 
+def are_both_heats(letter: str, meaning: str) -> bool:
+    """Whether one is the heat at constant pressure and the other that at constant volume, by their usual signs."""
+    return {name.lower().replace("_", "") for name in (letter, meaning)} == {"cp", "cv"}
+
+
 def _turned(said: tuple[str, ...]) -> tuple[str, ...]:
     # the speed of the engine is the engine speed
     if "of" not in said:
@@ -159,7 +164,7 @@ class Lexicon:
 
     def _has_other_index(self, name: str, meaning: str) -> bool:
         # z_2 is no z_1 where the theory has both, and omega_1 no mean speed where it has a first one
-        if {name.lower(), meaning.replace("_", "")} == {"cp", "cv"}:
+        if are_both_heats(name, meaning):
             return True
         its, own = re.fullmatch(r"(\w+?)(?:_(\d))?", meaning), re.fullmatch(r"[A-Za-z]+_?(\d)", name)
         names = {*self.theory.letters, *self.theory.tape}

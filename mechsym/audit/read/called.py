@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from mechsym.audit.read.clause import SENTENCE
-from mechsym.audit.read.phrases import FUSED, PLURALS, Piece, pieces
+from mechsym.audit.read.phrases import FUSED, NOTHING, PLURALS, Piece, piece_at, pieces
 from mechsym.audit.read.units import KINDS
 
 _DISPLAY = re.compile(
@@ -27,7 +27,6 @@ _QUANTITIES = frozenset(
 _RELATIONS = frozenset("swing excess change fluctuation start end degree ratio".split())
 _COUNTS = frozenset("revolutions turns strokes cycles cylinders teeth coils".split())
 _AT_END = re.compile(r"(?:at|from) (?:the )?(?:[a-z]+ )?(?:pin|end)")
-_NONE = Piece(kind="")
 _NO_WORDS, _WHILE = (("constant",), ("small",), ("equal",), ("given",)), ("over", "during")
 _DAMPER = re.compile(r"\bdamper\b")
 _EVERY = r"(?:1|rev|r|turns|revolutions)\s?(?:/|per)\s?"
@@ -46,9 +45,9 @@ def spoken(text: str) -> Iterator[tuple[str, str]]:
         yield match[1] or match[4], f"revolutions per {each}"
     for sentence in SENTENCE.split(_ROW.sub("\n\n", _DISPLAY.sub("\n\n", text))):
         if sentence and ("$" in sentence or "`" in sentence):
-            yield from _Names(sentence).told()
+            yield from _Names(sentence).pairs()
             for inside in _BRACKETED.finditer(sentence):  # the rocker (moment of inertia J)
-                yield from ((k, f"{inside[1]} {name}") for k, name in _Names(inside[2]).told())
+                yield from ((k, f"{inside[1]} {name}") for k, name in _Names(inside[2]).pairs())
 
 
 class _Names:
@@ -58,10 +57,10 @@ class _Names:
         self.sentence, self.parts = sentence, pieces(sentence)
 
     def at(self, k: int) -> Piece:
-        """The piece at a place, one without words outside."""
-        return self.parts[k] if 0 <= k < len(self.parts) else _NONE
+        """The piece at a place."""
+        return piece_at(self.parts, k)
 
-    def told(self) -> Iterator[tuple[str, str]]:
+    def pairs(self) -> Iterator[tuple[str, str]]:
         """Letters with their names."""
         taken: set[int] = set()
         for k, part in enumerate(self.parts):
@@ -108,7 +107,7 @@ class _Names:
         beside = joint.kind == "at" and (vague or not part.article and joint.head in _WHILE)
         if part.words in _NO_WORDS or beside:
             return ""  # in steady running, over time
-        owner = before if before.is_named and not before.lettered else _NONE
+        owner = before if before.is_named and not before.lettered else NOTHING
         if joint.kind == "of":
             if before.words == ("that",):  # the moving mass is that of the piston m
                 kinds = [p.head for p in self.parts[: k - 2] if p.head in KINDS]
@@ -171,7 +170,7 @@ class _Names:
         per = self.at(k + 2).words if self.at(k + 1).words == ("per",) else ()
         words = " ".join((*part.words, *(("per", *per) if per else ())))
         joined = self.at(k - 1).kind in ("of", "gives") or self.at(k - 1).words == ("with",)
-        owner = self.at(k - 2) if joined and part.head == "teeth" else _NONE
+        owner = self.at(k - 2) if joined and part.head == "teeth" else NOTHING
         return f"{owner.head} {words}".strip() if owner.kind == "thing" else words
 
     def _beside(self, row: Sequence[int]) -> str:

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Sequence
 
-from mechsym.audit.read.phrases import NO_NAMES, pieces
+from mechsym.audit.read.phrases import NO_NAMES, piece_at, pieces
 from mechsym.audit.read.units import KINDS
 
 #: Where a display begins, at the end of what stands in front of it
@@ -55,7 +55,7 @@ class Clause:
 
     def kind(self, at: int) -> str:
         """Kind of the piece at a place, empty outside."""
-        return self.parts[at].kind if 0 <= at < len(self.parts) else ""
+        return piece_at(self.parts, at).kind
 
     def _joins(self, at: int) -> bool:
         # whether a clause of its own begins there, and none of what a phrase is

@@ -76,6 +76,11 @@ class Piece:
         return self.kind == "thing" and bool(self.words) and self.head not in NO_NAMES
 
 
+def piece_at(parts: Sequence[Piece], at: int) -> Piece:
+    """The piece at a place, one of no kind outside."""
+    return parts[at] if 0 <= at < len(parts) else NOTHING
+
+
 def _forms(verbs: str) -> dict[str, str]:
     # the forms of verbs to their first: carries, carry
     forms: dict[str, str] = {}
@@ -85,6 +90,7 @@ def _forms(verbs: str) -> dict[str, str]:
     return forms
 
 
+NOTHING = Piece(kind="")  #: Where there is none
 _GIVING = _forms(_LISTS["gives"])
 _VERBS = _GIVING | _forms(_LISTS["moves"])
 

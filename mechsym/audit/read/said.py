@@ -7,8 +7,9 @@ import ast
 import re
 from bisect import bisect_right
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import islice
 from zlib import crc32
 
@@ -22,7 +23,17 @@ from mechsym.audit.read.refused import NO_LETTERS, SIGN, matrices_of, refused
 from mechsym.audit.read.spelling import SYMBOLS
 from mechsym.audit.read.statement import statement, unapplied
 from mechsym.audit.read.subject import behind, listed, shared, subject
-from mechsym.audit.read.tree import Node, argument_of, check, is_operation, number, value_of
+from mechsym.audit.read.tree import (
+    Node,
+    argument_of,
+    binary,
+    call,
+    check,
+    function_of,
+    is_operation,
+    number,
+    value_of,
+)
 from mechsym.audit.read.tree import name as name_of
 from mechsym.errors import BadInput
 from mechsym.quantities import record
@@ -184,8 +195,9 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
         words_end = opens or equation.begins  # of a row of many, the words in front of all
         before = text[max(0, words_end - _IN_FRONT) : words_end]
         one = _read(equation, spelling, section, before, inline)
-        left = _named_by_words(one.sides[0]) if one.sides and not inline else None
-        if left is not None:
+        named_there = named_by_words(one.sides[0]) if one.sides and not inline else None
+        if named_there is not None:
+            left = named_there[0]
             phrase, last = spoken.of(opens, text[max(0, words_end - _SPOKEN) : words_end].partition(" ")[2])
             if not phrase and (after := _END.search(text, equation.begins + len(equation.text))):
                 phrase = behind(text[after.end() : after.end() + 80])
@@ -198,14 +210,20 @@ def read_text_whole(text: str, marked: bool = False) -> Text:
     return Text(said=said, named=named, called=ahead, prose=text)
 
 
-def _named_by_words(left: Node) -> Node | None:
-    # what the words in front of an equation may name: a letter, as of sin psi or 1/E, or the ratio of two
-    left = argument_of(left, "sin", "cos", "tan") or left
-    if is_operation(left, ast.Div):
-        left = left.right if value_of(left.left) == 1 else left
-        if isinstance(left, ast.BinOp) and isinstance(left.left, ast.Name) and isinstance(left.right, ast.Name):
-            return left
-    return left if isinstance(left, ast.Name) else None
+def named_by_words(left: Node) -> tuple[Node, Callable[[Node], Node]] | None:
+    """What the words in front of an equation may name, and what a right side makes of it.
+
+    A letter, as of sin psi or 1/E, or the ratio of two; None where it is neither.
+    """
+    angle = argument_of(left, "sin", "cos", "tan")
+    over = is_operation(left, ast.Div) and value_of(left.left) == 1
+    named = angle if angle is not None else left.right if over and isinstance(left, ast.BinOp) else left
+    of_two = is_operation(named, ast.Div) and all(isinstance(n, ast.Name) for n in (named.left, named.right))
+    if not isinstance(named, ast.Name) and not of_two:
+        return None
+    if angle is not None:
+        return named, partial(call, f"a{function_of(left)}")
+    return named, partial(binary, ast.Div, number(1)) if over else lambda side: side
 
 
 def _names(
