@@ -155,6 +155,8 @@ class Neighbours:
             for fitted in readings(claim, vocabulary):
                 if not several and len(fitted.meanings) > 1:
                     continue
+                if any(kind in meaning for kind in claim.ruled_out for meaning in fitted.meanings.values()):
+                    continue
                 try:
                     form = formula(fitted)
                 except BadInput:
