@@ -4,7 +4,7 @@ import ast
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cache, lru_cache
 from importlib import resources
 from itertools import islice, product
@@ -16,7 +16,8 @@ from mechsym.audit.read.reader import RESERVED, Formula, read_expression
 from mechsym.audit.read.slopes import PRIMES, Slope
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.read.units import PREPOSITIONS, of_turns
-from mechsym.audit.theory.record import Theory, known
+from mechsym.audit.theory.record import Theory, dependencies, known
+from mechsym.audit.theory.tape import BY_OTHERS
 from mechsym.quantities import dimension, record
 
 # what the angle that turns, and its rates, are called in programs
@@ -254,7 +255,8 @@ def readings(claim: Claim, vocabulary: Lexicon) -> Iterator[Fitted]:
 def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]:
     # deep: with what a letter is in its place also where only a sign tells what it means
     theory = vocabulary.theory
-    rank, called = _called(claim, vocabulary)
+    rank, called = _called(claim, vocabulary, theory.tape)
+    letters_rank, letters_called = _called(claim, vocabulary, theory.letters)
     tree, options = _of_either_sign(claim.tree), dict[str, list[tuple[int, str]]]()
     for _ in range(12):
         put_in = {}
@@ -294,7 +296,9 @@ def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]
     for reading in _distinct([options[k] for k in used]):
         meanings = {k: _in_degrees(k, m, tree, theory) for k, (_, m) in zip(used, reading, strict=True)}
         strong = sum(r > 1 for r, _ in reading)
-        quantities = called if rank else ()
+        quantities, told = called, rank
+        if letters_rank >= rank and (solved := _by_others(theory, letters_called, meanings.values())):
+            quantities, told = [*solved, *(called if letters_rank == rank else [])], letters_rank
         yield Fitted(
             theory=theory,
             claim=claim,
@@ -303,7 +307,7 @@ def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]
             quantities=quantities,
             spare=_spare(claim, meanings, vocabulary),
             strong=strong,
-            rank=rank,
+            rank=told,
         )
 
 
@@ -353,16 +357,23 @@ def _of_either_sign(tree: Node) -> Node:
     return tree
 
 
-def _called(claim: Claim, vocabulary: Lexicon) -> tuple[int, list[str]]:
-    # quantities that the name or the comment of a claim says, or the function that gives it back
+def _called(claim: Claim, vocabulary: Lexicon, among: Container[str]) -> tuple[int, list[str]]:
+    # quantities, or letters, that the name or the comment of a claim says, or the function that gives it back
     names = [claim.scope] if claim.name == "return" else [claim.name, *[claim.scope] * claim.last]
     best, called = 0, dict[str, None]()
     for name in names:
         for about in dict.fromkeys((claim.about, claim.whole or claim.about)):
-            ranked = [(r, m) for r, m in vocabulary.meanings(name, about) if m in vocabulary.theory.tape]
+            ranked = [(r, m) for r, m in vocabulary.meanings(name, about) if m in among]
             called |= dict.fromkeys(m for r, m in ranked if r == ranked[0][0])
             best = max(best, ranked[0][0] if ranked else 0)
     return best, list(called)
+
+
+def _by_others(theory: Theory, called: Sequence[str], meanings: Iterable[str]) -> list[str]:
+    # letters that can be had from quantities which stand in a formula, and do not stand there themselves
+    meant = {*meanings}
+    reached = dependencies(theory, [m for m in meant if m in theory.tape])
+    return [f"{m}{BY_OTHERS}" for m in called if m in reached and m not in meant]
 
 
 def _in_degrees(letter: str, meaning: str, tree: Node, theory: Theory) -> str:

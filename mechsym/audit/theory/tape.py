@@ -26,6 +26,9 @@ from mechsym.audit.read.tree import (
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
+#: Ends the name of a letter that is to be had from quantities which hang on it: `V_d_by_others`
+BY_OTHERS = "_by_others"
+
 Rate = Callable[[str], Node]  # of a letter or a name
 _ZERO, _ONE = number(0), number(1)
 
@@ -198,6 +201,8 @@ class TheoryTape(Mapping[str, Entry]):
         return len(self.base)
 
     def _derived(self, key: str) -> Entry | None:
+        if key.endswith(BY_OTHERS) and key.removesuffix(BY_OTHERS) in self.free:
+            return name(key.removesuffix(BY_OTHERS))
         if key.endswith("_") and self._taken(key[:-1]):
             key = key[:-1]
         for by in self.free:
