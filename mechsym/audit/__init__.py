@@ -8,7 +8,7 @@ theory/    the derived quantities that formulas are compared with; theories/ are
 judge/     states at which formula and quantity are compared (question.py), exact? (prover.py), powers of lambda
            (orders.py), dimensions, left sides, assumptions, conventions, Coq scripts; of a whole text its
            units (kinds.py), its own definitions (world.py) and the theories that fit (fit.py); of a program what its
-           names mean in a theory (lexicon.py) and to what they come near (nearness.py)
+           names mean in a theory (lexicon.py, fitted.py) and to what they come near (nearness.py)
 repair/    what each part would have to be (required.py), slips, what was left out, two at once; search.py says in
            which order
 verdict.py the decision

@@ -11,7 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from mechsym.audit.hosts.slips import asked_once, renamed_to
-from mechsym.audit.judge.lexicon import ANGLES, safe
+from mechsym.audit.judge.fitted import safe
+from mechsym.audit.judge.lexicon import ANGLES
 from mechsym.audit.judge.nearness import Probes, compared, of_units
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.algebra import FLOATS, evaluate

@@ -14,7 +14,8 @@ from functools import cache
 from itertools import islice
 
 from mechsym.audit.hosts.slips import slip
-from mechsym.audit.judge.lexicon import WHOLLY, Fitted, Lexicon, formula, readings
+from mechsym.audit.judge.fitted import Fitted, formula, readings
+from mechsym.audit.judge.lexicon import WHOLLY, Lexicon
 from mechsym.audit.judge.nearness import (
     Near,
     Probes,

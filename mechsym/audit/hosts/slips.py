@@ -9,7 +9,7 @@ import numpy as np
 
 from mechsym.audit.judge.asked import Asked, question_of
 from mechsym.audit.judge.conventions import RATIO, also_exact, holds_with, told
-from mechsym.audit.judge.lexicon import Fitted, safe
+from mechsym.audit.judge.fitted import Fitted, safe
 from mechsym.audit.judge.nearness import Near, Probes, at_rest
 from mechsym.audit.judge.question import Question
 from mechsym.audit.read import tree as trees

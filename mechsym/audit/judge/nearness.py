@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mechsym.audit.judge.dimensions import ANGLE, kind_of, kind_of_unit
-from mechsym.audit.judge.lexicon import Fitted
+from mechsym.audit.judge.fitted import Fitted
 from mechsym.audit.judge.question import Question, drawn, float_values, used_names
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.algebra import FLOATS, Values, evaluate
