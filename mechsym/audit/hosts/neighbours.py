@@ -253,7 +253,8 @@ def _met(fitted: Fitted, form: Formula, states: Probes, si: bool) -> Iterator[tu
             seen.add(quantity)
             right = of_sign(met.ratio) if si else of_units(met.ratio) or met.shift
             # a ratio that is turned over
-            wholly = met.ratio is None and fitted.rank > _BY_A_SIGN and fitted.strong == len(fitted.meanings) > 1
+            wholly = met.ratio is None and fitted.rank > _BY_A_SIGN and fitted.strong == len(fitted.meanings)
+            wholly = wholly and (len(fitted.meanings) > 1 or fitted.rank == WHOLLY)
             if right or is_slip(met.ratio) or wholly:
                 yield (0.0 if right else max(met.away, 1e-9)), quantity
     many = len(fitted.meanings)

@@ -25,7 +25,10 @@ _QUANTITIES = frozenset(
 )
 # what is always of something, and what is counted
 _RELATIONS = frozenset("swing excess change fluctuation start end degree ratio".split())
-_COUNTS = frozenset("revolutions turns strokes cycles cylinders teeth coils".split())
+_COUNTS = frozenset(
+    "revolutions turns strokes cycles cylinders teeth coils holes slots plungers pistons stages leaves bolts blades balls "
+    "rollers starts threads faces surfaces".split()
+)
 _AT_END = re.compile(r"(?:at|from) (?:the )?(?:[a-z]+ )?(?:pin|end)")
 _NO_WORDS, _WHILE = (("constant",), ("small",), ("equal",), ("given",)), ("over", "during")
 _DAMPER = re.compile(r"\bdamper\b")
@@ -183,6 +186,12 @@ class _Names:
             if self._may_name(head):
                 kind = self.at(head).head in KINDS
                 return " ".join([self._in_front(head), *([] if kind else self._behind(head))])
+        if (join.kind, self.at(k - 1).kind) == ("comma", "comma") and after.kind in ("is", "gives", "done", "moves"):
+            head = k - 2  # the fluctuation of energy, E, is
+            while self.at(head - 1).kind == "of":
+                head -= 2
+            if self._may_name(head) and not self.at(k - 2).lettered:
+                return " ".join([self._in_front(head), *self._behind(head)])
         if join.kind in ("and", "comma") and after.counted:
             return self._counted(row[-1] + 2)
         if len(row) > 1:
