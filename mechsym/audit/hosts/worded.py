@@ -81,11 +81,9 @@ class Worded:
             left = letter.id if isinstance(letter, ast.Name) else "ratio"  # the critical pressure ratio p_k/p_0
             about = called.get(left) or said.about
             for k, side in enumerate(said.sides[1:], 1):
-                if (
-                    (len(letters(side)) > 1 or sum(isinstance(n, ast.BinOp) for _, n in walk(side)) > _ALONE)
-                    and not vanishes(side)
-                    and not any(function_of(n) == "sum" for _, n in walk(side))
-                ):
+                calls = {function_of(n) for _, n in walk(side)} - {None}
+                heavy = calls or sum(isinstance(n, ast.BinOp) for _, n in walk(side)) > _ALONE
+                if (len(letters(side)) > 1 or heavy) and not vanishes(side) and "sum" not in calls:
                     others = {name: tree for name, tree in values.items() if name not in (left, *called)}
                     tree = self._with_one_force(order, k, solved_for(side))
                     self.claims[order, k] = Claim(

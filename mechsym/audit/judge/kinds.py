@@ -36,6 +36,7 @@ _PLAIN = {
     Fraction(1, 4),
 }
 _PLAIN |= {Fraction(3, 2), Fraction(3, 4), Fraction(5, 2), Fraction(1, 8), Fraction(4, 3)}
+_FALLS = re.compile(r"\b(?:mass(?:es)?|weigh\w*|gravit\w*|lift\w*|hoist\w*|pendulum)\b", re.IGNORECASE)
 _UNITS = ("kg", "m", "s", "K")
 _WAYS = ("x", "y", "z", "s")
 
@@ -287,6 +288,9 @@ def _by_use(kinds: Kinds, paper: Text) -> None:
                 alone = isinstance(argument, ast.Name)  # cos 3 x of a way x has a number in 1/m
                 angles = [n for n in letters(argument) if alone or n not in _WAYS]
                 kinds.printed |= {n: PURE for n in angles if kinds.of(n) is None}
+    defined = {side.id for said in paper.said for side in said.sides[:1] if isinstance(side, ast.Name)}
+    if "g" in used - defined - kinds.printed.keys() - paper.called.keys() and _FALLS.search(paper.prose):
+        kinds.inferred["g"] = of_unit("m/s^2")
     for letter in sorted(used):
         unit = next((u for u in _SCALED if letter.endswith(u) and len(letter) > len(u)), "")
         if unit:
