@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import islice, product
 
-from mechsym.audit.judge.lexicon import BY_SIGN, Lexicon
+from mechsym.audit.judge.lexicon import BY_SIGN, WHOLLY, Lexicon
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import Claim, base, inlined
 from mechsym.audit.read.programs.statements import OF
@@ -88,7 +88,7 @@ def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]
         meanings = {k: _in_degrees(k, m, tree, theory) for k, (_, m) in zip(used, reading, strict=True)}
         strong = sum(r > 1 for r, _ in reading)
         quantities, told = called, rank
-        if letters_rank >= rank and (solved := _by_others(theory, letters_called, meanings.values())):
+        if letters_rank == WHOLLY and (solved := _by_others(theory, letters_called, meanings.values())):
             quantities, told = [*solved, *(called if letters_rank == rank else [])], letters_rank
         yield Fitted(
             theory=theory,

@@ -27,7 +27,7 @@ _QUANTITIES = frozenset(
 _RELATIONS = frozenset("swing excess change fluctuation start end degree ratio".split())
 _COUNTS = frozenset(
     "revolutions turns strokes cycles cylinders teeth coils holes slots plungers pistons stages leaves bolts blades balls "
-    "rollers starts threads faces surfaces".split()
+    "rollers starts threads faces surfaces planets".split()
 )
 _AT_END = re.compile(r"(?:at|from) (?:the )?(?:[a-z]+ )?(?:pin|end)")
 _NO_WORDS, _WHILE = (("constant",), ("small",), ("equal",), ("given",)), ("over", "during")
@@ -71,11 +71,25 @@ class _Names:
                 continue
             row = [k] if part.counted else self._row(k)
             taken.update(row)
+            taken.update(alike := self._alike(k) if part.counted else {})
+            yield from ((self.at(j).letters[0], name) for j, name in alike.items())
             one = self._counted(k) if part.counted else self._in_front(k) if part.words else self._beside(row)
             one = "damping coefficient" if one == "coefficient" and _DAMPER.search(self.sentence) else one
             for j, name in zip(row, self._each(k, row) or [one] * len(row), strict=True):
                 if name:
                     yield self.at(j).letters[0].partition("=")[0], name
+
+    def _alike(self, k: int) -> dict[int, str]:
+        # the sun has z_1 teeth, each planet z_2, the ring z_3
+        alike: dict[int, str] = {}
+        while self.at(k).head == "teeth" and self.at(k + 1 + 2 * len(alike)).kind in ("comma", "and"):
+            at = k + 2 + 2 * len(alike)
+            at += self.at(at).kind == "and"
+            part = self.at(at)
+            if not part.words or not part.lettered or part.counted:
+                break
+            alike[at] = f"{_singular(part)} teeth"
+        return alike
 
     def _row(self, k: int) -> list[int]:
         # the places of the letters that share a phrase for several: the angles a, b and c
