@@ -26,8 +26,8 @@ _QUANTITIES = frozenset(
 # what is always of something, and what is counted
 _RELATIONS = frozenset("swing excess change fluctuation start end degree ratio".split())
 _COUNTS = frozenset(
-    "revolutions turns strokes cycles cylinders teeth coils holes slots plungers pistons stages leaves bolts blades balls "
-    "rollers starts threads faces surfaces planets".split()
+    "revolutions turns strokes cycles cylinders teeth coils holes slots plungers pistons stages leaves bolts blades "
+    "balls rollers starts threads faces surfaces planets".split()
 )
 _AT_END = re.compile(r"(?:at|from) (?:the )?(?:[a-z]+ )?(?:pin|end)")
 _NO_WORDS, _WHILE = (("constant",), ("small",), ("equal",), ("given",)), ("over", "during")

@@ -26,7 +26,7 @@ from mechsym.audit.read.tree import (
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
-#: Ends the name of a letter that is to be had from quantities which hang on it: `V_d_by_others`
+#: Ends the name of a letter that is to be had from quantities which hang on it, as a swept volume from a power
 BY_OTHERS = "_by_others"
 
 Rate = Callable[[str], Node]  # of a letter or a name
