@@ -24,7 +24,7 @@ from mechsym.audit.read.programs.statements import OF
 from mechsym.audit.read.spelling import to_python
 from mechsym.audit.read.tree import Node, letters
 from mechsym.audit.row import Row
-from mechsym.audit.theory.catalogue import named, shipped
+from mechsym.audit.theory.catalogue import named, shipped_for
 from mechsym.errors import BadInput
 from mechsym.files.inputs import read_any_text
 from mechsym.quantities import record
@@ -72,26 +72,26 @@ def audited(place: Path, asked: Asked, chosen: Sequence[Path]) -> Iterator[File]
         shown = path.relative_to(root).as_posix()
         try:
             suffix = path.suffix.lower()
-            reading = read_program(read_any_text(path, longest(suffix)), suffix)
+            text = read_any_text(path, longest(suffix))
+            reading = read_program(text, suffix)
         except BadInput as error:
             yield File(path=shown, why=str(error))
         else:
-            yield _judged(shown, reading, asked)
+            own = [Path(asked.theory).stem] if asked.theory else shipped_for(f"{shown} {text}")
+            yield _judged(shown, reading, [_vocabulary(one, asked.case, asked.theory) for one in own])
 
 
 @cache
-def _vocabularies(theory: str, case: str) -> tuple[Lexicon, ...]:
-    chosen = [named(Path(theory).stem, case, theory)] if theory else [named(one, case) for one in shipped()]
-    return tuple(Lexicon(one) for one in chosen)
+def _vocabulary(name: str, case: str, file: str) -> Lexicon:
+    return Lexicon(named(name, case, file))
 
 
-def _judged(shown: str, reading: Reading, asked: Asked) -> File:
+def _judged(shown: str, reading: Reading, may_be: Sequence[Lexicon]) -> File:
     matched, judged = set[int](), set[int]()  # claims by identity: the same one may be held against several things
     rows = []
     claims = [c for c in reading.claims if len(letters(c.tree)) > 1]
     words = {base(k) for c in reading.claims for k in (*letters(c.tree), c.name)}
-    vocabularies = [v for v in _vocabularies(asked.theory, asked.case) if v.touches(words)]
-    neighbours = Neighbours(reading.claims, vocabularies)
+    neighbours = Neighbours(reading.claims, [v for v in may_be if v.touches(words)])
     for claim in reading.claims:
         outcome = neighbours.outcome(claim)
         own = slope_beside(claim, claims) or converted_twice(claim) or one_for_a_letter(claim)

@@ -28,7 +28,7 @@ from mechsym.audit.read.tree import (
 )
 from mechsym.audit.read.tree import name as name_of
 from mechsym.audit.row import Row
-from mechsym.audit.theory.catalogue import named, shipped
+from mechsym.audit.theory.catalogue import named, shipped_for
 from mechsym.audit.theory.record import Theory
 
 _ALONE = 4  # operations of a formula of one letter that is held against theories: (2/(k + 1))^(k/(k - 1))
@@ -43,8 +43,8 @@ _FROM_BOTTOM = re.compile(r"\b(?:counted|measured|taken)\s+from\s+(?:the\s+|its\
 
 
 @cache
-def _vocabularies() -> tuple[Lexicon, ...]:
-    return tuple(Lexicon(named(one)) for one in shipped())
+def _vocabulary(name: str) -> Lexicon:
+    return Lexicon(named(name))
 
 
 @dataclass
@@ -95,7 +95,8 @@ class Worded:
                     )  # fmt: skip
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}
         names |= {word for name in names for word in called.get(name, "").split()}
-        touched = [v for v in _vocabularies() if v.touches(names) and not self._contradicts(v.theory)]
+        may_be = map(_vocabulary, shipped_for(paper.prose))
+        touched = [v for v in may_be if v.touches(names) and not self._contradicts(v.theory)]
         self.neighbours = Neighbours([*self.claims.values()], touched, si=True)
 
     def _with_one_force(self, order: int, side: int, tree: Node) -> Node:
@@ -111,9 +112,7 @@ class Worded:
     def _contradicts(self, theory: Theory) -> bool:
         # of another mechanism: by a word, or by its stroke of four throws, where that of the theory is two
         prose = self.world.paper.prose.lower()
-        if theory.only_of and not any(word in prose for word in theory.only_of):
-            return True
-        if any(word in prose for word in theory.not_of) or theory.rods and _FROM_BOTTOM.search(prose):
+        if theory.rods and _FROM_BOTTOM.search(prose):
             return True
         for meaning, said in theory.words.items():
             for one in self.world.defined if not meaning.isidentifier() else ():

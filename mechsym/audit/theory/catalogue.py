@@ -1,5 +1,6 @@
 """All theories by name, each with the data of a case."""
 
+import tomllib
 from collections.abc import Callable, Mapping
 from functools import cache, partial
 from importlib import resources
@@ -36,10 +37,28 @@ _THEORIES: dict[str, tuple[Build, str]] = {
 _SHIPPED = resources.files("mechsym.audit") / "theories"
 
 
+@cache
 def shipped() -> dict[str, str]:
     """Theories that are data: name to the text of their file."""
     files = (f for f in _SHIPPED.iterdir() if f.name.endswith(".toml"))
     return {f.name.removesuffix(".toml"): f.read_text(encoding="utf-8") for f in files}
+
+
+@cache
+def _words_of_texts() -> dict[str, tuple[list[str], list[str]]]:
+    # of each theory the words of which a text has one, and those of which it has none
+    contents = {name: tomllib.loads(text) for name, text in shipped().items()}
+    return {name: (one.get("only_of", []), one.get("not_of", [])) for name, one in contents.items()}
+
+
+def shipped_for(text: str) -> list[str]:
+    """Names of the shipped theories that a text may be held against by its words."""
+    low = text.lower()
+    return [
+        name
+        for name, (wanted, refused) in _words_of_texts().items()
+        if (not wanted or any(word in low for word in wanted)) and not any(word in low for word in refused)
+    ]
 
 
 def names() -> list[str]:

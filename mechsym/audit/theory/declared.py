@@ -319,8 +319,6 @@ def _theory(content: Json, name: str, where: str) -> Theory:
         conditions={k: _among(v, f"conditions.{k}", letters) for k, v in _table(content, "conditions").items()},
         data=where,
         words={k: tuple(map(str, v)) for k, v in _table(content, "words").items() if isinstance(v, list)},
-        not_of=tuple(map(str, content.get("not_of", []))),
-        only_of=tuple(map(str, content.get("only_of", []))),
     )
 
 

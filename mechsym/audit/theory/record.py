@@ -93,8 +93,6 @@ class Theory:
     conditions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     data: str = ""
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)  #: What programs call letters and quantities
-    not_of: tuple[str, ...] = ()  #: Words of texts that are about something else
-    only_of: tuple[str, ...] = ()  #: Words of which a text that it is held against has one; none for any text
     #: Random states that were drawn before, which questions of one theory share
     states: dict[tuple[object, ...], Mapping[str, list[Fraction]]] = field(
         default_factory=dict, init=False, repr=False, compare=False
