@@ -10,9 +10,11 @@ from click.testing import CliRunner
 
 from mechsym.audit.hosts import findings as told
 from mechsym.audit.hosts.findings import counts
-from mechsym.audit.hosts.repository import _vocabularies, audited, programs
+from mechsym.audit.hosts.repository import audited, programs
+from mechsym.audit.judge.lexicon import Lexicon
 from mechsym.audit.read.programs.claims import read_program
 from mechsym.audit.read.spelling import to_python
+from mechsym.audit.theory.catalogue import named
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
 
@@ -379,7 +381,7 @@ def test_each_function_has_names_of_its_own(tmp_path):
 
 
 def test_a_comment_is_read_without_its_unit():
-    lexicon = next(v for v in _vocabularies("", "") if v.theory.name == "offset_slider_crank")
+    lexicon = Lexicon(named("offset_slider_crank"))
     assert (
         lexicon.meaning("w", "speed (rad/sec) of it")[1] == "phid" and lexicon.meaning("q", "crank (rad/sec)")[1] == ""
     )

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from mechsym.audit.hosts.formula import check_formula
-from mechsym.audit.theory.catalogue import shipped, theory
+from mechsym.audit.theory.catalogue import shipped, shipped_for, theory
 
 FORMULAS = tomllib.loads((Path(__file__).parent / "textbook.toml").read_text())["formula"]
 # Schmidt's own letters: phase of the pressure, and its swing
@@ -21,6 +21,12 @@ def test_anyone_finds_a_quantity():
     assert sum(len(theory(name).results) for name in shipped()) >= 150
     assert {f["against"].partition(".")[0] for f in FORMULAS} == set(shipped())
     assert all("\nsource = " in text for text in shipped().values())
+    assert all(theory(name).data.endswith(f"{name}.toml") for name in shipped())  # and no other theory is called so
+
+
+def test_a_text_is_held_against_theories_of_which_it_has_a_word():
+    assert "worm_gear" in shipped_for("the worm has two starts") and "worm_gear" not in shipped_for("a spur gear")
+    assert "compression_ratio" not in shipped_for("an engine with opposed pistons")
 
 
 @pytest.mark.slow
