@@ -290,16 +290,12 @@ def _is_told(near: Near, beside: Sequence[Near]) -> bool:
         return True
     if beside:
         return many > 1 or fitted.rank > 2
-    return many > 2 and _operations(near.form) >= _HEAVY
+    return many > 2 and sum(isinstance(n, (ast.BinOp, ast.Call)) for _, n in trees.walk(near.form.tree)) >= _HEAVY
 
 
 def _chooses(tree: ast.AST) -> bool:
     # (a + b + abs(a - b))/2 is the larger of two
     return any(isinstance(n, ast.Name) and n.id in ("abs", "max", "min") for n in ast.walk(tree))
-
-
-def _operations(form: Formula) -> int:
-    return sum(isinstance(n, (ast.BinOp, ast.Call)) for _, n in trees.walk(form.tree))
 
 
 def _wrong(row: Row, near: Near, beside: Sequence[Near]) -> Row | None:

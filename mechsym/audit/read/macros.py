@@ -37,7 +37,7 @@ def expanded(text: str) -> str:
         body = rf"\operatorname{{{body}}}" if match["operator"] else body
         count = len(match["marks"]) // 2 if match["defined"] else int(match["count"] or 0)
         macros[name] = Macro(body=body, arguments=count, first=match["first"])
-        parts += [text[at : match.start()], _blank(text[match.start() : end])]
+        parts += [text[at : match.start()], re.sub(r"[^\n]", " ", text[match.start() : end])]
         at = end
     if not macros:
         return text
@@ -85,7 +85,3 @@ def _closing(text: str, start: int) -> int | None:
         if depth == 0:
             return match.end()
     return None
-
-
-def _blank(text: str) -> str:
-    return re.sub(r"[^\n]", " ", text)
