@@ -13,6 +13,7 @@ from mechsym.audit.judge.lexicon import Lexicon
 from mechsym.audit.judge.sampled import alike, states, vanishes
 from mechsym.audit.judge.world import World
 from mechsym.audit.read.algebra import FLOATS, evaluate
+from mechsym.audit.read.called import owned
 from mechsym.audit.read.programs.claims import Claim
 from mechsym.audit.read.reader import AnyLetter, read_expression
 from mechsym.audit.read.said import named_by_words
@@ -67,6 +68,8 @@ class Worded:
         plain = {k for k, words in paper.called.items() if words == "angle"}
         vague = {k for k in plain if k in values or self.world.angle not in ("", k)}
         called = {k: words for k, words in paper.called.items() if k not in vague}
+        may_be = [_vocabulary(name) for name in shipped_for(paper.prose)]
+        whose = self._owned()
         turning = {n for n in self.world.used if n.rstrip("0123456789") in self.world.kinds.turns and n not in called}
         called |= dict.fromkeys((*self.world.kinds.turns, *sorted(turning)), "revolutions per minute")
         from_top = any(_FROM_TOP.search(text) for text in (paper.prose, *called.values()))
@@ -88,16 +91,22 @@ class Worded:
                     tree = self._with_one_force(order, k, solved_for(side))
                     self.claims[order, k] = Claim(
                         scope="", name=left, tree=tree, line=said.shown.line, about=about, case=0, values=others,
-                        abouts=called | {_SUM: "resulting force"}, ruled_out=_ruled_out(said.before, paper.prose),
+                        abouts=called | {_SUM: "resulting force"}, owned=whose,
+                        ruled_out=_ruled_out(said.before, paper.prose),
                         whole=said.about if said.about.startswith(about) else "",
                         parameters=tuple(called), from_top=from_top,
                         written={name: tree for name, tree in values.items() if name not in (left, *solved)},
                     )  # fmt: skip
         names = {k for claim in self.claims.values() for k in (*letters(claim.tree), claim.name)}
         names |= {word for name in names for word in called.get(name, "").split()}
-        may_be = map(_vocabulary, shipped_for(paper.prose))
         touched = [v for v in may_be if v.touches(names) and not self._contradicts(v.theory)]
         self.neighbours = Neighbours([*self.claims.values()], touched, si=True)
+
+    def _owned(self) -> dict[str, str]:
+        # the sun receives the torque T_1: the sun torque
+        paper = self.world.paper
+        letter_of = {printed: k for said in paper.said for k, printed in said.spelled.items()}
+        return {letter_of[printed]: words for printed, words in owned(paper.prose) if printed in letter_of}
 
     def _with_one_force(self, order: int, side: int, tree: Node) -> Node:
         # (F - m a) sin psi: what a theory calls a force may be a sum of several

@@ -56,7 +56,7 @@ def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]
                 continue
             ranked = [
                 (r, m)
-                for r, m in vocabulary.meanings(base(letter), claim.abouts.get(base(letter), ""))
+                for r, m in vocabulary.meanings(base(letter), _about(claim, base(letter), vocabulary))
                 if base(m) not in called
             ]
             unsure = not ranked or len(ranked) > 1 and ranked[0][0] == ranked[1][0]
@@ -102,8 +102,14 @@ def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]
         )
 
 
+def _about(claim: Claim, letter: str, vocabulary: Lexicon) -> str:
+    # what a letter is called, with its owner where the theory has such a name: the sun torque, elsewhere a torque
+    fuller = claim.owned.get(letter, "")
+    return fuller if vocabulary.knows(fuller) else claim.abouts.get(letter, "")
+
+
 def _spare(claim: Claim, meanings: Mapping[str, str], vocabulary: Lexicon) -> dict[str, str]:
-    told = {p: vocabulary.meaning(p, claim.abouts.get(p, ""))[1] for p in claim.parameters if p not in meanings}
+    told = {p: vocabulary.meaning(p, _about(claim, p, vocabulary))[1] for p in claim.parameters if p not in meanings}
     counts = Counter([*told.values(), *meanings.values()])
     return {p: m for p, m in told.items() if m.isidentifier() and counts[m] == 1}
 
@@ -122,13 +128,13 @@ def _distinct(options: Sequence[Sequence[tuple[int, str]]]) -> Iterator[tuple[tu
 def _is_readable(tree: Node, claim: Claim, vocabulary: Lexicon) -> bool:
     # whether each letter of what a letter is has a meaning or a value
     known = {*claim.values, *claim.written, "pi"}
-    return all(k in known or vocabulary.meanings(base(k), claim.abouts.get(base(k), "")) for k in letters(tree))
+    return all(k in known or vocabulary.meanings(base(k), _about(claim, base(k), vocabulary)) for k in letters(tree))
 
 
 def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon, deep: bool) -> bool:
     # phi = radians(pressure_angle): another letter in its place, whose name says more; several where a sign alone does
     named = [k for k in letters(claim.values[letter]) if k != "pi"]
-    told_of = [vocabulary.meaning(base(k), claim.abouts.get(base(k), "")) for k in named]
+    told_of = [vocabulary.meaning(base(k), _about(claim, base(k), vocabulary)) for k in named]
     angle = vocabulary.theory.angle if len(named) > 1 else ""
     ranks = [rank for rank, meaning in told_of if not angle or meaning != angle]
     return bool(ranks) and min(ranks) > told and (len(named) == 1 or deep and told == BY_SIGN)
@@ -137,7 +143,7 @@ def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon, d
 def _has_angle(letter: str, claim: Claim, vocabulary: Lexicon) -> bool:
     # phi = asin(r*sin(theta)/l) is not the angle that turns
     inside = {base(k) for k in letters(claim.values[letter])} - {base(letter)}
-    meant = [vocabulary.meaning(k, claim.abouts.get(k, ""))[1] for k in inside]
+    meant = [vocabulary.meaning(k, _about(claim, k, vocabulary))[1] for k in inside]
     return len(meant) > 1 and vocabulary.theory.angle in meant
 
 

@@ -74,6 +74,10 @@ class Lexicon:
         self.parts = {word for word in self.having if len(word) > 2}
         self.known: dict[tuple[str, str], list[tuple[int, str]]] = {}
 
+    def knows(self, name: str) -> bool:
+        """Whether something here is called so."""
+        return _joined(_word_list(name)) in self.heads
+
     def touches(self, names: Iterable[str]) -> bool:
         """Whether two names at least may mean something here."""
         alike = 0

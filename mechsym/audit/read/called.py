@@ -46,11 +46,23 @@ def spoken(text: str) -> Iterator[tuple[str, str]]:
     for match in _PER_MINUTE.finditer(text):
         each = "second" if match["unit"] == "s" or match["second"] else "minute"
         yield match[1] or match[4], f"revolutions per {each}"
+    for sentence in _sentences(text):
+        yield from _Names(sentence).pairs()
+        for inside in _BRACKETED.finditer(sentence):  # the rocker (moment of inertia J)
+            yield from ((k, f"{inside[1]} {name}") for k, name in _Names(inside[2]).pairs())
+
+
+def owned(text: str) -> Iterator[tuple[str, str]]:
+    """Letters as they are written, with the names that their owners give them: the sun receives the torque T_1."""
+    for sentence in _sentences(text):
+        yield from _Names(sentence).owned()
+
+
+def _sentences(text: str) -> Iterator[str]:
+    # those that have a letter
     for sentence in SENTENCE.split(_ROW.sub("\n\n", _DISPLAY.sub("\n\n", text))):
         if sentence and ("$" in sentence or "`" in sentence):
-            yield from _Names(sentence).pairs()
-            for inside in _BRACKETED.finditer(sentence):  # the rocker (moment of inertia J)
-                yield from ((k, f"{inside[1]} {name}") for k, name in _Names(inside[2]).pairs())
+            yield sentence
 
 
 class _Names:
@@ -78,6 +90,15 @@ class _Names:
             for j, name in zip(row, self._each(k, row) or [one] * len(row), strict=True):
                 if name:
                     yield self.at(j).letters[0].partition("=")[0], name
+
+    def owned(self) -> Iterator[tuple[str, str]]:
+        """Letters with their names and whose they are."""
+        for k, part in enumerate(self.parts):
+            verb = k - 1 - (self.at(k - 1).kind == "at")
+            owner = self.at(verb - 1)
+            if part.lettered and part.words and self.at(verb).kind in ("gives", "moves") and owner.is_named:
+                if not owner.lettered and not part.counted:
+                    yield part.letters[0], f"{_singular(owner)} {' '.join(part.words)}"
 
     def _alike(self, k: int) -> dict[int, str]:
         # the sun has z_1 teeth, each planet z_2, the ring z_3

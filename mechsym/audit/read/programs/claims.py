@@ -39,6 +39,7 @@ class Claim:
     values: Mapping[str, Node] = field(default_factory=dict)
     written: Mapping[str, Node] = field(default_factory=dict)  #: What names are that no word of a theory tells
     abouts: Mapping[str, str] = field(default_factory=dict)
+    owned: Mapping[str, str] = field(default_factory=dict)  #: Names with whose they are: the sun's torque
     parameters: Sequence[str] = ()
     whole: str = ""  #: The same with all that it is of
     ruled_out: tuple[str, ...] = ()  #: What names of quantities have that its words speak against: `two_stroke`
