@@ -165,7 +165,9 @@ class Neighbours:
                 states = _states(vocabulary, at_rest(fitted.theory, form))
                 met = list(_met(fitted, form, states, self.si))
                 for away, quantity in met:
-                    if any(kind in quantity for kind in claim.ruled_out):
+                    named = " ".join((quantity, *fitted.meanings.values()))
+                    both = "two_stroke" in named and "four_stroke" in named  # no engine is
+                    if both or any(kind in quantity for kind in claim.ruled_out):
                         continue
                     yield Near(away=away, fitted=fitted, form=form, quantity=quantity, states=states)
                 if not met and len(fitted.meanings) > 1:

@@ -35,8 +35,10 @@ from mechsym.audit.theory.record import Theory
 _ALONE = 4  # operations of a formula of one letter that is held against theories: (2/(k + 1))^(k/(k - 1))
 _SPEED = re.compile(r"(?:omega|Omega|w|n|N)(?=\d$)")  # of the first shaft, and of the second
 _TRANSMISSIONS = {"gear ratio", "transmission ratio", "speed ratio"}
-_COUNTS = {"two": 2, "three": 3, "four": 4}
+_COUNTS = {"two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "ten": 10, "twelve": 12}
 _EACH_HAS = re.compile(r"\b(two|three|four)\s+[a-z]+\s+each\b[^.$]*$", re.IGNORECASE)
+_CYLINDERS = re.compile(rf"\b({'|'.join(_COUNTS)})[- ](?:cylinder|piston)", re.IGNORECASE)
+_OF_ALL = re.compile(r"\b(?:engine|all|total|together|whole)\b[^.$]*$", re.IGNORECASE)
 _SUM = "forcesum"  # letter for a sum of forces
 _FROM_TOP = re.compile(r"\b(?:from|after|past)\s+(?:the\s+|its\s+)?(?:top|inner|upper)\s+dead\s+cent", re.IGNORECASE)
 # slider cranks are counted from the other dead centre in every theory
@@ -150,7 +152,7 @@ class Worded:
             claim = self.claims.get((order, side))
             row = self.neighbours.outcome(claim) if claim is not None and self.neighbours is not None else None
             row = row if row is not None and row["verdict"] in ("agrees", "misprint") else None
-            if row and claim and row["verdict"] == "misprint" and self._counts_twice(order, claim.tree, row):
+            if row and claim and row["verdict"] == "misprint" and self._counts_several(order, claim.tree, row):
                 row = None
             if row is not None and (order, side) in self.sums:
                 written = f"({to_python(self.sums[order, side])})"
@@ -158,15 +160,18 @@ class Worded:
             self.outcomes[order, side] = row
         return self.outcomes[order, side]
 
-    def _counts_twice(self, order: int, tree: Node, row: Row) -> bool:
-        # z cylinders with two pistons each: the factor that is blamed is what the sentence says
-        said = _EACH_HAS.search(self.world.paper.said[order].before)
-        if said is None:
+    def _counts_several(self, order: int, tree: Node, row: Row) -> bool:
+        # z cylinders with two pistons each, the displacement of an engine of four: what is blamed is what is said
+        prose, before = self.world.paper.prose, self.world.paper.said[order].before.rstrip("$ \n")
+        counts = {_COUNTS[said.lower()] for said in _EACH_HAS.findall(before)}
+        if _OF_ALL.search(before):
+            counts |= {_COUNTS[said.lower()] for said in _CYLINDERS.findall(prose)}
+        if not counts:
             return False
         right = read_expression(row["correction"], (), AnyLetter())[0]
         values = {name: 0.7 + 0.1 * k for k, name in enumerate({*letters(tree), *letters(right)})}
         first, second = (float(evaluate(t, values, FLOATS)) for t in (tree, right))
-        return abs(first - _COUNTS[said[1].lower()] * second) < 1e-9 * abs(first)
+        return any(abs(first - count * second) < 1e-9 * abs(first) for count in counts)
 
     def agrees(self, order: int) -> bool:
         """Whether an equation is exactly what its words say in every form."""

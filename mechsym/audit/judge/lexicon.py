@@ -7,7 +7,7 @@ from functools import cache, lru_cache
 from importlib import resources
 
 from mechsym.audit.read.programs.statements import OF
-from mechsym.audit.read.slopes import PRIMES, Slope
+from mechsym.audit.read.slopes import PRIMES, Slope, slope_in
 from mechsym.audit.read.units import PREPOSITIONS, of_turns
 from mechsym.audit.theory.record import Theory
 from mechsym.quantities import dimension
@@ -154,11 +154,14 @@ class Lexicon:
 
     def _slope(self, name: str) -> str:
         # dV_dtheta: the slope of what V is, by the angle
-        match, angle, results = _DERIVATIVE.fullmatch(name), self.theory.angle, self.theory.results
-        primes = PRIMES.fullmatch(name)
-        if not angle or not primes and (not match or match["by"] not in (angle, *ANGLES)):
+        angle, results = self.theory.angle, self.theory.results
+        primes, match, slope = PRIMES.fullmatch(name), _DERIVATIVE.fullmatch(name), slope_in(name)
+        of, order = (primes[1], primes[2].count("prime")) if primes else (match["of"], 1) if match else ("", 0)
+        by = angle if primes else match["by"] if match else ""
+        if slope and slope.order > 1:
+            of, by, order = slope.of, slope.by, slope.order
+        if not angle or not order or by not in (angle, *ANGLES):
             return ""
-        of, order = (primes[1], primes[2].count("prime")) if primes else (match["of"] if match else "", 1)
         meant = self.meaning(of, "")[1] if primes else next((m for _, m in self.meanings(of, "") if m in results), "")
         return Slope(meant, angle, order).name if meant in results else ""
 

@@ -32,7 +32,7 @@ KINDS = {
     "temperature": "K", "mass": "kg", "volume": "m^3", "area": "m^2", "velocity": "m/s", "acceleration": "m/s^2",
     "efficiency": "-", "ratio": "-", "factor": "-", "number": "-", "length": "m", "radius": "m", "diameter": "m",
     "width": "m", "distance": "m", "thickness": "m", "height": "m", "stroke": "m", "bore": "m",
-    "lift": "m", "travel": "m", "module": "m", "way": "m", "eccentricity": "m", "arm": "m",
+    "lift": "m", "travel": "m", "module": "m", "way": "m", "eccentricity": "m", "arm": "m", "irregularity": "-",
     "stress": "Pa", "time": "s", "thrust": "N", "angular velocity": "rad/s", "angular speed": "rad/s",
     "angular acceleration": "rad/s^2", "piston speed": "m/s", "shear modulus": "Pa", "young modulus": "Pa",
     "elasticity": "Pa", "density": "kg/m^3", "power density": "", "energy density": "", "frequency": "Hz",
@@ -87,7 +87,7 @@ def usual_unit(letter: str, meaning: str, indexed: bool = False) -> str:
         words.pop()
     called = "number" if words[:2] == ["number", "of"] else words[-1] if words else ""
     called = " ".join(words[-2:]) if " ".join(words[-2:]) in KINDS else called
-    step = not indexed and re.match("(?:d|delta|Delta)[A-Za-z]", letter)
+    step = not indexed and re.match("(?:d(?!elta)|delta|Delta)[A-Za-z]", letter)
     changed = step or _RATIO.search(meaning) or any(OTHERS.fullmatch(word) for word in words)
     unit = "" if changed else KINDS.get(called, "")
     of_mass = re.search(r"\bmoment of inertia$", meaning) and not re.search(r"\b(?:area|polar|second)\b", meaning)
