@@ -3,6 +3,8 @@ r"""What a sentence, the ends of a turn, rest and the equations of motion make o
 import pytest
 from audited import blamed, judged, same
 
+from mechsym.audit.read.called import owned
+
 TURN = "The crank of the radius $r$ in m turns by $\\varphi$; the piston has moved by\n$$ x = r(1 - \\cos\\varphi) $$\n"
 POTENTIAL = (
     "An arm of the mass $m$ in kg with its centre at the distance $s$ in m stands at $q$ and turns with $\\dot q$.\n"
@@ -96,3 +98,36 @@ PUMP = (
 def test_of_two_forms_that_are_alike_one_is_right(text, right, wrong, verdicts, tmp_path):
     rows = [judged(tmp_path, text % form, "text.md")[-1] for form in (right, wrong)]
     assert [row["verdict"] for row in rows] == [*verdicts]
+
+
+def test_a_letter_is_called_by_what_gives_or_takes_it():
+    text = "The sun receives the torque $T_1$, and the shaft turns at the speed $n$. The stroke is $s$."
+    assert dict(owned(text)) == {"T_1": "sun torque", "n": "shaft speed"}
+
+
+@pytest.mark.parametrize(
+    ("engine", "torque", "right"),
+    [
+        ("a four-stroke engine", r"\frac{p_e V_H}{4\pi}", ""),
+        ("a four-stroke engine", r"\frac{p_e V_H}{2\pi}", r"\frac{p_e V_H}{4\pi}"),
+        ("a two-stroke engine", r"\frac{p_e V_H}{2\pi}", ""),
+    ],
+)
+def test_an_engine_has_two_strokes_or_four(tmp_path, engine, torque, right):
+    text = (
+        f"Of {engine} with the total displacement $V_H$ at $n$ revolutions per second and the brake mean effective "
+        f"pressure $p_e$ the engine torque is $$ M = {torque} $$"
+    )
+    (row,) = judged(tmp_path, text, "text.md")
+    assert same(row["correction"], right) if right else row["verdict"] == "exact"
+
+
+def test_a_letter_is_what_quantities_give_that_hang_on_it(tmp_path):
+    text = (
+        "A four-stroke engine of $z$ cylinders is to give the effective power $P_e$ at $n$ revolutions per second. At "
+        "the brake mean effective pressure $p_e$ the swept volume of a cylinder is $$ V_h = %s $$"
+    )
+    (right,) = judged(tmp_path, text % r"\frac{2 P_e}{z p_e n}", "text.md")
+    assert right["verdict"] == "exact" and right["claim"] == "engine_figures.V_d"
+    (wrong,) = judged(tmp_path, text % r"\frac{P_e}{z p_e n}", "text.md")
+    assert same(wrong["correction"], r"\frac{2 P_e}{z p_e n}")

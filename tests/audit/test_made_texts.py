@@ -333,6 +333,9 @@ def test_a_dotted_letter_has_as_many_rates_as_dots(tmp_path):
         ("it runs at $n$ turns per minute", "n", "turns per minute"),
         ("a shaft of torsional stiffness $k$", "k", "shaft torsional stiffness"),
         ("the swept volume $V_H$ of all cylinders", "V_H", "swept volume of all cylinders"),
+        ("The sun has $z_1$ teeth, each planet $z_2$ and the ring $z_3$.", "z_3", "ring teeth"),
+        ("The fluctuation of energy of a turn, $E$, is taken up by a flywheel.", "E", "fluctuation of energy of turn"),
+        ("It leaves the nozzle through $k$ holes of diameter $d$.", "k", "holes"),
     ],
 )
 def test_words_belong_to_their_letter(sentence, letter, name):

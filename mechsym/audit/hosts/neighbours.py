@@ -26,6 +26,7 @@ from mechsym.audit.judge.nearness import (
     of_same_letters,
     of_sign,
     of_units,
+    shown_as,
 )
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import Claim, base
@@ -78,7 +79,7 @@ class Neighbours:
             excused = not other and not (named and near.quantity in own) and not self._clashes(near)
             excused = excused and not self._is_another(near)
             if near.away == 0.0 and (near.quantity in near.fitted.quantities or excused):
-                sense, against = self._sense(near), f"{near.fitted.theory.name}.{near.quantity}"
+                sense, against = self._sense(near), shown_as(near.fitted.theory, near.quantity)
                 if sense and _is_rate_of_its_own(near):
                     right = to_python(trees.negative(claim.tree))
                     note = "the angle whose rate it is stands in it, and has its sense"
@@ -101,7 +102,7 @@ class Neighbours:
         )  # fmt: skip
         for near, others in islice(asked, _ASKED):
             if _is_right_undefined(near):
-                return {"verdict": "agrees", "claim": f"{near.fitted.theory.name}.{near.quantity}"}
+                return {"verdict": "agrees", "claim": shown_as(near.fitted.theory, near.quantity)}
             row = slip(replace(near, settled=self._is_settled(near)), others, self._of_angle(near))
             if row is not None and row["verdict"] == "wrong":
                 worse = worse or _wrong(row, near, others)

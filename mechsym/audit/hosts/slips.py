@@ -10,7 +10,7 @@ import numpy as np
 from mechsym.audit.judge.asked import Asked, question_of
 from mechsym.audit.judge.conventions import RATIO, also_exact, holds_with, told
 from mechsym.audit.judge.fitted import Fitted, safe
-from mechsym.audit.judge.nearness import Near, Probes, at_rest
+from mechsym.audit.judge.nearness import Near, Probes, at_rest, shown_as
 from mechsym.audit.judge.question import Question
 from mechsym.audit.read import tree as trees
 from mechsym.audit.read.programs.claims import base
@@ -47,7 +47,7 @@ def asked_once(
 
     beside, of_angle: others of the same program that agree, which have the same letters and count the same angle.
     """
-    against = f"{theory.name}.{quantity}"
+    against = shown_as(theory, quantity)
     try:
         question = _question(text, theory, quantity, own, rest)
         verdict = decide(question, settled=settled, one=not twice)

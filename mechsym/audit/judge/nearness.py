@@ -12,7 +12,7 @@ from mechsym.audit.read.algebra import FLOATS, Values, evaluate
 from mechsym.audit.read.reader import Formula
 from mechsym.audit.read.tree import letters
 from mechsym.audit.theory.record import Theory, complete, dependencies
-from mechsym.audit.theory.tape import needed
+from mechsym.audit.theory.tape import BY_OTHERS, needed
 from mechsym.errors import BadInput
 from mechsym.quantities import record
 
@@ -36,6 +36,11 @@ def at_rest(theory: Theory, form: Formula) -> tuple[str, ...]:
     offsets = [k for k, about in theory.letters.items() if about.unit == "m" and about.sign == "any"]
     rates = [f"{theory.angle}dd"] if theory.angle and f"{theory.angle}d" in used else []
     return tuple(k for k in (*offsets, *rates) if k not in used)
+
+
+def shown_as(theory: Theory, quantity: str) -> str:
+    """A quantity with its theory as users read it; a letter that others give is that letter."""
+    return f"{theory.name}.{quantity.removesuffix(BY_OTHERS)}"
 
 
 def of_same_letters(theory: Theory, form: Formula, quantity: str) -> bool:
