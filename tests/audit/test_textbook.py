@@ -24,6 +24,13 @@ def test_anyone_finds_a_quantity():
     assert all(theory(name).data.endswith(f"{name}.toml") for name in shipped())  # and no other theory is called so
 
 
+def test_words_of_texts_are_lists_in_small_letters():
+    for text in shipped().values():
+        content = tomllib.loads(text)
+        said = [content[key] for key in ("only_of", "not_of") if key in content]
+        assert all(isinstance(one, list) and all(word and word == word.lower() for word in one) for one in said)
+
+
 def test_a_text_is_held_against_theories_of_which_it_has_a_word():
     assert "worm_gear" in shipped_for("the worm has two starts") and "worm_gear" not in shipped_for("a spur gear")
     assert "compression_ratio" not in shipped_for("an engine with opposed pistons")

@@ -55,9 +55,7 @@ def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]
             if letter in options or letter == "pi":
                 continue
             ranked = [
-                (r, m)
-                for r, m in vocabulary.meanings(base(letter), _about(claim, base(letter), vocabulary))
-                if base(m) not in called
+                (r, m) for r, m in vocabulary.meanings(*_told_of(claim, letter, vocabulary)) if base(m) not in called
             ]
             unsure = not ranked or len(ranked) > 1 and ranked[0][0] == ranked[1][0]
             told = ranked[0][0] if ranked else 0
@@ -102,14 +100,15 @@ def _readings(claim: Claim, vocabulary: Lexicon, deep: bool) -> Iterator[Fitted]
         )
 
 
-def _about(claim: Claim, letter: str, vocabulary: Lexicon) -> str:
-    # what a letter is called, with its owner where the theory has such a name: the sun torque, elsewhere a torque
-    fuller = claim.owned.get(letter, "")
-    return fuller if vocabulary.knows(fuller) else claim.abouts.get(letter, "")
+def _told_of(claim: Claim, letter: str, vocabulary: Lexicon) -> tuple[str, str]:
+    # a letter and what it is called, by its owner where the theory has such a name: the sun torque, elsewhere a torque
+    own = base(letter)
+    fuller = claim.owned.get(own, "")
+    return own, fuller if vocabulary.knows(fuller) else claim.abouts.get(own, "")
 
 
 def _spare(claim: Claim, meanings: Mapping[str, str], vocabulary: Lexicon) -> dict[str, str]:
-    told = {p: vocabulary.meaning(p, _about(claim, p, vocabulary))[1] for p in claim.parameters if p not in meanings}
+    told = {p: vocabulary.meaning(*_told_of(claim, p, vocabulary))[1] for p in claim.parameters if p not in meanings}
     counts = Counter([*told.values(), *meanings.values()])
     return {p: m for p, m in told.items() if m.isidentifier() and counts[m] == 1}
 
@@ -128,13 +127,13 @@ def _distinct(options: Sequence[Sequence[tuple[int, str]]]) -> Iterator[tuple[tu
 def _is_readable(tree: Node, claim: Claim, vocabulary: Lexicon) -> bool:
     # whether each letter of what a letter is has a meaning or a value
     known = {*claim.values, *claim.written, "pi"}
-    return all(k in known or vocabulary.meanings(base(k), _about(claim, base(k), vocabulary)) for k in letters(tree))
+    return all(k in known or vocabulary.meanings(*_told_of(claim, k, vocabulary)) for k in letters(tree))
 
 
 def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon, deep: bool) -> bool:
     # phi = radians(pressure_angle): another letter in its place, whose name says more; several where a sign alone does
     named = [k for k in letters(claim.values[letter]) if k != "pi"]
-    told_of = [vocabulary.meaning(base(k), _about(claim, base(k), vocabulary)) for k in named]
+    told_of = [vocabulary.meaning(*_told_of(claim, k, vocabulary)) for k in named]
     angle = vocabulary.theory.angle if len(named) > 1 else ""
     ranks = [rank for rank, meaning in told_of if not angle or meaning != angle]
     return bool(ranks) and min(ranks) > told and (len(named) == 1 or deep and told == BY_SIGN)
@@ -143,7 +142,7 @@ def _is_told_better(letter: str, told: int, claim: Claim, vocabulary: Lexicon, d
 def _has_angle(letter: str, claim: Claim, vocabulary: Lexicon) -> bool:
     # phi = asin(r*sin(theta)/l) is not the angle that turns
     inside = {base(k) for k in letters(claim.values[letter])} - {base(letter)}
-    meant = [vocabulary.meaning(k, _about(claim, k, vocabulary))[1] for k in inside]
+    meant = [vocabulary.meaning(*_told_of(claim, k, vocabulary))[1] for k in inside]
     return len(meant) > 1 and vocabulary.theory.angle in meant
 
 

@@ -81,9 +81,8 @@ class _Names:
         for k, part in enumerate(self.parts):
             if part.kind != "thing" or not part.lettered or k in taken:
                 continue
-            row = [k] if part.counted else self._row(k)
-            taken.update(row)
-            taken.update(alike := self._alike(k) if part.counted else {})
+            row, alike = ([k], self._alike(k)) if part.counted else (self._row(k), {})
+            taken.update(row, alike)
             yield from ((self.at(j).letters[0], name) for j, name in alike.items())
             one = self._counted(k) if part.counted else self._in_front(k) if part.words else self._beside(row)
             one = "damping coefficient" if one == "coefficient" and _DAMPER.search(self.sentence) else one
@@ -214,19 +213,15 @@ class _Names:
     def _beside(self, row: Sequence[int]) -> str:
         # m is the mass, the masses are m_1 and m_2, by R the crank throw; z_1 and z_2 teeth
         k, join, after = row[0], self.at(row[-1] + 1), self.at(row[-1] + 2)
-        if self.at(k - 1).kind == "is" or self.at(k - 1).words == ("being",):
+        commas = self.at(k - 1).kind == join.kind == "comma"  # the fluctuation of energy, E, is
+        between = commas and after.kind in ("is", "gives", "done", "moves")
+        if between or self.at(k - 1).kind == "is" or self.at(k - 1).words == ("being",):
             head = k - 2
-            while self.at(head - 1).kind in ("of", "at"):
+            while self.at(head - 1).kind == "of" or self.at(head - 1).kind == "at" and not between:
                 head -= 2
             if self._may_name(head):
                 kind = self.at(head).head in KINDS
                 return " ".join([self._in_front(head), *([] if kind else self._behind(head))])
-        if (join.kind, self.at(k - 1).kind) == ("comma", "comma") and after.kind in ("is", "gives", "done", "moves"):
-            head = k - 2  # the fluctuation of energy, E, is
-            while self.at(head - 1).kind == "of":
-                head -= 2
-            if self._may_name(head) and not self.at(k - 2).lettered:
-                return " ".join([self._in_front(head), *self._behind(head)])
         if join.kind in ("and", "comma") and after.counted:
             return self._counted(row[-1] + 2)
         if len(row) > 1:

@@ -1,8 +1,8 @@
 """Theories that anyone declares: a TOML file of letters and definitions, or a mechanism in a Python file.
 
 angle = "phi"                       # runs over a turn; phid and phidd are its rates
-not_of = ["opposed piston"]         # words of texts that are about something else
-only_of = ["slider crank"]          # words of which a text has to have one
+not_of = ["opposed piston"]         # of a shipped theory: words of texts that are about something else, and
+only_of = ["slider crank"]          # words of which a text has one; small letters. A named theory is always asked
 small = ["lam"]                     # numbers that go to zero; rods = ["l"]: lengths that grow without limit
 [letters]
 r = "30 mm"                         # a value with its unit; "rad" alone: the value is 1
