@@ -9,7 +9,7 @@ Numbers are SI; texts may carry a unit; a key may name its unit instead (`speed_
 import dataclasses
 import functools
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -28,7 +28,7 @@ from mechsym.plausible import Acceptance, Doubt
 from mechsym.quantities import record
 from mechsym.quantities.records import Record
 
-__all__ = ["Case", "load", "locate", "names", "text", "underlaid", "written"]
+__all__ = ["Case", "load", "locate", "names", "text", "told_apart", "underlaid", "written"]
 HEAD = ("mechanism", "source", "about")  # what stands above the sections of a file
 
 
@@ -137,6 +137,20 @@ def _beside(record: Record, name: str) -> Record:
     folder = Path(str(_folder())) if name in names() else Path(name).parent
     moved = {k: str(folder / v) for k, v in written.items() if v and not Path(v).exists() and (folder / v).exists()}
     return dataclasses.replace(record, **moved) if moved else record
+
+
+def told_apart(loaded: Sequence[Case]) -> list[Case]:
+    """Cases by their names, files of one name by as much of their paths as tells them apart.
+
+    Whoever keys by name would else lose one of two engines.
+    """
+    ways = [(case.name,) if case.path == case.name else (*Path(case.path).resolve().parent.parts, case.name)
+            for case in loaded]  # fmt: skip
+    for length in range(1, max(map(len, ways)) + 1):
+        names_ = ["/".join(way[-length:]) for way in ways]
+        if len(set(names_)) == len(set(ways)):
+            break
+    return [dataclasses.replace(case, name=name) for case, name in zip(loaded, names_, strict=True)]
 
 
 def underlaid(case: Case, settings: Mapping[str, object]) -> Case:

@@ -159,6 +159,8 @@ def by_size(sections: Records, sizes: Proportions, bore: Metre | None) -> tuple[
 def by_stroke(sections: Records, stroke: Metre, bore: Metre | None) -> tuple[Doubt, ...]:
     """Lengths, areas and volumes of sections by stroke and bore of the piston."""
     measures = {"stroke": stroke}
+    if omega := value(sections, "operation", "speed"):
+        measures["time of a turn"] = math.tau / abs(omega)
     if bore:
         area = math.pi / 4 * bore**2
         measures |= {"bore": bore, "bore^3": bore**3, "piston area": area, "swept volume": area * stroke}
@@ -252,6 +254,12 @@ def _by_part(sections: Records, sizes: Proportions) -> Iterator[_Told]:
     if roller := value(sections, "rollers", "radius"):
         share = value(sections, "losses", "bearing_radius") / roller
         yield "bearing_share", "losses.bearing_radius / rollers.radius", share
+        width = value(sections, "rollers", "width")
+        yield "track_planes", "rollers.plane_offset / width", value(sections, "rollers", "plane_offset") / width
+        steel = links.STEEL * math.pi * roller**2 * width
+        for section in ("rollers", "codesign"):
+            what = f"{section}.moving_mass / that of a roller of steel"
+            yield "roller_mass", what, value(sections, section, "moving_mass") / steel
     for letter, ratio in sizes.unequal.items():
         yield "unequal", f"largest parameters.{letter} / least", ratio
     if sizes.span is not None:

@@ -195,6 +195,10 @@ def _run(sections: Records) -> Iterator[Doubt]:
             why = "one is the other with rpm taken for rad/s: a number without a unit is in rad/s"
             what = "simulation.speed_start / operation.speed, the digits of one speed in two units"
             yield Doubt(code="speed_unit", quantity=what, value=ratio, usual="another ratio", why=why)
+    speeds = sections.get("speeds")
+    if speeds is not None and (step := value(sections, "sizing", "speed_step")):
+        steps = (speeds.highest - speeds.lowest) / step
+        yield from proportion("few_speeds", "(speeds.highest - lowest) / sizing.speed_step", steps)
     first = sections.get("start")
     for field in dataclasses.fields(first) if first is not None else ():
         angle = getattr(first, field.name)

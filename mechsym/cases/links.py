@@ -27,7 +27,7 @@ from mechsym.quantities.units import Newton
 if TYPE_CHECKING:
     from mechsym.derive.listing import Listing
 
-_STEEL = 7850.0  # its density [kg/m^3]
+STEEL = 7850.0  # its density [kg/m^3]
 _BEYOND = 1.1  # how far links go beyond their joints, of their reach [-]
 _WHEEL = 200.0  # inertia of a wheel by its mass and the longest link squared: fourteen times as wide as that [-]
 _OF_ROD = 1.2  # farthest centre of what is no crank from the middle of its points, by its length [-]
@@ -134,7 +134,7 @@ def _solids(
         if angle in speeds:
             about, radius = f"speed of {angle}d at the radius sqrt({inertia}/{mass})", math.sqrt(turned / weighed)
             yield from proportion("point_speed", about, abs(speeds[angle]) * radius, _BURSTS)
-        edge = (weighed / _STEEL) ** (1 / 3)
+        edge = (weighed / STEEL) ** (1 / 3)
         of, size = ("longest letter", longest) if longest > edge else ("edge in steel", edge)
         ratio = turned / (weighed * size**2)
         if ratio > 1:
@@ -149,8 +149,8 @@ def _thin(of: str, mass: float, inertia: float, high: float | None = None) -> It
     """
     if mass > 0 and inertia > 0:
         what = f"length of a steel shaft with the mass and the inertia of {of}"
-        length = mass**2 / (2 * math.pi * _STEEL * inertia)
-        thread = _SLENDER * math.sqrt(4 * mass / (math.pi * _STEEL * length))
+        length = mass**2 / (2 * math.pi * STEEL * inertia)
+        thread = _SLENDER * math.sqrt(4 * mass / (math.pi * STEEL * length))
         yield from proportion("shaft_length", what, length, high or thread)
 
 
@@ -228,7 +228,7 @@ def _stress(
     .. math:: F/A, \qquad 6 M / A^{3/2}
     """
     lengths = [(value_of(link["mass"], letters), _length(link, letters)) for link in links]
-    section = max((mass / (_STEEL * length) for mass, length in lengths if length > 0), default=0.0)
+    section = max((mass / (STEEL * length) for mass, length in lengths if length > 0), default=0.0)
     if section > 0:
         what = f"largest force {of} / section of the stoutest link"
         yield from proportion("link_stress", what, force / section)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mechsym.cases import Case
-from mechsym.cli.common import case_command, emit, out_option, table
+from mechsym.cli.common import case_command, emit, listed, out_option, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import figure, quantity_text
@@ -47,19 +47,25 @@ def balance(
     from mechsym.jobs.forces import balance as run
     from mechsym.jobs.forces import numbers, write_balance
     from mechsym.mechanisms import listing
+    from mechsym.mechanisms.plan import plan_of
+    from mechsym.plausible import proportion
     from mechsym.quantities import parse
 
     most = None if largest is None else parse(largest, "kg*m", "--largest")
     if most is not None and most <= 0:
         raise BadInput(f"--largest = {largest}: give more than 0 kg*m, or leave it away")
-    orders = [one.strip() for one in shafts.split(",") if one.strip()]
+    orders = listed(shafts, "--shafts") if shafts else []
     if any(one not in ("1", "2", "3", "4") for one in orders):
         raise BadInput(f"--shafts = {shafts}: balancer shafts turn 1 to 4 times as fast as the crank; write 1,2")
-    turning = tuple(dict.fromkeys(map(int, orders)))
-    one = run(case, weights, turning, least, most, parse(apart, "m", "--apart"))
+    distance = parse(apart, "m", "--apart")
+    if distance and not orders:
+        raise BadInput(f"--apart = {apart}: there are no shafts that stand apart; give --shafts, or leave it away")
+    one = run(case, weights, tuple(map(int, orders)), least, most, distance)
     balanced = numbers(case, one)
     files = write_balance(one, balanced, out, case.about or listing(case.mechanism)["about"]) if out else []
-    emit(balanced, lambda: _text(balanced), files=files)
+    sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
+    doubts = proportion("shaft_distance", "--apart / stroke", distance / sizes.stroke) if sizes and distance else ()
+    emit(balanced, lambda: _text(balanced), beside={"doubts": list(doubts)}, files=files)
 
 
 def _text(balanced: "BalanceOfEngine") -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mechsym.cases import Case
-from mechsym.cli.common import budget_option, case_command, emit, heads, out_option, progress, table
+from mechsym.cli.common import budget_option, case_command, emit, heads, listed, out_option, progress, table
 from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, quantity_text
 
@@ -111,7 +111,7 @@ def _settings(settings: "CoDesignSettings", options: dict[str, Any]) -> tuple["C
         if name in given:
             changed[name] = parse(given[name].strip(), "-", "--" + name.replace("_", "-"))
     if "free" in given:
-        changed["free"] = tuple(name.strip() for name in given["free"].split(",") if name.strip())
+        changed["free"] = tuple(listed(given["free"], "--free")) if given["free"] else ()
     ripples = values(given["pareto"], "-", "--pareto", most=_MOST) if "pareto" in given else []
     if any(not 0 < r < 1 for r in ripples) or len(set(ripples)) < len(ripples):
         raise BadInput(f"--pareto {options['pareto']!r}: ripples between 0 and 1, each of them once, such as 1,2,5%")

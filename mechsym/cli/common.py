@@ -38,7 +38,11 @@ def tried(ctx: click.Context, param: click.Parameter, path: Path | None, endings
     """
     if path is not None and not ctx.resilient_parsing:
         kind, takes = path.suffix.lower(), param.type
-        file = kind in endings or (isinstance(takes, click.Path) and not takes.dir_okay)
+        only = isinstance(takes, click.Path) and not takes.dir_okay
+        file = kind in endings or only
+        if only and endings and kind not in endings:
+            ways = " or ".join(endings)
+            raise BadInput(f"{param.opts[0]} {path}: such a file ends in {ways}; write {path.with_suffix(endings[0])}")
         if not file and kind in _ENDINGS and not path.is_dir():
             way = f"several files are written into a folder; leave {path.suffix} away"
             way = f"the file is of kind {endings[0]}; write {path.with_suffix(endings[0])}" if endings else way
@@ -50,6 +54,11 @@ def tried(ctx: click.Context, param: click.Parameter, path: Path | None, endings
         if not file:
             ctx.with_resource(together(path))
     return path
+
+
+def ending(*endings: str) -> Callable[..., Any]:
+    """As `tried`, for an option that names one file by its ending."""
+    return functools.partial(tried, endings=endings)
 
 
 def tried_run(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
@@ -102,11 +111,8 @@ def case_command(short_help: str, *out: Callable[..., Any]) -> Callable[[Callabl
 def file_option(usual: str, *endings: str) -> Callable[..., Any]:
     """The option --out of a command that writes one file: a folder for it, or the file itself by its ending."""
 
-    def of_its_kind(ctx: click.Context, param: click.Parameter, path: Path | None) -> Path | None:
-        return tried(ctx, param, path, endings)
-
     help_ = f"Folder for {usual}, made when missing; or the file itself, which ends in {endings[0]}."
-    return click.option("--out", type=click.Path(path_type=Path), callback=of_its_kind, help=help_)
+    return click.option("--out", type=click.Path(path_type=Path), callback=ending(*endings), help=help_)
 
 
 def file_in(out: Path | None, usual: str, *endings: str) -> Path:
@@ -125,6 +131,17 @@ def pairs(texts: tuple[str, ...], option: str = "--set") -> dict[str, str]:
             raise BadInput(f"{option} {key.strip()} is given twice, {values[key.strip()]!r} and {value.strip()!r}")
         values[key.strip()] = value.strip()
     return values
+
+
+def listed(text: str, option: str) -> list[str]:
+    """Words between commas, each of which is given once; at least one."""
+    given = [word.strip() for word in text.split(",") if word.strip()]
+    if not given:
+        raise BadInput(f"{option} {text!r} names nothing; give words with commas between them, or leave it away")
+    twice = next((word for word in given if given.count(word) > 1), None)
+    if twice is not None:
+        raise BadInput(f"{option} {text!r} names {twice} twice")
+    return given
 
 
 def case_of(name: str, overrides: Mapping[str, object]) -> Case:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from mechsym.cases import told_apart
 from mechsym.cli import common
 from mechsym.cli.common import case_of, emit, judge_ends, pairs, parse_speeds, table
 from mechsym.files import Json
@@ -34,7 +35,7 @@ def compare(case_a: str, case_b: str, speeds: str | None, out: Path | None, over
     from mechsym.cycle.engine import columns, over_speeds
     from mechsym.jobs.cycle import engine, speed_range
 
-    cases = [case_of(name, pairs(overrides)) for name in (case_a, case_b)]
+    cases = told_apart([case_of(name, pairs(overrides)) for name in (case_a, case_b)])
     for case, given in zip(cases, (speeds is not None, True), strict=True):  # the second runs at the first one's speeds
         require(case, "compare", SPEEDS if given else "")
     omega = np.asarray(parse_speeds(speeds)) if speeds is not None else speed_range(cases[0].need("speeds"))

@@ -8,7 +8,7 @@ import click
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cli import common
-from mechsym.cli.common import case_of, emit, file_in, pairs
+from mechsym.cli.common import case_of, emit, file_in, listed, pairs
 from mechsym.errors import BadInput
 from mechsym.files import make_folder, together, write_text
 from mechsym.files.inputs import reads
@@ -45,7 +45,7 @@ def export(name: str, languages: str, diagram: str | None, overrides: tuple[str,
         else:
             case = case_of(name, pairs(overrides))
             written = of_block(block_of(case.name, case.about, ready(case, diagram)))
-        texts = [files(written, word.strip()) for word in languages.split(",")]
+        texts = [files(written, word) for word in listed(languages, "--to")]
         paths = [str(write_text(folder / file, text)) for made in texts for file, text in made.items()]
     emit({"written": paths, "checks": {}}, lambda: "", files=paths)
 
@@ -113,7 +113,7 @@ def fmu(
 
     if click.get_current_context().meta.get("mechsym.units"):
         raise BadInput("--units: an FMU is in SI, as FMI has it, and tells its units itself; leave it away")
-    wanted = PLATFORMS if platforms is None else () if platforms == "none" else tuple(platforms.split(","))
+    wanted = PLATFORMS if platforms is None else () if platforms == "none" else tuple(listed(platforms, "--platforms"))
     if part == "controller":
         if compared:
             raise BadInput("--compare is for the machine; a controller has no run of its own")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mechsym.cases import Case
-from mechsym.cli.common import case_command, diagram_option, emit, tried
+from mechsym.cli.common import case_command, diagram_option, emit, ending
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, parse
 
@@ -18,9 +18,11 @@ _FILE = click.Path(path_type=Path, dir_okay=False)
 
 
 @case_command("Draw the guide for the workshop: DXF, STEP, sheet.")
-@click.option("--dxf", type=_FILE, callback=tried, help="DXF file to write (extra cad).")
-@click.option("--step", type=_FILE, callback=tried, help="STEP file to write: disc and rollers (extra step).")
-@click.option("--sheet", type=_FILE, callback=tried, help="Dimensioned sheet to write, .svg or .pdf.")
+@click.option("--dxf", type=_FILE, callback=ending(".dxf"), help="DXF file to write (extra cad).")
+@click.option(
+    "--step", type=_FILE, callback=ending(".step", ".stp"), help="STEP file to write: disc and rollers (extra step)."
+)
+@click.option("--sheet", type=_FILE, callback=ending(".svg", ".pdf"), help="Dimensioned sheet to write, .svg or .pdf.")
 @click.option("--tolerance", default="1 um", help="Largest distance of the curves from the exact ones.")
 @click.option("--bore", default="60 mm", help="Diameter of the hole for the shaft, 0 for none.")
 @click.option("--thickness", metavar="LENGTH", help="Of the disc; a roller's width more than its grooves by default.")
@@ -47,6 +49,8 @@ def guide(
 
     if dxf is None and sheet is None and step is None:
         raise BadInput("nothing to write: give --dxf FILE, --step FILE or --sheet FILE, or several")
+    if thickness is not None and step is None:
+        raise BadInput(f"--thickness = {thickness}: only the disc of --step FILE has a thickness; leave it away")
     hole = parse(bore, "m", "--bore")
     shop = workshop(case, diagram)
     curves = track(shop.guide, shop.rollers, parse(tolerance, "m", "--tolerance"), shop.kinks)

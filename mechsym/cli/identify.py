@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mechsym.cases import Case
-from mechsym.cli.common import budget_option, case_command, emit, out_option
-from mechsym.errors import BadInput
+from mechsym.cli.common import budget_option, case_command, emit, listed, out_option
 from mechsym.quantities.display import SMALLEST, figure
 
 if TYPE_CHECKING:
@@ -33,9 +32,7 @@ def identify(case: Case, trace: str, free: str, out: Path | None) -> None:
     """
     from mechsym.jobs.identify import identify as find
 
-    names = [name.strip() for name in free.split(",") if name.strip()]
-    if not names:
-        raise BadInput("--free names nothing; give for example --free I2,k1,friction.constant")
+    names = listed(free, "--free")
     identified = find(case, trace, names)
     files = _write(out, identified) if out else []
     emit(identified, lambda: _text(identified), files=files)

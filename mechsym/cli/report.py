@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, file_in, file_option, json_option, pairs, progress, set_option
+from mechsym.cases import told_apart
+from mechsym.cli.common import case_of, emit, file_in, file_option, json_option, listed, pairs, progress, set_option
 from mechsym.errors import BadInput, suggest
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     from mechsym.report.numbers import numbers
     from mechsym.report.parts import PARTS, doubts_of
 
-    wanted = [word.strip() for word in parts.split(",")] if parts is not None else list(PARTS)
+    wanted = listed(parts, "--parts") if parts is not None else list(PARTS)
     for word in wanted:
         if word not in PARTS:
             raise BadInput(f"--parts {parts}: {word!r} is no part of a report; {suggest(word, tuple(PARTS))}")
@@ -54,13 +55,14 @@ def report(ctx: click.Context, cases: tuple[str, ...], parts: str | None, date: 
     if pdf:
         chromium()  # said before the work begins
     titles = {one.stem: one.title for one in sources()}
-    loaded = [case_of(name, pairs(overrides)) for name in cases]
+    loaded = told_apart([case_of(name, pairs(overrides)) for name in cases])
     with progress(len(loaded) * len(wanted) + 1, "report") as bar:
         reports = []
         for case in loaded:
             title = f"own {called(case)}" if case.source == "own" else case.source
             reports.append(case_report(case, tuple(wanted), titles.get(title, title), lambda: bar.update(1)))
-        path = file_in(out, "-".join([*(case.name for case in loaded), "report.html"]), ".html", ".htm")
+        usual = "-".join([*(case.name.replace("/", "-") for case in loaded), "report.html"])
+        path = file_in(out, usual, ".html", ".htm")
         text = html(reports, date)
         live = [
             LiveRun(name=case.name, about=case.about, ready=partial(ready, case, command="page")) for case in loaded

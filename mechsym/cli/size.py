@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mechsym.cases import Case
-from mechsym.cli.common import case_command, emit, in_rows, out_option, table, tried
+from mechsym.cli.common import case_command, emit, ending, in_rows, out_option, table
 from mechsym.files import Json
 from mechsym.quantities.display import without_rounding
 
@@ -21,7 +21,9 @@ _FIRST = ["component", "quantity", "value", "unit", "note"]
 
 @case_command("Component sizing with safety factors.", out_option)
 @click.option("--as-printed", is_flag=True, help="Check the parts of the case instead of sizing new ones.")
-@click.option("--step", type=_FILE, callback=tried, help="STEP file of the parts to write (extra step).")
+@click.option(
+    "--step", type=_FILE, callback=ending(".step", ".stp"), help="STEP file of the parts to write (extra step)."
+)
 def size(case: Case, as_printed: bool, step: Path | None, out: Path | None) -> None:
     """Size the engine of CASE for its loads over the speed range, with the factor of every rule.
 

@@ -15,7 +15,6 @@ from matplotlib.transforms import Bbox
 
 import mechsym
 from mechsym import periodic
-from mechsym.errors import BadInput
 from mechsym.files import write_bytes
 from mechsym.hinge.guide import path as centre_path
 from mechsym.hinge.springs.face import Spring
@@ -32,7 +31,6 @@ _MM = 1e3
 _ALONG = 0.53  # of the way to the inner wall, where the words of an arrow stand
 _EVERY = 10  # degrees between the rows of the table
 _LIFE = 20_000.0  # hours that the rollers are asked for
-_FORMATS = (".svg", ".pdf")
 _PAPER = (420.0, 297.0)  # A3 [mm]
 _SCALES = tuple(step * 10.0**power for power in range(-2, 4) for step in (1, 2, 5))  # ISO 5455, model by paper
 _RIPPLE = 1e-3  # what each tolerance may cost by itself: assumed
@@ -56,12 +54,10 @@ def write(shop: Workshop, track: Groove, path: Path, bore: float) -> Path:
 
     import matplotlib
 
-    if path.suffix not in _FORMATS:
-        raise BadInput(f"--sheet {str(path)!r} has an ending that is not allowed; allowed are {', '.join(_FORMATS)}")
-    buffer = io.BytesIO()
+    kind, buffer = path.suffix.lower(), io.BytesIO()
     dates: dict[str, dict[str, None]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
     with matplotlib.rc_context({"svg.hashsalt": "mechsym", "svg.fonttype": "path"}):
-        sheet(shop, track, bore).savefig(buffer, format=path.suffix[1:], metadata=dates[path.suffix])
+        sheet(shop, track, bore).savefig(buffer, format=kind[1:], metadata=dates[kind])
     return write_bytes(path, buffer.getvalue())
 
 
