@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mechsym.cli.common import budget_option, emit, json_option, out_option, progress, table
+from mechsym.cli.common import budget_option, emit, json_option, out_option, progress, refuse_idle, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
 
@@ -79,10 +79,13 @@ def audit(
                 "a paper, --formula, --file and --code stand alone; use one of them without --source and --write"
             )
         if paper is not None and not said["theory"]:
-            ctx.exit(_whole(paper, against, out, said))
+            refuse_idle("for a whole paper: give --theory too", "against", "letters", "case", "assume", "claim",
+                        "convention", "certificate")  # fmt: skip
+            ctx.exit(_whole(paper, out))
         if code is not None and whole:
-            ctx.exit(_repository(Path(code), against, out, sarif, baseline, said))
-        rows = _own(formula, against, file, code, said) if paper is None else _paper(paper, against, said)
+            refuse_idle("for a whole file or folder: it is held against what its names fit", "against", "certificate")
+            ctx.exit(_repository(Path(code), out, sarif, baseline, said))
+        rows = _own(formula, against, file, code, said) if paper is None else _paper(paper, said)
         if certificate is not None:
             from mechsym.audit.hosts.sources import certificate_of_formula
             from mechsym.audit.judge.asked import Asked
@@ -106,14 +109,11 @@ def audit(
     ctx.exit(_published(source, write, certificate))
 
 
-def _whole(paper: Path, against: str | None, out: Path | None, said: dict[str, Any]) -> int:
+def _whole(paper: Path, out: Path | None) -> int:
     from mechsym.audit.hosts.whole import check_texts, count_of, listed, page_of, read_texts, summary_of
     from mechsym.files import write_text
     from mechsym.quantities.results import tell
 
-    kinds = ("letters", "case", "assume", "claim", "convention")
-    if given := [f"--{k}" for k in kinds if said[k]] + ["--against"] * bool(against):
-        raise BadInput(f"{', '.join(given)}: a whole paper is judged by its own letters; with them give --theory too")
     texts = read_texts(paper)
     with progress(count_of(texts), "auditing") as bar:
         rows, cover = check_texts(texts, lambda: bar.update(1))
@@ -125,9 +125,7 @@ def _whole(paper: Path, against: str | None, out: Path | None, said: dict[str, A
     return _status([r for r in rows if r["verdict"] != "untestable" or not cover.read])
 
 
-def _repository(
-    place: Path, against: str | None, out: Path | None, log: Path | None, baseline: Path | None, said: dict[str, Any]
-) -> int:
+def _repository(place: Path, out: Path | None, log: Path | None, baseline: Path | None, said: dict[str, Any]) -> int:
     import json
 
     from mechsym import __version__
@@ -136,8 +134,6 @@ def _repository(
     from mechsym.audit.judge.asked import Asked
     from mechsym.files import write_text
 
-    if against:
-        raise BadInput("--against belongs to one FILE::FUNCTION; a whole file is held against what its names fit")
     old = findings.accepted(baseline)
     chosen = read.programs(place)
     with progress(len(chosen), "reading") as bar:
@@ -154,12 +150,11 @@ def _repository(
     return 1 if any(row["fingerprint"] not in old for row in rows) else 0
 
 
-def _paper(paper: Path, against: str | None, said: dict[str, Any]) -> list[Json]:
+def _paper(paper: Path, said: dict[str, Any]) -> list[Json]:
     from mechsym.audit.hosts.paper import check_paper
     from mechsym.audit.judge.asked import Asked
 
-    if against:
-        raise BadInput("--against belongs to --formula; the equations of a paper say by their left sides what they are")
+    refuse_idle("for the equations of a paper: their left sides say what they are", "against")
     return check_paper(paper, Asked(text="", against="", **said))
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mechsym.cases import Case
-from mechsym.cli.common import case_command, emit, listed, out_option, table
+from mechsym.cli.common import case_command, emit, listed, out_option, refuse_idle, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
 from mechsym.quantities.display import figure, quantity_text
@@ -57,9 +57,11 @@ def balance(
     orders = listed(shafts, "--shafts") if shafts else []
     if any(one not in ("1", "2", "3", "4") for one in orders):
         raise BadInput(f"--shafts = {shafts}: balancer shafts turn 1 to 4 times as fast as the crank; write 1,2")
+    if weights == "none":
+        refuse_idle("beside --weights none", "largest", "least")
     distance = parse(apart, "m", "--apart")
-    if distance and not orders:
-        raise BadInput(f"--apart = {apart}: there are no shafts that stand apart; give --shafts, or leave it away")
+    if not orders:
+        refuse_idle("without --shafts", "apart")
     one = run(case, weights, tuple(map(int, orders)), least, most, distance)
     balanced = numbers(case, one)
     files = write_balance(one, balanced, out, case.about or listing(case.mechanism)["about"]) if out else []

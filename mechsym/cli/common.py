@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 
 from mechsym import cases
 from mechsym.cases import Case
@@ -142,6 +143,15 @@ def listed(text: str, option: str) -> list[str]:
     if twice is not None:
         raise BadInput(f"{option} {text!r} names {twice} twice")
     return given
+
+
+def refuse_idle(where: str, *names: str) -> None:
+    """Refuse options of the command line that nothing reads there, by the names of their values."""
+    context = click.get_current_context()
+    given = [name for name in names if context.get_parameter_source(name) is ParameterSource.COMMANDLINE]
+    for param in context.command.params:
+        if param.name in given:
+            raise BadInput(f"{param.opts[0]} does nothing {where}; leave it away")
 
 
 def case_of(name: str, overrides: Mapping[str, object]) -> Case:

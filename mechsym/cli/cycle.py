@@ -11,7 +11,7 @@ import numpy as np
 
 from mechsym.cases import Case
 from mechsym.cli import common
-from mechsym.cli.common import emit, heads, judge_ends, only_of, parse_over, parse_speeds, progress, table
+from mechsym.cli.common import emit, heads, judge_ends, only_of, parse_over, parse_speeds, progress, refuse_idle, table
 from mechsym.cycle.columns import AFTER_FRICTION, UNITS, WORDS
 from mechsym.cycle.source import BRAKE, IN_CYLINDER, INDICATED
 from mechsym.errors import BadInput
@@ -67,12 +67,13 @@ def cycle(case: Case, speeds: str | None, over: str | None, diagram: tuple[str, 
 
     require(case, "cycle", NO_FILE if diagram else "")
     if torque or noise:
-        if speeds or over or diagram or motored or loop:
-            raise BadInput("--torque stands alone: leave out --speeds, --over, --diagram, --motored and --loop")
+        refuse_idle("beside --torque", "speeds", "over", "diagram", "motored", "loop")
         _show_torque(case, torque, noise, out)
     elif diagram or motored or kind_of(case.need("cycle")).measured:
+        refuse_idle("for a measured diagram, which has a speed of its own", "speeds", "over", "loop")
         _show_diagram(case, diagram, motored, out)
     elif loop:
+        refuse_idle("beside --loop, which starts at the speed of operation", "speeds", "over")
         _show_loop(case, loop, out)
     else:
         omega = parse_speeds(speeds) if speeds is not None else [case.need("operation").speed]

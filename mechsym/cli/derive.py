@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from mechsym.cli.common import emit, folder_option, json_option, progress
+from mechsym.cli.common import emit, folder_option, json_option, progress, refuse_idle
 from mechsym.errors import BadInput
 from mechsym.files import Json, write_text
 
@@ -39,10 +39,10 @@ def derive(
 
     files = [name for name in names if own.is_file(name)]
     given = {"--latex": latex, "--explain": explain, "--draw": draw, "--show": show, "--check": check, "--out": out}
-    first, *others = [option for option, value in given.items() if value] or [""]
-    others = [option for option in others if (first, option) != ("--draw", "--out")]
-    if first in ("--latex", "--explain", "--draw") and others:
-        raise BadInput(f"{others[0]} does nothing beside {first}; leave one of them out")
+    first = next((option for option, value in given.items() if value), "")
+    if first in ("--latex", "--explain", "--draw"):
+        others = {"latex", "explain", "draw", "show", "check", "out"} - {first[2:], "out" if first == "--draw" else ""}
+        refuse_idle(f"beside {first}", *others)
     if not files and (idle := [option for option in ("--explain", "--draw", "--show", "--out") if given[option]]):
         raise BadInput(f"{idle[0]} is for a mechanism of your own: name its FILE.py, or leave {idle[0]} out")
     if latex:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import emit, json_option, pairs, set_option
+from mechsym.cli.common import emit, json_option, pairs, refuse_idle, set_option
 from mechsym.errors import BadInput
 from mechsym.quantities.results import tell
 
@@ -39,6 +39,8 @@ def evaluate(name: str, case_name: str | None, latex: bool, overrides: tuple[str
     from mechsym import cases, mechanisms
     from mechsym.mechanisms.state import state
 
+    if latex:
+        refuse_idle("beside --latex: its equations are with letters", "case_name", "overrides")
     if name in cases.names() or name.endswith(".toml"):
         name, case_name = cases.load(name).mechanism, case_name or name
     if latex:

@@ -8,7 +8,7 @@ import click
 from mechsym import cases
 from mechsym.cases import Case
 from mechsym.cli import common
-from mechsym.cli.common import case_of, emit, file_in, listed, pairs
+from mechsym.cli.common import case_of, emit, file_in, listed, pairs, refuse_idle
 from mechsym.errors import BadInput
 from mechsym.files import make_folder, together, write_text
 from mechsym.files.inputs import reads
@@ -41,6 +41,7 @@ def export(name: str, languages: str, diagram: str | None, overrides: tuple[str,
     folder = make_folder(out or Path("."))
     with reads(), together(folder):  # what is read is not written over, in the working folder neither
         if own.is_file(name) or (name in names() and name not in cases.names()):
+            refuse_idle(f"for {name}, which is a mechanism: it is written with letters", "diagram", "overrides")
             written = of_mechanism(name)
         else:
             case = case_of(name, pairs(overrides))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mechsym.cases import Case
-from mechsym.cli.common import case_command, diagram_option, emit, ending
+from mechsym.cli.common import case_command, diagram_option, emit, ending, refuse_idle
 from mechsym.errors import BadInput
 from mechsym.quantities import RPM, parse
 
@@ -49,8 +49,8 @@ def guide(
 
     if dxf is None and sheet is None and step is None:
         raise BadInput("nothing to write: give --dxf FILE, --step FILE or --sheet FILE, or several")
-    if thickness is not None and step is None:
-        raise BadInput(f"--thickness = {thickness}: only the disc of --step FILE has a thickness; leave it away")
+    if step is None:
+        refuse_idle("without --step", "thickness")
     hole = parse(bore, "m", "--bore")
     shop = workshop(case, diagram)
     curves = track(shop.guide, shop.rollers, parse(tolerance, "m", "--tolerance"), shop.kinks)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from mechsym.cli import common
-from mechsym.cli.common import case_of, emit, in_rows, only_of, pairs, progress, table
+from mechsym.cli.common import case_of, emit, in_rows, only_of, pairs, progress, refuse_idle, table
 from mechsym.errors import BadInput
 
 if TYPE_CHECKING:
@@ -53,8 +53,10 @@ def prove(
     from mechsym.quantities.results import tell
 
     if name != GUIDES and name not in mechanisms.names() and name in cases.names() or name.endswith(".toml"):
+        refuse_idle(f"for the motion of the case {name}", "case_name", "given", "samples", "mode")
         _motion(name, t_end, window, out, pairs(overrides))
         return
+    refuse_idle(f"for the rounding of {name}", "t_end", "window")
     if mode == "fast":
         raise BadInput("--mode fast contracts products and shares reciprocals: no bound is proven of it; use strict")
     if name != GUIDES:
@@ -88,9 +90,10 @@ def _motion(name: str, t_end: str | None, window: str | None, out: Path | None, 
     if until is not None and not until > 0:
         raise BadInput(f"--t-end {t_end}: a time above 0 s")
     ends = None if window is None else read_range(window, "--window", "s").values
-    if ends is not None and len(ends) != 2:
-        raise BadInput(f"--window {window}: two times with two dots between, such as 55..93 s")
-    with progress(math.ceil(until or simulation_of(case).t_end or 0), f"seconds of {case.name}") as bar:
+    last = until or simulation_of(case).t_end or 0.0
+    if ends is not None and not (len(ends) == 2 and ends[0] < ends[1] <= last):
+        raise BadInput(f"--window {window}: two ascending times up to {last:g} s, with two dots between: 55..93 s")
+    with progress(math.ceil(last), f"seconds of {case.name}") as bar:
         proven = motion_of(case, until, out, None if ends is None else (ends[0], ends[1]), bar.update)
     emit(tell(proven), lambda: _motion_text(proven))
 

@@ -9,7 +9,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import case_of, emit, heads, in_rows, json_option, out_option, pairs, set_option, table
+from mechsym.cli.common import (
+    case_of,
+    emit,
+    heads,
+    in_rows,
+    json_option,
+    out_option,
+    pairs,
+    refuse_idle,
+    set_option,
+    table,
+)
 from mechsym.errors import MissingExtra
 from mechsym.files import Json, write_text
 from mechsym.quantities import ranges
@@ -60,6 +71,7 @@ def simulate(
     given = {k: v for k, v in options.items() if v is not None}
     loaded = case_of(case, pairs(overrides) | given)
     if rest:
+        refuse_idle("beside --rest", "tolerance", "backend", "no_check", "dampings")
         _rest(loaded)
         return
     dampers = () if dampings is None else tuple(ranges.values(dampings, "N*m*s/rad", "--dampings", most=1000))

@@ -8,7 +8,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mechsym.cli.common import doubted, emit, in_rows, json_option, out_option, pairs, progress, set_option, table
+from mechsym.cli.common import (
+    doubted,
+    emit,
+    in_rows,
+    json_option,
+    out_option,
+    pairs,
+    progress,
+    refuse_idle,
+    set_option,
+    table,
+)
 from mechsym.errors import BadInput, MissingExtra
 from mechsym.files import Json
 from mechsym.interrupts import asked_to_stop, whole
@@ -73,6 +84,8 @@ def sweep(ctx: click.Context, case: str, over: tuple[str, ...], analysis: str | 
     from mechsym import sweep as sweeps
     from mechsym.sweep.data import numbers
 
+    if not samples and not sobol:
+        refuse_idle("without --samples or --sobol", "seed")
     plan = sweeps.Plan(
         case=case, over=over, overrides=pairs(overrides), analysis=analysis, samples=samples, seed=seed, show=show,
         sobol=sobol, tied=tied,

@@ -8,7 +8,7 @@ from typing import TypeAlias
 import casadi as ca
 import numpy as np
 
-from mechsym import cases
+from mechsym import budget, cases
 from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.cases.numbers import usual
@@ -134,6 +134,7 @@ class ProvenMotion:
     trusted: tuple[str, ...] = part()
 
 
+_EACH = 4.5  # of a processor for a second of a start-up, whose steps grow with its speed [s]
 _WIDTH = 1e-9  # that is asked for at the end, in the norm [-]
 _TRUSTED = (
     "python-flint's balls",
@@ -174,6 +175,7 @@ def motion_of(
             "apart too fast; give a shorter --t-end"
         )
     method = method_for(needed)
+    budget.require(f"the motion over {until:g} s", _EACH * until, 0.0, "give a shorter --t-end")
     passed = enclose(task, method, Fraction(repr(float(until))), out, progress)
     states = (*problem.mechanism.coordinates, *velocities(problem.mechanism))
     return _told(case, problem, states, passed, (method, needed), window)

@@ -24,7 +24,14 @@ COMMAND_LINE = [
     ("unknown derivation", ["derive", "--check", "croshead"], ["'croshead'", "crosshead"]),
     ("derivation by path", ["derive", "../generated/crosshead"], ["'../generated/crosshead'", "crosshead"]),
     ("a folder for built-in code", ["derive", "crosshead", "--out", "x", "--check"], ["--out", "FILE.py"]),
-    ("equations that are written", ["derive", "crosshead", "--latex", "--check"], ["--check does nothing", "--latex"]),
+    ("a word that is none", ["report", "zotov-89", "--parts", ","], ["--parts ','", "names nothing"]),
+    ("a drawing of another kind", ["guide", "zotov-89", "--dxf", "a.svg"], ["--dxf a.svg", "write a.dxf"]),
+    ("a window backwards", ["prove", "chmielewski", "--window", "5..3 s"], ["--window 5..3 s", "up to 100 s"]),
+    (
+        "a window behind the end",
+        ["prove", "chmielewski", "--t-end", "3", "--window", "5..9 s"],
+        ["5..9 s", "up to 3 s"],
+    ),
     ("no binary to compare", ["fmu", "zotov-89", "--platforms", "none", "--compare"], ["--compare", "--platforms"]),
     ("speeds that are none", ["cycle", "nunes-slider-crank", "--speeds", ""], ["--speeds", "1..5 rpm:9"]),
     ("no engine", ["forces", "chmielewski"], ["crankshaft_flywheel", "crosshead"]),
@@ -54,6 +61,40 @@ COMMAND_LINE = [
     ("archive for a unit", ["fmu", "zotov-89", "--out", "none/x.zip"], ["of kind .fmu; write none/x.fmu"]),
     ("trace of a train", ["identify", "opposed-pistons", "--trace", "none.csv", "--free", "r"], ["from lists"]),
     ("speeds backwards", ["cycle", "nunes-slider-crank", "--speeds", "900:100:50"], ["900:100:50", "a <= b"]),
+]
+# a command, the option that nothing reads there, and what stands beside it
+IDLE = [
+    (["cycle", "nunes-hypocycloid", "--loop", "2"], ["--speeds", "3000"]),
+    (["cycle", "nunes-hypocycloid", "--loop", "2"], ["--over", "cycle.ignition=-30:-10:10"]),
+    (["cycle", "generator"], ["--loop", "2"]),
+    (["simulate", "chmielewski", "--rest"], ["--tolerance", "1e-9"]),
+    (["simulate", "chmielewski", "--rest"], ["--no-check"]),
+    (["simulate", "chmielewski", "--rest"], ["--dampings", "0.2,1"]),
+    (["eval", "crosshead", "--latex"], ["--set", "phi=1"]),
+    (["eval", "crosshead", "--latex"], ["--case", "zotov-89"]),
+    (["export", "crosshead", "--to", "c"], ["--set", "parameters.r1=1"]),
+    (["export", "crosshead", "--to", "c"], ["--diagram", "none.csv"]),
+    (["sweep", "zotov-89", "--over", "spring.p0=4..6MPa:3"], ["--seed", "4"]),
+    (["balance", "zotov-89", "--weights", "none"], ["--largest", "1 kg*m"]),
+    (["balance", "zotov-89", "--weights", "none"], ["--least", "mains"]),
+    (["balance", "zotov-89"], ["--apart", "150 mm"]),
+    (["guide", "zotov-89", "--dxf", "a.dxf"], ["--thickness", "100 mm"]),
+    (["prove", "chmielewski"], ["--samples", "10"]),
+    (["prove", "chmielewski"], ["--range", "phi=0..1"]),
+    (["prove", "crosshead"], ["--window", "1..2 s"]),
+    (["prove", "crosshead"], ["--t-end", "1 s"]),
+    (["audit", "--code", "."], ["--certificate", "a.v"]),
+    (["audit", "."], ["--claim", "="]),
+    (["audit", "."], ["--certificate", "a.v"]),
+    (["derive", "crosshead", "--latex"], ["--check"]),
+]
+TWICE = [
+    ["report", "zotov-89", "--parts", "cycle,cycle"],
+    ["export", "crosshead", "--to", "c, julia,c"],
+    ["fmu", "zotov-89", "--platforms", "linux64,linux64"],
+    ["identify", "chmielewski", "--trace", "none.csv", "--free", "I2,I2"],
+    ["balance", "zotov-89", "--shafts", "2,2"],
+    ["codesign", "zotov-89", "--free", "spring.A,spring.A"],
 ]
 OVERRIDES = [
     ("no equals sign", "spring.p0", ["'spring.p0'", "KEY=VALUE"]),
@@ -175,6 +216,16 @@ def expect(line, words):
 @pytest.mark.parametrize(("argv", "words"), [row[1:] for row in COMMAND_LINE], ids=ids(COMMAND_LINE))
 def test_command_line(refused, argv, words):
     expect(refused(argv), words)
+
+
+@pytest.mark.parametrize(("argv", "idle"), IDLE, ids=lambda row: " ".join(row))
+def test_an_option_that_nothing_reads(refused, argv, idle):
+    expect(refused([*argv, *idle]), [f"{idle[0]} does nothing", "leave it away"])
+
+
+@pytest.mark.parametrize("argv", TWICE, ids=lambda row: row[0])
+def test_a_word_that_is_given_twice(refused, argv):
+    expect(refused(argv), [argv[-2], "names", "twice"])
 
 
 @pytest.mark.parametrize(("override", "words"), [row[1:] for row in OVERRIDES], ids=ids(OVERRIDES))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from mechsym import cases
 from mechsym.cases import load
 from mechsym.cli.common import parse_speeds
 from mechsym.cli.compare import compare
@@ -45,6 +46,19 @@ def test_cycle_command_writes_its_files(tmp_path):
     files = {"performance.csv", "cycle.csv", "cycle.svg", "performance.svg", "summary.json"}
     assert {p.name for p in tmp_path.iterdir()} == files
     assert "tooth_force" in (tmp_path / "performance.csv").read_text().splitlines()[0]
+
+
+def test_two_files_of_one_name_are_two_engines(tmp_path):
+    """They were one by their name, held against itself without a word."""
+    paths = [tmp_path / folder / "mine.toml" for folder in "ab"]
+    for path, name in zip(paths, ("nunes-slider-crank", "nunes-hypocycloid"), strict=True):
+        path.parent.mkdir()
+        path.write_text(cases.text(name), encoding="utf-8")
+    mine = run_json(compare, *map(str, paths), "--speeds", "2000,5000")
+    theirs = run_json(compare, "nunes-slider-crank", "nunes-hypocycloid", "--speeds", "2000,5000")
+    assert mine["cases"] == ["a/mine", "b/mine"]
+    assert mine["table"] == theirs["table"]
+    assert any(row["difference"] for row in mine["table"])
 
 
 def test_compare_command(tmp_path):

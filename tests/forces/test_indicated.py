@@ -133,7 +133,7 @@ WRONG = [
     (["moroianu", "--torque", "FILE", "--noise", "-1"], "0 or more"),
     (["moroianu", "--torque", "FILE", "--noise", "1 bar"], "--noise"),
     (["moroianu", "--torque", "FILE", "--noise", "1e9"], "hides the torque"),
-    (["moroianu", "--torque", "FILE", "--noise", "1", "--loop", "3"], "stands alone"),
+    (["moroianu", "--torque", "FILE", "--noise", "1", "--loop", "3"], "does nothing beside --torque"),
     (["nunes-slider-crank", "--torque", "FILE", "--noise", "1"], "goes over 360 deg"),
     (["balandin", "--torque", "FILE", "--noise", "1"], "one after the other"),
     (["chmielewski", "--torque", "FILE", "--noise", "1"], "[cycle]"),
