@@ -7,19 +7,18 @@ import re
 import secrets
 import tempfile
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from mechsym import cases, mechanisms
 from mechsym.cases.keys import keys
 from mechsym.errors import BadInput
+from mechsym.files import Json
 
 LARGEST = 100_000  # bytes
 _WORDS = re.compile(r"[A-Za-z0-9][A-Za-z0-9 _+-]*")
 _NUMBER = re.compile(r"[-+]?\d[\d.]*(?:[eE][-+]?\d+)?(?: ?[A-Za-z%°][A-Za-z0-9%°*/^() -]*)?")
 _FORMULA = re.compile(r"[A-Za-z0-9_ =.,+*/()-]{1,200}")
-_CASES = {"sizing.rival", "retune.case", "codesign.high_case", "optimise.against"}
-_FILES = {"cycle.file", "cycle.motored", "sizing.materials_file", "sizing.bearings_file"}
 _SAID = ("name", "about", "source", "why")  # text for people
 _WAY = "a case from an upload holds numbers, choices and built-in names only; start the workbench with it instead"
 
@@ -57,10 +56,9 @@ def harmless(data: bytes) -> str:
         raise BadInput(f"the upload is not TOML in UTF-8: {error}") from None
     if given.get("mechanism") not in mechanisms.names():
         raise BadInput(f"mechanism {given.get('mechanism')!r} is not built in; {_WAY}")
-    options = {(row["section"], row["key"]): tuple(row["options"] or ()) for row in keys(None)}
+    rows = {f"{row['section']}.{row['key']}": row for row in keys(None)}
     for place, value in _texts("", {k: v for k, v in given.items() if k != "mechanism"}):
-        section, _, key = place.partition(".")
-        if not _allowed(place, value, options.get((section, key), ())):
+        if not _allowed(place, value, rows):
             raise BadInput(f"{place} = {value!r} is not allowed; {_WAY}")
     return text
 
@@ -77,18 +75,18 @@ def _texts(place: str, value: object) -> Iterator[tuple[str, str]]:
         yield place, value
 
 
-def _allowed(place: str, value: str, options: tuple[str, ...]) -> bool:
-    if place in _FILES:
-        return not value
-    if place in _CASES:
-        return not value or value in cases.names()
-    if place == "codesign.scavenge":  # read by a parser of its own, letters and numbers
-        return bool(_FORMULA.fullmatch(value))
+def _allowed(place: str, value: str, rows: Mapping[str, Json]) -> bool:
+    row = rows.get(place, {"kind": "text", "options": None})
     if place == "codesign.curve":
         return value in ("propeller", "constant_speed")
+    if row["kind"] in ("file", "case"):
+        return not value or row["kind"] == "case" and value in cases.names()
+    if place == "codesign.scavenge":  # read by a parser of its own, letters and numbers
+        return bool(_FORMULA.fullmatch(value))
     if place == "sizing.settings":
         # bare keys could name a file; a dotted one is judged as if it stood in its section
         key, _, text = value.partition("=")
-        return "." in key and _allowed(key.strip(), text.strip(), ())
+        return "." in key and _allowed(key.strip(), text.strip(), rows)
     said = place in _SAID[:3] or (place.startswith("doubts.") and place.endswith(".why"))
-    return said or value in options or not value or bool(_WORDS.fullmatch(value)) or bool(_NUMBER.fullmatch(value))
+    known = value in (row["options"] or ())
+    return said or known or not value or bool(_WORDS.fullmatch(value)) or bool(_NUMBER.fullmatch(value))

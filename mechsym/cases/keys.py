@@ -73,10 +73,12 @@ def required(field: Field) -> bool:
 
 
 def kind(field: Field) -> str:
-    """What a key takes: number, list of numbers, word, text, whole number, true or false, table."""
+    """What a key takes: number, list of numbers, word, text, file, case, whole number, true or false, table."""
     text = str(getattr(field.type, "__name__", "") if isinstance(field.type, type) else field.type)
     if "options" in field.metadata:
         return "word"
+    if "to" in field.metadata:
+        return str(field.metadata["to"])
     many = "tuple[" in text
     if "unit" in field.metadata:
         one = any(isinstance(part, type) for part in getattr(field.type, "__args__", ())) or not many
@@ -167,7 +169,8 @@ def _field(field: Field, about: str) -> Json:
         many: Json = {"type": "array", "items": one}
         either = {"anyOf": [*one["anyOf"], many]}
         return described | {"number": one, "list of numbers": many}.get(takes_kind, either)
-    simple = {"text": "string", "whole number": "integer", "true or false": "boolean", "table": "object"}
+    simple = dict.fromkeys(("text", "file", "case"), "string")
+    simple |= {"whole number": "integer", "true or false": "boolean", "table": "object"}
     if takes_kind.startswith("list: "):
         return described | {"type": "array", "items": {"type": simple[takes_kind.removeprefix("list: ")]}}
     return described | {"type": simple[takes_kind]}

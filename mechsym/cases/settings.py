@@ -8,7 +8,7 @@ from dataclasses import asdict
 from mechsym import mechanisms
 from mechsym.cases import Case
 from mechsym.errors import BadInput
-from mechsym.quantities import quantity, record
+from mechsym.quantities import quantity, record, reference
 from mechsym.quantities.ranges import MOST
 from mechsym.quantities.units import Pure, RadPerSecond, Second
 from mechsym.simulate.settings import Settings, Simulation
@@ -39,7 +39,7 @@ class TrialSettings:
 class RetuneSettings:
     """At which other speed the guide is tried."""
 
-    case: str  #: Name or path of the case with the other speed
+    case: str = reference("case")  #: Name or path of the case with the other speed
 
 
 @record

@@ -164,5 +164,5 @@ def _keys(mechanism: str, section: str, table: Json) -> set[str]:
 
 @functools.lru_cache(maxsize=256)
 def paths(kind: type[Record]) -> tuple[str, ...]:
-    """Names of the values that are paths of files."""
-    return tuple(f.name for f in dataclasses.fields(kind) if f.metadata.get("path"))
+    """Names of the values that name a file or a case."""
+    return tuple(f.name for f in dataclasses.fields(kind) if "to" in f.metadata)

@@ -1,7 +1,7 @@
 """Section `[codesign]` of a case: the family of operating points, and what is asked of the guides."""
 
 from mechsym.errors import BadInput
-from mechsym.quantities import choice, quantity, record
+from mechsym.quantities import choice, quantity, record, reference
 
 #: values of the hardware that a programme may choose: smallest and largest share of the value that the case gives [-]
 FREE = {"A": (0.5, 4.0), "H": (0.5, 4.0), "rho0": (0.5, 4.0), "radius": (0.5, 4.0), "width": (0.5, 4.0)}
@@ -15,12 +15,13 @@ class CoDesignSettings:
 
     speeds: tuple[float, ...] = quantity("rad/s", above=0, about="speeds of the points")
     #: `propeller`: mep with the square of the speed; `constant_speed`: `loads` at each speed; or a CSV file of points
-    curve: str = "propeller"
+    curve: str = reference("file", "propeller")
     loads: tuple[float, ...] = quantity("-", default=(1.0,), above=0, high=2, about="shares of the full load")
     full_speed: float = quantity("rad/s", above=0, about="speed of full load")
     full_load: float = quantity("Pa", above=0, about="mean indicated pressure of full load")
     scavenge: str = "p_s = max(1.05, 1.6 + (mep-8)/6) bar"  #: scavenge pressure of mep, both in bar
-    high_case: str = ""  #: case whose combustion stands at the upper end, this case's at the lower; linear in mep
+    #: case whose combustion stands at the upper end, this case's at the lower; linear in mep
+    high_case: str = reference("case", "")
     ripple: float = quantity("-", default=0.02, above=0, below=1, about="allowed (max - min) / mean of the speed")
     springs: float = quantity("-", default=1, low=1, high=3, about="guides with a spring and pressure of their own")
     schedule: str = choice("each_point", "one", default="each_point", about="pressures: set at each point, or one")

@@ -12,7 +12,6 @@ goes out of it at each speed of the file,
 Over the angle it is joined by periodic cubics, between speeds and between loads by straight lines.
 """
 
-import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
@@ -22,7 +21,7 @@ import numpy as np
 from mechsym.errors import BadInput, suggest
 from mechsym.files.tables import numbers_of, split_table, text_of
 from mechsym.periodic.pieces import PPoly
-from mechsym.quantities import parse, quantity, record
+from mechsym.quantities import parse, quantity, record, reference
 from mechsym.quantities.units import Pure, RadPerSecond
 
 Function = Callable[[np.ndarray], np.ndarray]
@@ -37,7 +36,7 @@ _GAP = math.radians(15.0)  # widest step of the angle [rad]
 class TorqueCurve:
     """Section `[torque]`: a torque on the shaft over the angle, positive driving, in place of a cycle."""
 
-    file: str = dataclasses.field(metadata={"path": True})  #: CSV: phi [deg], torque [N*m], speed [rpm], load [-]
+    file: str = reference("file")  #: CSV: phi [deg], torque [N*m], speed [rpm], load [-]
     load: float = quantity("-", default=1.0, about="load, where the file has several")
 
 

@@ -6,7 +6,6 @@ a are the accelerations of the independent coordinates, those of the driven ones
 :math:`(T^T M T)_{ff} a_f = (T^T (Q - h - M c))_f - (T^T M T)_{fd} a_d`; :math:`\tau` is what is missing in the rows d.
 """
 
-import dataclasses
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 
@@ -18,7 +17,7 @@ from mechsym.errors import BadInput
 from mechsym.mechanisms import loops
 from mechsym.mechanisms.arrays import with_multipliers
 from mechsym.mechanisms.record import Mechanism, accelerations, velocities
-from mechsym.quantities import quantity, record
+from mechsym.quantities import quantity, record, reference
 from mechsym.quantities.units import Array, Second
 
 _SINGULAR = 1e-6  # smallest against largest singular value: nearer to it forces are no longer numbers
@@ -34,7 +33,7 @@ Law = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 class MotionSettings:
     """What driven coordinates share in a section `[motion]`; beside it stands each of them with its speed or word."""
 
-    file: str = dataclasses.field(default="", metadata={"path": True})  #: CSV: t [s], and a column for each it drives
+    file: str = reference("file", "")  #: CSV: t [s], and a column for each it drives
     periodic: bool = False  #: Whether the file repeats
     rise: float | str | None = None  #: Of words without one of their own [rad] or [m]
     duration: float | None = quantity("s", default=None, above=0, about="how long the rise of a word takes")

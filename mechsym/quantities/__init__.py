@@ -14,10 +14,23 @@ by_name.py   `load("module:name")` when it is wanted; `lazily` for the names of 
 """
 
 from mechsym.quantities.by_name import lazily, load
-from mechsym.quantities.records import allowed, check, choice, quantity, record
+from mechsym.quantities.records import allowed, check, choice, quantity, record, reference
 from mechsym.quantities.units import RPM, dimension, parse, units
 
-__all__ = ["RPM", "allowed", "check", "choice", "dimension", "lazily", "load", "parse", "quantity", "record", "units"]
+__all__ = [
+    "RPM",
+    "allowed",
+    "check",
+    "choice",
+    "dimension",
+    "lazily",
+    "load",
+    "parse",
+    "quantity",
+    "record",
+    "reference",
+    "units",
+]
 
 
 def __dir__() -> list[str]:

@@ -52,6 +52,14 @@ def choice(*options: str, default: object = dataclasses.MISSING, about: str = ""
     return dataclasses.field(default=default, metadata={"options": options, "about": about})
 
 
+def reference(to: str, default: object = dataclasses.MISSING) -> Any:
+    """A field of a record, to be assigned in the class body, that names a `file` or a `case`.
+
+    A relative path counts from the working folder or, where nothing is there, from the folder of the case.
+    """
+    return dataclasses.field(default=default, metadata={"to": to})
+
+
 Field = dataclasses.Field[object]
 PART = "part"  #: Metadata of a field that is told and is no number
 OPTIONAL = "optional"  #: Metadata of a field that is not told where it is empty

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mechsym.errors import BadInput
-from mechsym.quantities import choice, quantity, record
+from mechsym.quantities import choice, quantity, record, reference
 from mechsym.quantities.units import Pure, RadPerSecond, Scalar, Second
 
 _HOUR = 3600.0
@@ -16,7 +16,7 @@ class Wants:
     settings: tuple[str, ...] = ()  #: Cycle settings for the loads, KEY=VALUE as for `--set`
     #: Step of the speeds at which parts are sized and checked [rad/s]
     speed_step: float = quantity("rad/s", default=50 * np.pi / 30, above=0, about="step of the speeds")
-    rival: str = ""  #: Case of the engine to compare with
+    rival: str = reference("case", "")  #: Case of the engine to compare with
     #: Safety factors: piston head against the hot strength, rod against fatigue, cylinder wall against fatigue, shafts
     #: against static strength, shafts against fatigue (usual) [-]
     head: float = quantity("-", default=1.5, low=1, about="safety factor of the piston head")
@@ -41,8 +41,8 @@ class Wants:
     crankshaft: str = "nitralloy-n"  #: Material of the crankshaft
     shaft: str = "ferrium-s53"  #: Material of the output shaft
     #: Files with more materials and bearings
-    materials_file: str = ""
-    bearings_file: str = ""
+    materials_file: str = reference("file", "")
+    bearings_file: str = reference("file", "")
     accuracy: float = quantity("-", default=6.0, low=6, high=12, about="accuracy grade of the gears")
     #: Enclosure of the gears, for the mesh alignment
     enclosure: str = choice("open", "commercial", "precision", "extra-precision", default="extra-precision")

@@ -134,10 +134,11 @@ def test_out_is_tried_before_the_case_is_even_read(monkeypatch, capsys, tmp_path
     assert (tmp_path / "taken").read_text() == "" and len(list(tmp_path.iterdir())) == 1
 
 
-@pytest.mark.parametrize("option", ["--dxf", "--sheet"])
-def test_drawings_are_tried_too(monkeypatch, capsys, tmp_path, option):
+@pytest.mark.parametrize("kind", ["dxf", "step"])
+def test_drawings_are_tried_too(monkeypatch, capsys, tmp_path, kind):
     (tmp_path / "taken").write_text("")
-    code, _, err = ended(monkeypatch, capsys, ["guide", "no-such-case", option, str(tmp_path / "taken" / "file.dxf")])
+    file = tmp_path / "taken" / f"file.{kind}"
+    code, _, err = ended(monkeypatch, capsys, ["guide", "no-such-case", f"--{kind}", str(file)])
     assert code == 2 and "taken" in err and "cannot be written" in err
 
 

@@ -233,7 +233,7 @@ def test_sheet_says_what_errors_cost(shops):
     "words, said",
     [
         ([], "nothing to write"),
-        (["--sheet", "g.png"], "allowed are .svg, .pdf"),
+        (["--sheet", "g.png"], "ends in .svg or .pdf; write g.svg"),
         (["--dxf", "g.dxf", "--tolerance", "1 kg"], "--tolerance"),
         (["--dxf", "g.dxf", "--tolerance", "1 m"], "from 1e-10 m to 1e-3 m"),
         (["--dxf", "g.dxf", "--bore", "2 m"], "the track leaves a hole of"),

@@ -5,13 +5,12 @@
 The steps stand in `file`, `cycles`, `alignment`, `measure` and `pressure`.
 """
 
-import dataclasses
 import math
 
 from mechsym.cycle.measured.joint_fit import Prior
 from mechsym.cycle.pressure import ATMOSPHERE
 from mechsym.errors import BadInput
-from mechsym.quantities import choice, quantity, record
+from mechsym.quantities import choice, quantity, record, reference
 from mechsym.quantities.units import Radian
 
 
@@ -24,9 +23,9 @@ class Diagram:
     #: `two-stroke` (period 2 pi) or `four-stroke` (4 pi)
     working_cycle: str = choice("two-stroke", "four-stroke", about="period of the diagram")
     #: CSV file; a path in a case file may start from the folder of that file
-    file: str = dataclasses.field(default="", metadata={"path": True})
+    file: str = reference("file", "")
     #: Record without combustion on the same encoder, which tells the dead centre of both
-    motored: str = dataclasses.field(default="", metadata={"path": True})
+    motored: str = reference("file", "")
     #: Headers to take where several columns carry such a unit
     angle_column: str = ""
     pressure_column: str = ""
