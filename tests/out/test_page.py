@@ -1,5 +1,6 @@
 """The page in a real browser: numbers of `simulate`, every slider moves the answer, no request, no error."""
 
+import dataclasses
 import errno
 import json
 import os
@@ -323,3 +324,11 @@ def test_what_slides_goes_in_metres_and_each_coordinate_has_a_curve(browser, tmp
         assert len(drawn) == len(tab.evaluate("window.mechsym.last.r.t"))
         assert drawn[-1] == pytest.approx(run.columns[q][-1], rel=1e-6)
     tab.close()
+
+
+def test_words_of_a_case_are_no_page(exported):
+    """A comment of HTML within a script would keep the script from ending."""
+    block = dataclasses.replace(exported("zotov-89")[1], about="</script><!-- <script> & ü")
+    (data,) = [line for line in page(block).splitlines() if line.startswith("const data = ")]
+    assert "<" not in data
+    assert json.loads(data.removeprefix("const data = ").rstrip(";"))["about"] == block.about

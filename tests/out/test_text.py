@@ -17,12 +17,16 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from mechsym import cases
 from mechsym.cli import mechsym
 from mechsym.errors import BadInput
+from mechsym.jobs.export import ready
 from mechsym.mechanisms import names
 from mechsym.mechanisms.record import bind, generated
+from mechsym.out.block import block_of
 from mechsym.out.text.dialects import of_block, of_mechanism
 from mechsym.out.text.files import files
+from mechsym.out.text.language_c import model
 from mechsym.simulate import Settings, simulate
 
 DERIVED = [n for n in names() if n != "crank_train"]
@@ -298,3 +302,20 @@ def test_the_command_writes_what_it_says(tmp_path):
     files = [p for p in tmp_path.iterdir() if p.name != "summary.json"]
     assert sorted(json.loads(done.output)["written"]) == sorted(str(p) for p in files)
     assert len(files) == 6
+
+
+def test_words_of_a_case_are_no_code():
+    """`about` of a case from elsewhere, which nobody trusts, stands in comments and texts, and cannot end them."""
+    case = cases.load("zotov-89")
+    about = 'drive */ int y; /* "x" \\ %d\n*/ int z;'
+    block = block_of(case.name, about, ready(case))
+    written = of_block(block)
+    texts = {**files(written, "c"), "model.h": model(block)}
+    for text in texts.values():
+        assert "drive" in text or text.startswith("#include")
+        assert not re.search(r"\bint [yz]\b", re.sub(r"/\*.*?\*/", "", text, flags=re.S))
+    (modelica,) = files(written, "modelica").values()
+    assert re.fullmatch(r'model Zotov_89 "[^"\\]*drive[^"\\]*"', modelica.splitlines()[0])
+    for language, mark in (("julia", "#"), ("matlab", "%"), ("jax", "#")):
+        (text,) = files(written, language).values()
+        assert all(line.startswith(mark) for line in text.splitlines() if "int z" in line)

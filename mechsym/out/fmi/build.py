@@ -30,6 +30,7 @@ from mechsym.native.compiler import forecast
 from mechsym.native.integrators import dop853_numbers
 from mechsym.out.block import Block, Curve, Port
 from mechsym.out.fmi.describe import build_description, description, identifier
+from mechsym.out.text.dialects import C99
 from mechsym.out.text.language_c import array, curve_tables, model
 from mechsym.periodic.pieces import PPoly
 from mechsym.quantities import record
@@ -253,7 +254,7 @@ def _model(block: Block, wanted: Hinge) -> str:
     sizes = {"NU": len(block.inputs), "NP": len(block.parameters), "NY": len(block.outputs)}
     return "\n".join(
         [
-            f"/* {block.name}: {block.about} */",
+            C99.says(f"{block.name}: {block.about}"),
             "enum { " + ", ".join(f"{k} = {v}" for k, v in sizes.items()) + " };",
             f"static const double PERIOD = {wanted.period!r};",
             array("start_p", [port.start for port in block.parameters]),

@@ -84,6 +84,10 @@ class Dialect:
     infinity: str
     comment: str
 
+    def says(self, text: str) -> str:
+        """A comment of one line; words of a user cannot end it and go on as code."""
+        return self.comment.format(" ".join(text.split()).replace("*/", "* /").replace("/*", "/ *"))
+
 
 def _dialect(name: str) -> Dialect:
     text = (resources.files("mechsym.out.text") / "dialects.csv").read_text(encoding="utf-8")

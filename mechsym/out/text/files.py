@@ -24,8 +24,7 @@ def files(written: Written, language: str) -> dict[str, str]:
 
 
 def _head(written: Written, dialect: Dialect) -> list[str]:
-    about = re.sub(r"\s+", " ", written.about)
-    return [dialect.comment.format(f"{written.name}: {about}"), dialect.comment.format("SI units, angles in rad")]
+    return [dialect.says(f"{written.name}: {written.about}"), dialect.says("SI units, angles in rad")]
 
 
 def _functions(written: Written, dialect: Dialect, shape: Callable[[str, list[str]], list[str]]) -> list[str]:
@@ -34,7 +33,7 @@ def _functions(written: Written, dialect: Dialect, shape: Callable[[str, list[st
     bracket, first = "v({})" if dialect is MATLAB else "v[{}]", 0 if dialect is JAX else 1
     for name, tape in written.tapes.items():
         body, results = statements(tape, dialect, lambda i: bracket.format(i + first))
-        comments = [dialect.comment.format(line) for line in told(written, name)]
+        comments = [dialect.says(line) for line in told(written, name)]
         lines += ["", *comments, *shape(name, [*body, *_result(dialect, results)])]
     return lines
 
@@ -132,12 +131,13 @@ def _modelica(written: Written) -> dict[str, str]:
     return {f"{name}.mo": "\n".join([*lines, f"end {name};", ""])}
 
 
-def _about(written: Written) -> str:
-    return '"' + re.sub(r'[\s"]+', " ", written.about) + '"'
+def _quoted(text: str) -> str:
+    """A text of Modelica; nothing in it ends it, or needs to be escaped."""
+    return '"' + re.sub(r'[\s"\\]+', " ", text) + '"'
 
 
 def _package(written: Written, name: str) -> list[str]:
-    lines = [f"package {name} {_about(written)}"]
+    lines = [f"package {name} {_quoted(written.about)}"]
     for group, tape in written.tapes.items():
         names = written.inputs[group]
         body, results = statements(tape, MODELICA, names.__getitem__)
@@ -160,7 +160,7 @@ def _unit(unit: str) -> str:
 
 
 def _model(written: Written, block: Block, name: str) -> list[str]:
-    lines = [f"model {name} {_about(written)}"]
+    lines = [f"model {name} {_quoted(written.about)}"]
     lines += [_port("parameter", p, f" = {number(MODELICA, p.start)}") for p in block.parameters]
     lines += [_port("input", p, "(start=0.0)") for p in block.inputs]
     lines += [f"  Real {s.name}(start={number(MODELICA, s.start)}, fixed=true);" for s in block.states]
@@ -185,7 +185,7 @@ def _model(written: Written, block: Block, name: str) -> list[str]:
 
 
 def _port(kind: str, port: Port, end: str) -> str:
-    about = f' "{port.about}"' if port.about else ""
+    about = f" {_quoted(port.about)}" if port.about else ""
     return f"  {kind} Real {port.name}{_unit(port.unit) if kind == 'parameter' else ''}{end}{about};"
 
 

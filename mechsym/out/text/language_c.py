@@ -41,7 +41,7 @@ def model(block: Block) -> str:
     head = "struct kinks { int state, count; double period; const double *angles; };"
     return "\n".join(
         [
-            f"/* {block.name}: {block.about} */".replace("  ", " "),
+            C99.says(f"{block.name}: {block.about}"),
             "#include <math.h>",
             "enum { " + ", ".join(f"{k} = {v}" for k, v in sizes.items()) + " };",
             "/* v = t, x, u, p, w (value and slope of each curve), s (switches) */",
@@ -109,13 +109,14 @@ def files(written: Written) -> dict[str, str]:
     if written.block is None:
         header, source = list[str](), ["#include <math.h>"]
         for group, tape in written.tapes.items():
-            header += [f"/* {line} */" for line in told(written, group)]
+            header += [C99.says(line) for line in told(written, group)]
             header += [f"void {name}_{group}(const double *v, double *y);"]
             source.append(function(tape, f"{name}_{group}", "void"))
     else:
         header, source = _machine(written.block, name)
     guard = f"{name.upper()}_H"
-    head = f"/* {written.name}: {written.about} SI units, angles in rad. */\n#ifndef {guard}\n#define {guard}\n"
+    head = C99.says(f"{written.name}: {written.about} SI units, angles in rad.")
+    head += f"\n#ifndef {guard}\n#define {guard}\n"
     body = "\n".join([f"{head}{_OPEN}", *header, _CLOSE, "#endif", ""])  # the same functions from C++
     return {f"{name}.h": body, f"{name}.c": "\n".join([f'#include "{name}.h"', *source])}
 

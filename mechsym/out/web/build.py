@@ -63,7 +63,7 @@ def page(block: Block, scenes: Sequence[Json] = ()) -> str:
     """
     room = resources.files("mechsym.out.web")
     code = base64.b64encode(webassembly(block)).decode("ascii")
-    data = json.dumps(_data(block), separators=(",", ":"), sort_keys=True).replace("</", "<\\/")
+    data = json.dumps(_data(block), separators=(",", ":"), sort_keys=True).replace("<", "\\u003c")
     text = (room / "page.html").read_text(encoding="utf-8")
     title = block.name.replace("&", "&amp;").replace("<", "&lt;")
     text = text.replace("{{title}}", title).replace("{{data}}", data).replace("{{code}}", code)
