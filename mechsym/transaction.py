@@ -12,6 +12,11 @@ from pathlib import Path
 
 from mechsym.interrupts import whole
 
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
+
 SUMMARY = "summary.json"
 
 
@@ -35,6 +40,7 @@ class Transaction:
         self.waiting: dict[Path, Path] = {}  # file: its temporary name
         self.stale: set[Path] = set()  # files of the run before that go when these appear
         self.made = missing(self.folder)  # folders that go with files that are dropped
+        self.turn: int | None = None  # handle of the folder while it is this process's turn to write there
 
     def home(self, path: Path) -> "Transaction | None":
         """The innermost block for a file."""
@@ -52,6 +58,19 @@ class Transaction:
             self.waiting[path].unlink(missing_ok=True)
         self.waiting[path] = part
 
+    def claim(self) -> None:
+        """Wait until no other process writes into the folder, and keep others waiting until the files have appeared.
+
+        What a summary says of a folder would else be of another run's files. Where the system has no such locks, as on
+        Windows, two runs into one folder may mix, and the digests in the summary tell of it.
+        """
+        if self.outer is not None:
+            self.outer.claim()
+        elif self.turn is None and fcntl is not None:
+            with contextlib.suppress(OSError):  # no folder yet, or a file system without locks
+                self.turn = os.open(self.folder, os.O_RDONLY)
+                fcntl.flock(self.turn, fcntl.LOCK_EX)
+
     def publish(self) -> None:
         """Move the files into place; those of an inner block go on waiting in the outer one."""
         if self.outer is not None:
@@ -61,6 +80,8 @@ class Transaction:
             self.outer.made = [*self.made, *self.outer.made]
             return
         folders = {path.parent for path in self.waiting}
+        if self.waiting or self.stale:
+            self.claim()
         try:
             with whole(), _Undo() as undo:
                 # the summary tells the others: it appears when they are on the disk
@@ -86,10 +107,15 @@ class Transaction:
 
     def drop(self) -> None:
         """Forget the files that wait, and the folders that hold nothing else."""
-        while self.waiting:
-            self.waiting.popitem()[1].unlink(missing_ok=True)
-        self.stale.clear()
-        remove_empty(self.made)
+        try:
+            while self.waiting:
+                self.waiting.popitem()[1].unlink(missing_ok=True)
+            self.stale.clear()
+            remove_empty(self.made)
+        finally:
+            if self.turn is not None:
+                os.close(self.turn)
+                self.turn = None
 
 
 class _Undo:

@@ -5,6 +5,7 @@ import errno
 import hashlib
 import io
 import json
+import multiprocessing
 import os
 import shutil
 import stat
@@ -191,6 +192,35 @@ def test_files_of_another_command_stay_and_are_told(tmp_path):
     again = run(tmp_path, "hinge", {"report.html": "3"})
     assert list(again["beside"]) == ["forces"]
     assert names(tmp_path) == ["forces.csv", "report.html", "summary.json"]
+
+
+def _slow_run(folder, claimed, until):
+    with files.together(folder):
+        files.write_text(folder / "a.txt", "theirs")
+        files.write_text(folder / "b.txt", "theirs")
+        files.write_summary(folder, {}, "hinge", {})
+        claimed.set()
+        until.wait(10)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="folders cannot be locked there")
+def test_two_processes_write_into_a_folder_in_turn(tmp_path):
+    """What a summary tells of a folder holds when its files appear: nobody else has written there in between."""
+    context = multiprocessing.get_context("fork")
+    claimed, until = context.Event(), context.Event()
+    other = context.Process(target=_slow_run, args=(tmp_path, claimed, until))
+    other.start()
+    assert claimed.wait(10)
+    ours = threading.Timer(0.2, until.set)
+    ours.start()
+    mine = run(tmp_path, "forces", {"a.txt": "ours"})
+    assert until.is_set()
+    assert list(mine["beside"]["hinge"]) == ["b.txt"]
+    assert (tmp_path / "a.txt").read_text() == "ours"
+    other.join()
+    ours.join()
+    assert other.exitcode == 0
+    assert names(tmp_path) == ["a.txt", "b.txt", "summary.json"]
 
 
 def test_a_run_that_fails_removes_nothing(tmp_path):

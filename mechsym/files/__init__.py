@@ -179,6 +179,8 @@ def write_summary(folder: Path, numbers: Mapping[str, Any], command: str, read: 
     has the files that other commands left in the folder, `run.inputs` those that were `read` for it.
     """
     root, block = folder.resolve(), _open.get()
+    if block:
+        block.claim()  # what is told of the folder here still holds when the files appear
     parts = {p: part for p, part in sorted(block.all_waiting().items()) if p.is_relative_to(root)} if block else {}
     digests = {p.relative_to(root).as_posix(): _digest_of(q) for p, q in parts.items() if p.name != SUMMARY}
     before = _left(root)
