@@ -77,10 +77,9 @@ def _texts(place: str, value: object) -> Iterator[tuple[str, str]]:
 
 def _allowed(place: str, value: str, rows: Mapping[str, Json]) -> bool:
     row = rows.get(place, {"kind": "text", "options": None})
-    if place == "codesign.curve":
-        return value in ("propeller", "constant_speed")
+    known = value in (row["options"] or ())
     if row["kind"] in ("file", "case"):
-        return not value or row["kind"] == "case" and value in cases.names()
+        return not value or known or row["kind"] == "case" and value in cases.names()
     if place == "codesign.scavenge":  # read by a parser of its own, letters and numbers
         return bool(_FORMULA.fullmatch(value))
     if place == "sizing.settings":
@@ -88,5 +87,4 @@ def _allowed(place: str, value: str, rows: Mapping[str, Json]) -> bool:
         key, _, text = value.partition("=")
         return "." in key and _allowed(key.strip(), text.strip(), rows)
     said = place in _SAID[:3] or (place.startswith("doubts.") and place.endswith(".why"))
-    known = value in (row["options"] or ())
     return said or known or not value or bool(_WORDS.fullmatch(value)) or bool(_NUMBER.fullmatch(value))

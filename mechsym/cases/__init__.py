@@ -28,7 +28,7 @@ from mechsym.plausible import Acceptance, Doubt
 from mechsym.quantities import record
 from mechsym.quantities.records import Record
 
-__all__ = ["Case", "load", "locate", "names", "text", "told_apart", "underlaid", "written"]
+__all__ = ["Case", "beside", "load", "locate", "names", "text", "told_apart", "underlaid", "written"]
 HEAD = ("mechanism", "source", "about")  # what stands above the sections of a file
 
 
@@ -117,7 +117,7 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
         records = {}
         for key, table in sections.items():
             written = _Written(text=repr(table), values=table)
-            records[key] = _beside(one(head["mechanism"], key, written), name)
+            records[key] = beside(one(head["mechanism"], key, written), name)
         doubts = judged(records, head["mechanism"])
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from None
@@ -129,7 +129,7 @@ def load(name: str, overrides: Mapping[str, object] | None = None) -> Case:
     )  # fmt: skip
 
 
-def _beside(record: Record, name: str) -> Record:
+def beside(record: Record, name: str) -> Record:
     """The record with its paths of files that lie beside the case file and not in the working folder."""
     written = {name: getattr(record, name) for name in paths(record.__class__)}
     if not any(written.values()):

@@ -78,6 +78,7 @@ def check_file(name: str, trust: bool = False) -> Checked:
             if record is not None:
                 records[section] = record
     problems += _whole(tables.get("doubts", {}), records, mechanism or "")
+    problems += [one for section, record in records.items() for one in _absent(section, cases.beside(record, name))]
     kind = sections["cycle"].get("kind", "") if isinstance(sections.get("cycle"), dict) else ""
     every = {name: records.get(name) for name in sections}
     facts = facts_of(mechanism or "", every, kind=str(kind), trust=trust)
@@ -160,6 +161,16 @@ def _whole(doubts: object, records: Records, mechanism: str) -> list[CaseProblem
     if "motion" in records and mechanism and not problems:
         problems += _moved(records, mechanism)
     return problems
+
+
+def _absent(section: str, record: Record) -> Iterator[CaseProblem]:
+    """Files and cases that a section names and that are not there."""
+    for field in dataclasses.fields(record):
+        named, to = getattr(record, field.name), field.metadata.get("to")
+        if to and named and named not in field.metadata["words"] and not Path(named).exists():
+            if to == "file" or named not in cases.names():
+                way = "paths count from this folder or from that of the case"
+                yield CaseProblem(key=f"{section}.{field.name}", why=f"there is no {to} {named}", allowed=way)
 
 
 def _moved(records: Records, mechanism: str) -> list[CaseProblem]:

@@ -56,7 +56,7 @@ def _rows(section: str, variant: str, cls: type[Record]) -> list[Json]:
         rows.append({
             "section": section, "variant": variant, "key": field.name, "kind": kind(field),
             "unit": field.metadata.get("unit"), **{name: field.metadata.get(name) for name in _BOUNDS},
-            "options": list(field.metadata.get("options", ())) or None, "default": default,
+            "options": list(field.metadata.get("options", field.metadata.get("words", ()))) or None, "default": default,
             "required": required(field), "about": meaning(cls, field), "commands": commands_of(section),
         })  # fmt: skip
     return rows

@@ -154,7 +154,8 @@ def _keys(rows: list[Json]) -> str:
 def _cells(row: Json) -> tuple[str, str, str]:
     bounds = (("above", ">"), ("low", ">="), ("below", "<"), ("high", "<="))
     limits = " and ".join(f"{sign} {row[name]:g}" for name, sign in bounds if row[name] is not None)
-    options = " | ".join(row["options"]) if row["options"] else row["kind"] if row["unit"] is None else ""
+    kind = row["kind"] if row["unit"] is None and row["kind"] != "word" else ""
+    options = " | ".join([*(row["options"] or ()), *filter(None, [kind])])
     if row["required"]:
         usual = "needed"
     else:

@@ -15,7 +15,7 @@ class CoDesignSettings:
 
     speeds: tuple[float, ...] = quantity("rad/s", above=0, about="speeds of the points")
     #: `propeller`: mep with the square of the speed; `constant_speed`: `loads` at each speed; or a CSV file of points
-    curve: str = reference("file", "propeller")
+    curve: str = reference("file", "propeller", words=("propeller", "constant_speed"))
     loads: tuple[float, ...] = quantity("-", default=(1.0,), above=0, high=2, about="shares of the full load")
     full_speed: float = quantity("rad/s", above=0, about="speed of full load")
     full_load: float = quantity("Pa", above=0, about="mean indicated pressure of full load")

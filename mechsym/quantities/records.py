@@ -52,12 +52,13 @@ def choice(*options: str, default: object = dataclasses.MISSING, about: str = ""
     return dataclasses.field(default=default, metadata={"options": options, "about": about})
 
 
-def reference(to: str, default: object = dataclasses.MISSING) -> Any:
+def reference(to: str, default: object = dataclasses.MISSING, words: tuple[str, ...] = ()) -> Any:
     """A field of a record, to be assigned in the class body, that names a `file` or a `case`.
 
-    A relative path counts from the working folder or, where nothing is there, from the folder of the case.
+    A relative path counts from the working folder or, where nothing is there, from the folder of the case. words: what
+    may stand there in place of a name.
     """
-    return dataclasses.field(default=default, metadata={"to": to})
+    return dataclasses.field(default=default, metadata={"to": to, "words": words})
 
 
 Field = dataclasses.Field[object]

@@ -3,6 +3,7 @@
 import pytest
 
 from mechsym import cases
+from mechsym.cases.check import check_file
 from mechsym.cases.keys import keys
 from mechsym.errors import BadInput
 from mechsym.jobs.hinge import hinge
@@ -34,6 +35,31 @@ def test_another_engine_is_no_other_speed(folder):
     file.write_text(file.read_text().replace('bore = "0.3 m"', 'bore = "0.32 m"'))
     with pytest.raises(BadInput, match=r"another engine: its bore is 0.32 m, not 0.3 m"):
         hinge(cases.load(str(folder / "engines" / "slow.toml"))).retuned  # noqa: B018
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "key"),
+    [
+        ("zotov-89", 'case = "zotov-142"', 'case = "none.toml"', "retune.case"),
+        ("zotov-89", 'high_case = "zotov-142"', 'high_case = "none.toml"', "codesign.high_case"),
+        ("zotov-89", 'curve = "propeller"', 'curve = "none.csv"', "codesign.curve"),
+        ("nunes-hypocycloid", "[sizing]", '[sizing]\nmaterials_file = "none.csv"', "sizing.materials_file"),
+        ("nunes-hypocycloid", 'rival = "nunes-slider-crank"', 'rival = "none"', "sizing.rival"),
+        ("generator", 'file = "generator-synthetic.csv"', 'file = "none.csv"', "cycle.file"),
+    ],
+)
+def test_check_tells_what_is_not_there(folder, name, old, new, key):
+    text = cases.text(name)
+    assert old in text
+    file = folder / "engines" / "mine.toml"
+    file.write_text(text.replace(old, new, 1))
+    (problem,) = [one for one in check_file(str(file)).problems if "there is no" in one.why]
+    assert problem.key == key and "none" in problem.why and "that of the case" in problem.allowed
+
+
+def test_check_finds_what_is_there(folder):
+    assert check_file(str(folder / "engines" / "slow.toml")).problems == ()
+    assert check_file("generator").problems == ()
 
 
 def test_what_names_a_file_or_a_case_says_so():
