@@ -74,6 +74,14 @@ class Place:
     written: str  #: Unit that the key itself names, as in `speed_rpm`; empty when it names none
 
 
+def take(taken: dict[tuple[str, str], str], place: Place, said: str) -> None:
+    """Note what gives the value of a place, by section and field. Raises BadInput: something else gives it too."""
+    key = place.section, place.field
+    if key in taken:
+        raise BadInput(f"{taken[key]} and {said} give the same value {'.'.join(key)}; keep one")
+    taken[key] = said
+
+
 def place(tables: Json, mechanism: str, key: str, option: str) -> Place:
     """Find the field of a dotted key, or of a bare one that is unique. option: where it was written, for messages."""
     section, name = _divided(tables, mechanism, key, option)

@@ -12,6 +12,7 @@ from click.core import ParameterSource
 
 from mechsym import cases
 from mechsym.cases import Case
+from mechsym.cases.values import take
 from mechsym.errors import BadInput
 from mechsym.files import Json, publish, to_json, together, try_folder, write_summary
 from mechsym.files.inputs import reads
@@ -163,7 +164,9 @@ def case_of(name: str, overrides: Mapping[str, object]) -> Case:
 
 def doubted(name: str, overrides: Mapping[str, object]) -> Case:
     """A case whose doubts go into what the command prints."""
-    case = cases.load(name, overrides)
+    case, taken = cases.load(name, overrides), dict[tuple[str, str], str]()
+    for key in overrides if len(overrides) > 1 else ():
+        take(taken, cases.locate(name, key, overrides), f"--set {key}")
     if own.is_file(case.mechanism):
         from mechsym.cases.outcomes import of_own
         from mechsym.jobs.machine import one_coordinate

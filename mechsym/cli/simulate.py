@@ -67,9 +67,9 @@ def simulate(
     """
     from mechsym.jobs.run import run
 
-    options = {"simulation.tolerance": tolerance, "simulation.backend": backend}
-    given = {k: v for k, v in options.items() if v is not None}
-    loaded = case_of(case, pairs(overrides) | given)
+    options = {"tolerance": tolerance, "backend": backend}
+    given = tuple(f"simulation.{name}={value}" for name, value in options.items() if value is not None)
+    loaded = case_of(case, pairs((*overrides, *given)))
     if rest:
         refuse_idle("beside --rest", "tolerance", "backend", "no_check", "dampings")
         _rest(loaded)

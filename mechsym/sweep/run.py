@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from mechsym import cases
+from mechsym.cases.values import take
 from mechsym.errors import BadInput, MissingExtra, suggest
 from mechsym.files import inputs
 from mechsym.interrupts import asked_to_stop
@@ -115,26 +116,19 @@ class Layout:
 
 def layout(plan: Plan) -> Layout:
     """The points of a plan, keys and units checked. Raises BadInput: an axis is wrong, or a value named twice."""
-    taken = {}
+    taken: dict[tuple[str, str], str] = {}
     for key in plan.overrides:
-        located = cases.locate(plan.case, key, plan.overrides)
-        taken[located.section, located.field] = f"--set {key}"
+        take(taken, cases.locate(plan.case, key, plan.overrides), f"--set {key}")
     axes = []
     for text in plan.over:
         key = split(text)[0]
         axis = parse_axis(text, cases.locate(plan.case, key, plan.overrides, option="--over"))
-        place, name = (axis.place.section, axis.place.field), f"--over {key}"
-        if place in taken:
-            raise BadInput(f"{taken[place]} and {name} give the same value {'.'.join(place)}; keep one")
-        taken[place] = name
+        take(taken, axis.place, f"--over {key}")
         axes.append(axis)
     tied = ties(plan.case, plan.overrides, plan.tied, {axis.key: axis.place for axis in axes})
     for tie in tied.ties:
         if tie.place is not None:
-            place, name = (tie.place.section, tie.place.field), f"--tie {tie.key}"
-            if place in taken:
-                raise BadInput(f"{taken[place]} and {name} give the same value {'.'.join(place)}; keep one")
-            taken[place] = name
+            take(taken, tie.place, f"--tie {tie.key}")
     dims, values = points(tuple(axes), plan.sobol or plan.samples, plan.seed)
     if plan.sobol:
         values = saltelli(tuple(axes), plan.sobol, plan.seed)

@@ -44,6 +44,16 @@ COMMAND_LINE = [
     ("half a value", ["sweep", "zotov-89", "--over", "spring.p0=3..8 MPa:2.5"], ["how many", "spring.p0=1..5 Pa:9"]),
     ("an option given twice", ["cycle", "generator", "--out", "a", "--out", "b"], ["--out", "2 times"]),
     ("a key given twice", ["cycle", "zotov-89", "--set", "g=9", "--set", "g=8"], ["g is given twice, '9' and '8'"]),
+    (
+        "a value by two keys",
+        ["cycle", "zotov-89", "--set", "speed_rpm=90", "--set", "operation.speed=95 rpm"],
+        ["--set speed_rpm and --set operation.speed give the same value operation.speed"],
+    ),
+    (
+        "a value by an option and a key",
+        ["simulate", "chmielewski", "--tolerance", "1e-9", "--set", "simulation.tolerance=1e-8"],
+        ["simulation.tolerance is given twice, '1e-8' and '1e-9'"],
+    ),
     ("equations of no mechanism", ["eval", "slider_crank", "--latex"], ["'slider_crank'", "allowed are crank_throw"]),
     (
         "a speed that is a comma",
