@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mechsym.cli.common import budget_option, emit, json_option, out_option, progress, refuse_idle, table
+from mechsym.cli.common import budget_option, emit, ending, json_option, out_option, progress, refuse_idle, table
 from mechsym.errors import BadInput
 from mechsym.files import Json
 
 if TYPE_CHECKING:
     pass
 
+_FILE = click.Path(path_type=Path, dir_okay=False)
 _ROUND_OFF = 1e-10  # relative error that the floats of a right formula leave [-]
 _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", "corrected_max_rel_error"]
 
@@ -35,14 +36,10 @@ _COLUMNS = ["source", "equation", "claim", "verdict", "max_rel_error", "order", 
     metavar="PLACE",
     help="FILE::FUNCTION, or a whole FILE or FOLDER: Python, C, Java, MATLAB, Julia, Fortran, ..",
 )
-@click.option("--sarif", type=click.Path(path_type=Path, dir_okay=False), help="Write the findings of --code as SARIF.")
-@click.option(
-    "--baseline", type=click.Path(path_type=Path, dir_okay=False), help="SARIF or JSON of findings that are accepted."
-)
-@click.option("--file", type=click.Path(path_type=Path, dir_okay=False), help="TOML file of formulas.")
-@click.option(
-    "--certificate", type=click.Path(path_type=Path, dir_okay=False), help="Write what is exact as a Coq script FILE.v."
-)
+@click.option("--sarif", type=_FILE, callback=ending(".sarif", ".json"), help="Write the findings of --code as SARIF.")
+@click.option("--baseline", type=_FILE, help="SARIF or JSON of findings that are accepted.")
+@click.option("--file", type=_FILE, help="TOML file of formulas.")
+@click.option("--certificate", type=_FILE, callback=ending(".v"), help="Write what is exact as a Coq script FILE.v.")
 @click.option("--write", is_flag=True, help="Write docs/errata.md and record the findings.")
 @out_option
 @budget_option

@@ -37,12 +37,12 @@ def derive(
     from mechsym.mechanisms.equations import equations
     from mechsym.mechanisms.plots import assembled
 
-    files = [name for name in names if own.is_file(name)]
+    files = [name for name in dict.fromkeys(names) if own.is_file(name)]
     given = {"--latex": latex, "--explain": explain, "--draw": draw, "--show": show, "--check": check, "--out": out}
     first = next((option for option, value in given.items() if value), "")
     if first in ("--latex", "--explain", "--draw"):
-        others = {"latex", "explain", "draw", "show", "check", "out"} - {first[2:], "out" if first == "--draw" else ""}
-        refuse_idle(f"beside {first}", *others)
+        silent = {"latex", "explain", "draw", "show", "check", "out"} - {first[2:], "out" if first == "--draw" else ""}
+        refuse_idle(f"beside {first}", *silent)
     if not files and (idle := [option for option in ("--explain", "--draw", "--show", "--out") if given[option]]):
         raise BadInput(f"{idle[0]} is for a mechanism of your own: name its FILE.py, or leave {idle[0]} out")
     if latex:
@@ -57,11 +57,13 @@ def derive(
     if draw:
         drawn = (assembled(name) for name in files)
         pictures = [str(write_text((out or Path()) / f"{called}.svg", picture)) for called, picture in drawn]
+        _refuse_same(pictures)
         emit({"written": pictures}, lambda: "", files=pictures)
         return
     result = _files(files, check, out) if files else {"written": [], "differs": {}, "code": [], "redundant": []}
-    if not files or len(files) < len(names):
-        built_in = _built_in(tuple(name for name in names if name not in files), check)
+    others = tuple(name for name in names if name not in files)
+    if not files or others:
+        built_in = _built_in(others, check)
         result |= {k: v | result[k] if isinstance(v, dict) else result[k] + v for k, v in built_in.items()}
     shown = {"code": result["code"]} if show else {}
     shown |= {"redundant": result["redundant"]} if result["redundant"] else {}
@@ -85,7 +87,16 @@ def _files(names: list[str], check: bool, out: Path | None) -> Json:
                 result["written"] += [str(p) for p in own.write(mechanism, out)]
                 result["redundant"] += mechanism.listing.get("redundant", [])
             bar.update(1)
+    if out is not None:
+        _refuse_same(result["written"])
     return result
+
+
+def _refuse_same(written: list[str]) -> None:
+    """Refuse two mechanisms whose names are one: the second would take the place of the first."""
+    twice = next((path for path in written if written.count(path) > 1), None)
+    if twice is not None:
+        raise BadInput(f"{twice} would be of two mechanisms, which have one name; derive each into a folder of its own")
 
 
 def _built_in(names: tuple[str, ...], check: bool) -> Json:

@@ -26,6 +26,8 @@ COMMAND_LINE = [
     ("a folder for built-in code", ["derive", "crosshead", "--out", "x", "--check"], ["--out", "FILE.py"]),
     ("a word that is none", ["report", "zotov-89", "--parts", ","], ["--parts ','", "names nothing"]),
     ("a drawing of another kind", ["guide", "zotov-89", "--dxf", "a.svg"], ["--dxf a.svg", "write a.dxf"]),
+    ("a certificate of another kind", ["audit", "--certificate", "mine.toml"], ["mine.toml", "write mine.v"]),
+    ("a log of another kind", ["audit", "--code", ".", "--sarif", "mine.py"], ["mine.py", "write mine.sarif"]),
     ("a window backwards", ["prove", "chmielewski", "--window", "5..3 s"], ["--window 5..3 s", "up to 100 s"]),
     (
         "a window behind the end",

@@ -136,3 +136,12 @@ def test_the_code_is_derived_once(folder):
 def test_wrong_input_is_refused_in_one_line(folder, arguments, message):
     told = mechsym(*arguments, status=2)
     assert message in told and "Traceback" not in told and len(told.strip().splitlines()) == 1
+
+
+def test_two_files_of_one_mechanism_do_not_overwrite_each_other(folder):
+    (folder / "other").mkdir()
+    (folder / "other" / "scotch_yoke.py").write_text((folder / "scotch_yoke.py").read_text())
+    refused = mechsym("derive", "./scotch_yoke.py", "other/scotch_yoke.py", "--out", "derived", status=2)
+    assert "scotch_yoke.py would be of two mechanisms" in refused
+    assert not (folder / "derived").exists()
+    assert len(mechsym("derive", "./scotch_yoke.py", "./scotch_yoke.py", "--out", "derived")["written"]) == 2
