@@ -15,7 +15,7 @@ class CoDesignSettings:
 
     speeds: tuple[float, ...] = quantity("rad/s", above=0, about="speeds of the points")
     #: `propeller`: mep with the square of the speed; `constant_speed`: `loads` at each speed; or a CSV file of points
-    curve: str = reference("file", "propeller", words=("propeller", "constant_speed"))
+    curve: str = reference("file", "propeller", words=CURVES)
     loads: tuple[float, ...] = quantity("-", default=(1.0,), above=0, high=2, about="shares of the full load")
     full_speed: float = quantity("rad/s", above=0, about="speed of full load")
     full_load: float = quantity("Pa", above=0, about="mean indicated pressure of full load")
@@ -60,5 +60,7 @@ class CoDesignSettings:
         if self.springs % 1 or self.knots % 1 or self.angles % 1:
             given = f"springs = {self.springs:g}, knots = {self.knots:g} and angles = {self.angles:g}"
             raise BadInput(f"{given} must be whole numbers")
-        if len(set(self.speeds)) < len(self.speeds) or not self.speeds:
-            raise BadInput("speeds: give at least one, each of them once")
+        for name in ("speeds", "loads"):
+            given = getattr(self, name)
+            if len(set(given)) < len(given) or not given:
+                raise BadInput(f"{name}: give at least one, each of them once")

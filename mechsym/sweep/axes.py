@@ -59,6 +59,8 @@ def parse_axis(text: str, place: Place) -> Axis:
             raise BadInput(f"--over {shown(text)}: a word is empty or stands twice; write KEY=WORD,OTHER")
         return Axis(key=key, place=place, unit="", suffix="", kind="grid", values=words)
     written = read_range(span, "--over", place.written or place.unit, key)
+    if written.kind == "grid" and len(set(written.values)) < len(written.values):
+        raise BadInput(f"--over {shown(text)}: a value stands twice; give each of them once")
     if written.unit and place.written:
         why = f"the key names {place.written}"
         raise BadInput(f"--over {shown(text)}: unit {written.unit!r} is one too many, {why}; leave it away")
