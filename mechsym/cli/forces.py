@@ -169,7 +169,9 @@ def _friction(data: Json | None, law: Json | None) -> list[str]:
     lines = [f"friction {quantity_text(data['power'], 'W', 4)}{share} ({places})"]
     if law is not None:
         keys = ("constant", "per_peak_pressure", "per_speed", "per_speed_squared")
-        lines += [f"[friction_pressure] fitted within {100 * law['misfit']:.2g} %:", 'law = "chen_flynn"']
+        many, near = law["speeds"], f"within {100 * law['misfit']:.2g} %"
+        close = near if many > len(keys) else f"{near}, no more than it has constants: how well it fits is open"
+        lines += [f"[friction_pressure] fitted to {many} speed{'s' * (many > 1)} {close}:", 'law = "chen_flynn"']
         lines += [f"{key} = {law[key]:.6g}" for key in keys]
     return lines
 

@@ -49,6 +49,7 @@ class FrictionLaw:
     per_speed: float = quantity("Pa*s/m")  #: Of the mean piston speed
     per_speed_squared: float = quantity("Pa*s^2/m^2")  #: Of its square
     misfit: float = quantity("-")  #: Largest difference over the largest value
+    speeds: int = quantity("-")  #: That it is fitted to; up to four, its constants, tell nothing of how well it fits
 
 
 @result_record
@@ -107,7 +108,7 @@ def reported(case: Case, loads: Forces, law: Sequence[RadPerSecond] | None = Non
     if law is not None:
         found_law = fitted_law(case, law)
         numbers_of_law = dataclasses.asdict(found_law.law)
-        fitted = FrictionLaw(law="chen_flynn", misfit=found_law.misfit, **numbers_of_law)
+        fitted = FrictionLaw(law="chen_flynn", misfit=found_law.misfit, speeds=len(law), **numbers_of_law)
     return ForceReport(numbers=numbers, vibration=shaking, friction_law=fitted)
 
 

@@ -88,11 +88,18 @@ def test_report_shows_comparison_and_claims(tmp_path):
     assert "unsupported claim" not in page  # its source makes none
 
 
+def test_a_law_by_few_speeds_does_not_boast():
+    few = run("nunes-slider-crank", "--law", "6000:8000:2000").output
+    assert "fitted to 2 speeds within 0" in few and "how well it fits is open" in few
+    many = json.loads(run("nunes-slider-crank", "--law", "4000:8000:1000", "--json").output)["friction_law"]
+    assert many["speeds"] == 5
+
+
 @pytest.mark.slow
 def test_friction_as_a_section_of_the_case(tmp_path):
     """The printed lines make a law of the cycle whose brake efficiency is that of the mechanism's friction."""
     result = run("nunes-slider-crank", "--law", "6000:8000:1000")
-    lines = result.output.split("fitted within")[1].splitlines()[1:6]
+    lines = result.output.split("fitted to")[1].splitlines()[1:6]
     case = tmp_path / "braked.toml"
     text = cases.text("nunes-slider-crank").split("[friction_pressure]")
     rest = text[1].split("\n\n", 1)[1]
