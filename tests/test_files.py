@@ -200,17 +200,17 @@ def _slow_run(folder, claimed, until):
         files.write_text(folder / "b.txt", "theirs")
         files.write_summary(folder, {}, "hinge", {})
         claimed.set()
-        until.wait(10)
+        until.wait(60)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="folders cannot be locked there")
 def test_two_processes_write_into_a_folder_in_turn(tmp_path):
     """What a summary tells of a folder holds when its files appear: nobody else has written there in between."""
-    context = multiprocessing.get_context("fork")
+    context = multiprocessing.get_context("spawn")
     claimed, until = context.Event(), context.Event()
     other = context.Process(target=_slow_run, args=(tmp_path, claimed, until))
     other.start()
-    assert claimed.wait(10)
+    assert claimed.wait(60)
     ours = threading.Timer(0.2, until.set)
     ours.start()
     mine = run(tmp_path, "forces", {"a.txt": "ours"})

@@ -147,10 +147,10 @@ def told_apart(loaded: Sequence[Case]) -> list[Case]:
     ways = [(case.name,) if case.path == case.name else (*Path(case.path).resolve().parent.parts, case.name)
             for case in loaded]  # fmt: skip
     for length in range(1, max(map(len, ways)) + 1):
-        names_ = ["/".join(way[-length:]) for way in ways]
-        if len(set(names_)) == len(set(ways)):
+        called = ["/".join(way[-length:]) for way in ways]
+        if len(set(called)) == len(set(ways)):
             break
-    return [dataclasses.replace(case, name=name) for case, name in zip(loaded, names_, strict=True)]
+    return [dataclasses.replace(case, name=name) for case, name in zip(loaded, called, strict=True)]
 
 
 def underlaid(case: Case, settings: Mapping[str, object]) -> Case:

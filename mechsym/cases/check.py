@@ -167,10 +167,11 @@ def _absent(section: str, record: Record) -> Iterator[CaseProblem]:
     """Files and cases that a section names and that are not there."""
     for field in dataclasses.fields(record):
         named, to = getattr(record, field.name), field.metadata.get("to")
-        if to and named and named not in field.metadata["words"] and not Path(named).exists():
-            if to == "file" or named not in cases.names():
-                way = "paths count from this folder or from that of the case"
-                yield CaseProblem(key=f"{section}.{field.name}", why=f"there is no {to} {named}", allowed=way)
+        if not to or not named or named in field.metadata["words"] or Path(named).exists():
+            continue
+        if to == "file" or named not in cases.names():
+            way = "paths count from this folder or from that of the case"
+            yield CaseProblem(key=f"{section}.{field.name}", why=f"there is no {to} {named}", allowed=way)
 
 
 def _moved(records: Records, mechanism: str) -> list[CaseProblem]:

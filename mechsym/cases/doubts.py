@@ -133,8 +133,7 @@ def _keys(section: str, kind: object) -> tuple[tuple[str, str], ...]:
 
 
 def _piston_area(sections: Records) -> float | None:
-    bores = [getattr(sections.get(name), "bore", None) for name in ("chamber", "cycle")]
-    return next((math.pi / 4 * bore**2 for bore in bores if bore), None)
+    return math.pi / 4 * laws.bore(sections) ** 2 or None
 
 
 # absolute pressure of the charge, what each kind of cycle calls it
@@ -157,7 +156,7 @@ def by_size(sections: Records, sizes: Proportions, bore: Metre | None) -> tuple[
 
 
 def by_stroke(sections: Records, stroke: Metre, bore: Metre | None) -> tuple[Doubt, ...]:
-    """Lengths, areas and volumes of sections by stroke and bore of the piston."""
+    """Sizes of sections by stroke and bore of the piston, times by that of a turn."""
     measures = {"stroke": stroke}
     if omega := value(sections, "operation", "speed"):
         measures["time of a turn"] = math.tau / abs(omega)

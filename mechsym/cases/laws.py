@@ -15,7 +15,7 @@ from mechsym.machine.loads import Load, PropellerLoad, TableLoad
 from mechsym.mechanisms.proportions import Proportions
 from mechsym.mechanisms.shaft import ElasticShaft
 from mechsym.plausible import Doubt, inputs, piston_speed, proportion, proportions
-from mechsym.quantities.units import NewtonMetre
+from mechsym.quantities.units import Metre, NewtonMetre
 
 Records = Mapping[str, Any]  # of a case, by section
 # charge pressure by the cycle's name for it, and how many times as much drives the piston at full load
@@ -30,6 +30,11 @@ _LATE = 0.9  # of a run, from when on a drive has no time to show what it does
 def value(sections: Records, section: str, name: str) -> float:
     """A number of a section, 0 where it is not given [SI]."""
     return getattr(sections.get(section), name, None) or 0.0
+
+
+def bore(sections: Records) -> Metre:
+    """The bore of a piston, 0 where no section has it."""
+    return value(sections, "chamber", "bore") or value(sections, "cycle", "bore")
 
 
 def fired(sections: Records) -> bool:

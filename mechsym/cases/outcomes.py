@@ -10,6 +10,7 @@ import numpy as np
 from mechsym.cases import Case
 from mechsym.cases.at_start import NOTHING, idle, of_inertia
 from mechsym.cases.doubts import by_stroke
+from mechsym.cases.laws import bore as bore_of
 from mechsym.cases.laws import fired
 from mechsym.cases.links import by_force, by_links, linked
 from mechsym.cycle.gas import Gas
@@ -22,7 +23,7 @@ from mechsym.mechanisms import own
 from mechsym.mechanisms.plan import plan_of, roles_of
 from mechsym.mechanisms.record import Mechanism
 from mechsym.plausible import PROPORTIONS, Doubt, inputs, moving_mass, piston_speed, proportion, proportions, results
-from mechsym.quantities.units import Pure
+from mechsym.quantities.units import Metre, Pure
 from mechsym.simulate.result import Result, RunNumbers
 
 if TYPE_CHECKING:
@@ -90,9 +91,8 @@ def of_own(case: Case, turning: Callable[[Case], Mechanism]) -> tuple[Doubt, ...
     inner = (*inwards, *_borne(case, mechanism, phi))
     if own.is_file(case.mechanism):
         inner += (*of_inertia(case, mechanism, {}), *_idle(case, mechanism, phi))
-    bores = [getattr(case.sections.get(name), "bore", None) for name in ("chamber", "cycle")]
-    bore = next(filter(None, bores), None)
-    if bore is None:
+    bore = bore_of(case.sections)
+    if not bore:
         return inner
     travels = [travel_of(mechanism, piston.travel)(phi) for piston in pistons_of(case.mechanism)]
     x, dx = (np.array([np.asarray(travel[k]).ravel() for travel in travels]) for k in (0, 1))
@@ -263,6 +263,14 @@ def _driven(case: Case, forces: Forces) -> tuple[Doubt, ...]:
         return ()
     turn = forces.turn
     return proportion("driven", "work of the gas in a turn", float(np.mean(turn.gas_power)) / turn.omega * turn.period)
+
+
+def of_shafts(case: Case, apart: Metre) -> tuple[Doubt, ...]:
+    """Doubts about the distance of both balancer shafts of a pair, by the stroke."""
+    sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
+    if sizes is None or not apart:
+        return ()
+    return proportion("shaft_distance", "--apart / stroke", apart / sizes.stroke)
 
 
 def of_motion(case: Case, motion: "DrivenForces") -> tuple[Doubt, ...]:

@@ -44,11 +44,10 @@ def balance(
     Examples: mechsym balance opposed-pistons --shafts 1
               mechsym balance zotov-89 --weights none --shafts 1,2 --out balance
     """
+    from mechsym.cases.outcomes import of_shafts
     from mechsym.jobs.forces import balance as run
     from mechsym.jobs.forces import numbers, write_balance
     from mechsym.mechanisms import listing
-    from mechsym.mechanisms.plan import plan_of
-    from mechsym.plausible import proportion
     from mechsym.quantities import parse
 
     most = None if largest is None else parse(largest, "kg*m", "--largest")
@@ -65,9 +64,7 @@ def balance(
     one = run(case, weights, tuple(map(int, orders)), least, most, distance)
     balanced = numbers(case, one)
     files = write_balance(one, balanced, out, case.about or listing(case.mechanism)["about"]) if out else []
-    sizes = plan_of(case.mechanism).proportions(case.need("parameters"))
-    doubts = proportion("shaft_distance", "--apart / stroke", distance / sizes.stroke) if sizes and distance else ()
-    emit(balanced, lambda: _text(balanced), beside={"doubts": list(doubts)}, files=files)
+    emit(balanced, lambda: _text(balanced), beside={"doubts": list(of_shafts(case, distance))}, files=files)
 
 
 def _text(balanced: "BalanceOfEngine") -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from mechsym import cases
 from mechsym.cases import Case
+from mechsym.cases.laws import bore
 from mechsym.cases.needs import NO_FILE, require
 from mechsym.cases.settings import TrialSettings
 from mechsym.cycle.kinds import kind_of
@@ -154,9 +155,9 @@ def _other(case: Case) -> Machine | None:
     }
     if listing(other.mechanism)["name"] != listing(case.mechanism)["name"]:
         raise BadInput(f"[retune] case = {other.name!r} is a case of {other.mechanism}, not of {case.mechanism}")
-    bores = [getattr(one.sections.get("cycle"), "bore", None) for one in (case, other)]
-    if bores[0] != bores[1] and None not in bores:
-        there = f"its bore is {bores[1]:g} m, not {bores[0]:g} m"
+    own, theirs = bore(case.sections), bore(other.sections)
+    if own and theirs and own != theirs:
+        there = f"its bore is {theirs:g} m, not {own:g} m; give a case of this one at the other speed"
         raise BadInput(f"[retune] case = {other.name!r} is of another engine: {there}")
     sections = {key: record for key, record in other.sections.items() if key != "load"}
     return machine(replace(other, mechanism=case.mechanism, sections={**sections, **same}))

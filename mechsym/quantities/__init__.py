@@ -17,20 +17,8 @@ from mechsym.quantities.by_name import lazily, load
 from mechsym.quantities.records import allowed, check, choice, quantity, record, reference
 from mechsym.quantities.units import RPM, dimension, parse, units
 
-__all__ = [
-    "RPM",
-    "allowed",
-    "check",
-    "choice",
-    "dimension",
-    "lazily",
-    "load",
-    "parse",
-    "quantity",
-    "record",
-    "reference",
-    "units",
-]
+__all__ = ["RPM", "allowed", "check", "choice", "dimension", "lazily", "load", "parse", "quantity", "record"]
+__all__ += ["reference", "units"]
 
 
 def __dir__() -> list[str]:

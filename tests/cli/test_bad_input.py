@@ -30,6 +30,7 @@ COMMAND_LINE = [
     ("a log of another kind", ["audit", "--code", ".", "--sarif", "mine.py"], ["mine.py", "write mine.sarif"]),
     ("a value twice", ["sweep", "zotov-89", "--over", "p0=4,4,5MPa"], ["p0=4,4,5MPa", "each of them once"]),
     ("a load twice", ["codesign", "zotov-89", "--loads", "0.5,0.5"], ["loads: give", "each of them once"]),
+    ("a proof over budget", ["prove", "chmielewski", "--t-end", "3", "--budget", "1 s"], ["3 s takes about"]),
     ("a window backwards", ["prove", "chmielewski", "--window", "5..3 s"], ["--window 5..3 s", "up to 100 s"]),
     (
         "a window behind the end",

@@ -62,6 +62,21 @@ def test_an_engine_that_was_built_and_printed_has_no_doubts():
 
 
 DOUBTED = [
+    ("zotov-89", "rollers.plane_offset=15 mm", "track_planes"),
+    ("zotov-89", "rollers.moving_mass=9 t", "roller_mass"),
+    ("zotov-89", "codesign.moving_mass=9.9 t", "roller_mass"),
+    ("zotov-89", "codesign.track_radius=1.5 mm", "guide_size"),
+    ("zotov-89", "limits.profile_radius=5 m", "profile_limit"),
+    ("zotov-89", "losses.tau=1 ms", "heat_time"),
+    ("zotov-89", "spring.pa=1 MPa", "back_pressure"),
+    ("moroianu", "part_crosshead.pin_arc=2 deg", "shell"),
+    ("moroianu", "part_crosshead.rod_diameter=2.2 m", "rod_width"),
+    ("moroianu", "part_crosshead.pin_diameter=1 m", "shaft_size"),
+    ("nunes-hypocycloid", "part_piston.rod=26.5 cm", "rod_width"),
+    ("nunes-hypocycloid", "part_cylinder.length=17 mm", "cylinder_length"),
+    ("nunes-hypocycloid", "part_crank.pin=250 mm", "shaft_size"),
+    ("nunes-hypocycloid", "sizing.speed_step=500 rad/s", "few_speeds"),
+    ("nunes-hypocycloid", "sizing.head_dT=75 degC", "head_temperature"),
     ("nunes-slider-crank", "cycle.ignition=90 deg", "ignition"),
     ("zotov-89", "parameters.g=981", "gravity"),
     ("zotov-89", "rho0=80 m", "guide_size"),
@@ -277,3 +292,9 @@ def test_letters_beyond_the_largest_machines_are_doubted_whatever_they_mean():
     status, done = run("eval", "crosshead", "--case", "zotov-89", "--set", "phid=1e12", "--json")
     assert [(d["code"], d["quantity"]) for d in json.loads(done.stdout)["doubts"]] == [("magnitude", "phid")]
     assert run("eval", "crosshead", "--case", "zotov-89", "--set", "phid=1e3", "--strict")[0] == 0
+
+
+@pytest.mark.parametrize(("apart", "codes"), [("2 m", set()), ("0 m", set()), ("150 m", {"shaft_distance"})])
+def test_balancer_shafts_stand_a_stroke_or_two_apart(apart, codes):
+    _, done = run("balance", "moroianu", "--shafts", "1", "--apart", apart, "--json")
+    assert {d["code"] for d in json.loads(done.stdout)["doubts"]} == codes
