@@ -54,6 +54,10 @@ def test_a_sign_under_the_root_in_every_language(tmp_path, name):
 # attacks on precision: none of these is wrong
 ATTACKS = {
     "a parameter": 'model K\n  parameter Real b = 0.69 "Peclet exponent";\n  parameter Real a = 0.56;\nend K;\n',
+    "a thin disc about two axes": "# gyroscope\nM = 3  # rotor mass\nR = 0.125  # rotor radius\n"
+    "I1 = M*R**2/4  # rotor moment of inertia about b_1, b_3\nI2 = 2*I1  # rotor moment of inertia about b_2\n",
+    "kN beside MPa in one term": "# bolt\ndef f(S_p, A_t, F_i, C, P):\n"
+    "    n_l = (S_p*A_t*10**-3 - F_i)/(C*P)\n    return n_l\n",
     "polar coordinates": "def f(r, phi, l):\n    x = r*cos(phi)\n    y = r*sin(phi)\n    v = r*sin(phi)*l\n",
     "another unit": "def f(bore, stroke):\n    V_d = 3.14159265358979/4*bore**2*stroke/1000\n    return V_d\n",
     "degrees": "def f(crank_radius, rod_length, theta):\n    x = theta*pi/180\n"
@@ -389,3 +393,36 @@ def test_a_comment_is_read_without_its_unit():
     assert (
         lexicon.meaning("q", "of the (connectingrodlengthofanenginethatisverylongandneverclosed" * 3)[1] == ""
     )  # at once
+
+
+GERBER = """def safety(Sut, Se_fan, sigma_a_fan, sigma_m_fan):  # fatigue
+    ratio = 2*sigma_m_fan*Se_fan/(Sut*sigma_a_fan)
+    n_g_fan = 0.5*(Sut/sigma_m_fan)**2*(sigma_a_fan/Se_fan)*(-1 + sqrt(1 + ratio{power}))
+    return n_g_fan
+"""
+
+
+def test_the_place_behind_every_name_is_no_part_of_it(tmp_path):
+    assert rows_of(tmp_path / "right", {"fan.py": GERBER.replace("{power}", "**2")}) == []
+    (row,) = rows_of(tmp_path / "wrong", {"fan.py": GERBER.replace("{power}", "")})
+    assert (row["verdict"], row["claim"]) == ("misprint", "fatigue_life.gerber_factor")
+
+
+def test_a_text_in_several_folders_is_told_in_each(tmp_path):
+    text = PLACES["p.py"].replace("{sign}", "+")
+    rows = rows_of(tmp_path, {"one.py": text, "other.py": text, "third.py": text.replace("+ (", "- (")})
+    assert [row["file"] for row in rows] == ["one.py", "other.py"]
+    assert len({row["fingerprint"] for row in rows}) == 2
+
+
+def test_what_a_tool_has_squeezed_is_not_read(tmp_path):
+    long = "function f(a,b){return a*b+a/b}" * 20
+    (tmp_path / "all.min.js").write_text(long)
+    (file,) = audited(tmp_path, NONE, programs(tmp_path))
+    assert "so a tool has made it" in file.why and file.formulas == 0
+
+
+def test_a_name_that_has_no_derivative_stops_no_file():
+    # a mean over a turn has none; a program's name may ask for one
+    assert "dwork_E_mean_dphi" not in named("schmidt_alpha").tape
+    assert "work_E_mean" in named("schmidt_alpha").tape

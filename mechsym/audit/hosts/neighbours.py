@@ -39,6 +39,7 @@ _NEAR = 0.6  # of a quantity's largest size: farther off, something else is mean
 _WITNESSES = 2  # formulas that agree beside one that is more than a slip away
 _HEAVY = 8  # operations of a formula that comes to no quantity by chance
 _BY_A_SIGN, _TWICE = 3, 1.0 + 1e-9  # rank of a name that no words tell; away where a factor of two is lost or doubled
+_TENS = re.compile(r"(?<![\w.])10*(?:\*\*(?:\(-\d+\)|\d+))?(?![\w.])")  # and their powers
 _ASKED = 4  # quantities that a slip of a formula is searched for
 
 
@@ -107,7 +108,10 @@ class Neighbours:
             if row is not None and row["verdict"] == "wrong":
                 worse = worse or _wrong(row, near, others)
             elif row is not None and row["verdict"] == "misprint":
-                misprints.append(row)
+                if not _is_of_another(claim.name, row["correction"]) and (
+                    self.si or not _converts(to_python(claim.tree), row["correction"])
+                ):
+                    misprints.append(row)
             elif row is not None:
                 return row
         # of two quantities that are a slip away the one whose formula is most like what stands there
@@ -214,6 +218,16 @@ class Neighbours:
             and other.fitted.claim is not near.fitted.claim
             and all(meant.get(base(k), m) == m for k, m in other.fitted.meanings.items())
         ]
+
+
+def _is_of_another(name: str, right: str) -> bool:
+    # I2 = 2*I1 is not I1: two quantities of one kind
+    return re.fullmatch(r"\w+", right) is not None and re.sub(r"_?\d+$", "", right) == re.sub(r"_?\d+$", "", base(name))
+
+
+def _converts(text: str, right: str) -> bool:
+    # S_p*A_t*10**(-3) - F_i: MPa and mm^2 beside kN
+    return _TENS.sub("1", text) == _TENS.sub("1", right)
 
 
 def _is_right_undefined(near: Near) -> bool:

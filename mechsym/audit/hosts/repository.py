@@ -4,7 +4,7 @@ import hashlib
 import os
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import field
+from dataclasses import field, replace
 from functools import cache
 from pathlib import Path
 
@@ -31,6 +31,7 @@ from mechsym.quantities import record
 
 _LEFT_OUT = {*"node_modules venv __pycache__ build dist third_party site-packages".split()}  # and what a dot begins
 _MOST_FILES = 20_000
+_MINIFIED = 110  # letters in a line of JavaScript on the average: so many are written by a tool
 _FOUND = ("misprint", "derivative", "wrong")
 
 
@@ -68,17 +69,31 @@ def programs(place: Path) -> list[Path]:
 def audited(place: Path, asked: Asked, chosen: Sequence[Path]) -> Iterator[File]:
     """Every chosen program of a folder, read and judged."""
     root = place if place.is_dir() else place.parent
+    copies: dict[tuple[str, ...], File] = {}  # a text that stands in several folders is judged once
     for path in chosen:
         shown = path.relative_to(root).as_posix()
         try:
             suffix = path.suffix.lower()
-            text = read_any_text(path, longest(suffix))
-            reading = read_program(text, suffix)
+            text = _written(path, suffix)
+            own = [Path(asked.theory).stem] if asked.theory else shipped_for(f"{shown} {text}")
+            same = (suffix, text, *own)
+            if same not in copies:
+                vocabularies = [_vocabulary(one, asked.case, asked.theory) for one in own]
+                copies[same] = _judged(shown, read_program(text, suffix), vocabularies)
         except BadInput as error:
             yield File(path=shown, why=str(error))
         else:
-            own = [Path(asked.theory).stem] if asked.theory else shipped_for(f"{shown} {text}")
-            yield _judged(shown, reading, [_vocabulary(one, asked.case, asked.theory) for one in own])
+            file = copies[same]
+            yield replace(file, path=shown, rows=[_placed(row, shown) for row in file.rows])
+
+
+def _written(path: Path, suffix: str) -> str:
+    """The text of a file that somebody wrote."""
+    text = read_any_text(path, longest(suffix))
+    mean = len(text) / (text.count("\n") + 1)
+    if suffix == ".js" and mean > _MINIFIED:
+        raise BadInput(f"{path}: {mean:.0f} letters a line, so a tool has made it; the text it is made from is read")
+    return text
 
 
 @cache
@@ -101,13 +116,13 @@ def _judged(shown: str, reading: Reading, may_be: Sequence[Lexicon]) -> File:
             judged.add(id(claim))
         for row in (outcome, own):
             if row is not None and row["verdict"] in _FOUND:
-                rows.append(_placed(row, claim, shown))
+                rows.append(_of_claim(row, claim))
     beside = (*slopes(reading), *converted_here_and_not_there(reading.claims), *descriptions(reading))
     for claim, row in beside:
         matched.add(id(claim))
         judged.add(id(claim))
         if row["verdict"] in _FOUND:
-            rows.append(_placed(row, claim, shown))
+            rows.append(_of_claim(row, claim))
     return File(
         path=shown,
         scopes=len(reading.names),
@@ -127,17 +142,14 @@ def _once(rows: Sequence[Row]) -> list[Row]:
     return list(first.values())
 
 
-def _placed(row: Row, claim: Claim, shown: str) -> Row:
+def _of_claim(row: Row, claim: Claim) -> Row:
     printed = f"{base(claim.name).replace(OF, '.')} = {_shown(claim.tree)}"
-    key = "|".join([shown, claim.scope, claim.name, row["claim"], printed])
-    return row | {
-        "file": shown,
-        "line": claim.line,
-        "scope": claim.scope,
-        "equation": claim.name,
-        "printed": printed,
-        "fingerprint": hashlib.sha256(key.encode()).hexdigest()[:24],
-    }
+    return row | {"line": claim.line, "scope": claim.scope, "equation": claim.name, "printed": printed}
+
+
+def _placed(row: Row, shown: str) -> Row:
+    key = "|".join([shown, row["scope"], row["equation"], row["claim"], row["printed"]])
+    return row | {"file": shown, "fingerprint": hashlib.sha256(key.encode()).hexdigest()[:24]}
 
 
 def _shown(tree: Node) -> str:

@@ -16,6 +16,7 @@ from mechsym.audit.theory.tape import BY_OTHERS
 from mechsym.quantities import record
 
 _MEANINGS, _TRIED, _READINGS = 3, 200, 4  # of a letter; of a formula at most: looked at, and held against numbers
+_EXTREMES = {*"max min mean avg ave rms peak amp tot total sum".split()}  # ends of names that say more than of what
 
 
 @record
@@ -104,7 +105,19 @@ def _told_of(claim: Claim, letter: str, vocabulary: Lexicon) -> tuple[str, str]:
     # a letter and what it is called, by its owner where the theory has such a name: the sun torque, elsewhere a torque
     own = base(letter)
     fuller = claim.owned.get(own, "")
+    less = _less_place(own, claim, vocabulary)
+    if less != own:
+        return less, ""
     return own, fuller if vocabulary.knows(fuller) else claim.abouts.get(own, "")
+
+
+def _less_place(name: str, claim: Claim, vocabulary: Lexicon) -> str:
+    # n_g_fan, sigma_m_fan, Se_fan: those of the fan, which all the names of a formula say
+    head, mark, place = name.rpartition("_")
+    if not mark or not place.isalpha() or len(place) < 3 or place.lower() in _EXTREMES:
+        return name
+    together = sum(k.endswith(mark + place) for k in (base(claim.name), *map(base, letters(claim.tree))))
+    return head if together > 2 and not vocabulary.meanings(name, "") and vocabulary.meanings(head, "") else name
 
 
 def _spare(claim: Claim, meanings: Mapping[str, str], vocabulary: Lexicon) -> dict[str, str]:
@@ -159,7 +172,7 @@ def _called(claim: Claim, vocabulary: Lexicon, among: Container[str]) -> tuple[i
     best, called = 0, dict[str, None]()
     for name in names:
         for about in dict.fromkeys((claim.about, claim.whole or claim.about)):
-            ranked = [(r, m) for r, m in vocabulary.meanings(name, about) if m in among]
+            ranked = [(r, m) for r, m in vocabulary.meanings(_less_place(name, claim, vocabulary), about) if m in among]
             called |= dict.fromkeys(m for r, m in ranked if r == ranked[0][0])
             best = max(best, ranked[0][0] if ranked else 0)
     return best, list(called)

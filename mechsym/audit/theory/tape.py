@@ -194,6 +194,12 @@ class TheoryTape(Mapping[str, Entry]):
             raise KeyError(key)
         return entry
 
+    def __contains__(self, key: object) -> bool:
+        try:
+            return isinstance(key, str) and self[key] is not None
+        except (KeyError, BadInput):  # BadInput: a mean over a turn, of which something would be derived
+            return False
+
     def __iter__(self) -> Iterator[str]:
         return iter(self.base)
 
