@@ -10,6 +10,7 @@ import numpy as np
 from mechsym.audit.judge.asked import Asked, question_of
 from mechsym.audit.judge.conventions import RATIO, also_exact, holds_with, told
 from mechsym.audit.judge.fitted import Fitted, safe
+from mechsym.audit.judge.lexicon import OTHER_OF_TWO
 from mechsym.audit.judge.nearness import Near, Probes, at_rest, shown_as
 from mechsym.audit.judge.question import Question
 from mechsym.audit.read import tree as trees
@@ -165,13 +166,10 @@ def _beside_one(tree: Node) -> str:
     return tree.left.id if trees.value_of(tree.right) == 1 else ""
 
 
-_OTHER_OF_TWO = str.maketrans("12", "21")
-
-
 def _is_of_two_alike(fitted: Fitted, form: Formula, states: Probes) -> bool:
     # 1 and 2 may change places in it, as the bodies of a contact do
     letter_of = {meaning: safe(letter) for letter, meaning in fitted.meanings.items()}
-    other = {letter: letter_of.get(meaning.translate(_OTHER_OF_TWO), "") for meaning, letter in letter_of.items()}
+    other = {letter: letter_of.get(meaning.translate(OTHER_OF_TWO), "") for meaning, letter in letter_of.items()}
     if not all(other.values()) or all(one == another for one, another in other.items()):
         return False
     turned = replace(form, tree=trees.substitute(form.tree, lambda n: renamed_to(n, other)))

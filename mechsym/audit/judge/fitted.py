@@ -121,7 +121,8 @@ def _less_place(name: str, claim: Claim, vocabulary: Lexicon) -> str:
 
 
 def _spare(claim: Claim, meanings: Mapping[str, str], vocabulary: Lexicon) -> dict[str, str]:
-    told = {p: vocabulary.meaning(*_told_of(claim, p, vocabulary))[1] for p in claim.parameters if p not in meanings}
+    others = [p for p in dict.fromkeys((*claim.parameters, *claim.near)) if p not in meanings]
+    told = {p: vocabulary.meaning(*_told_of(claim, p, vocabulary))[1] for p in others}
     counts = Counter([*told.values(), *meanings.values()])
     return {p: m for p, m in told.items() if m.isidentifier() and counts[m] == 1}
 

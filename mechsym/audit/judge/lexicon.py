@@ -104,16 +104,18 @@ class Lexicon:
         alike |= {i for word in {*own, *said} for i in self.having.get(word, ())}
         counts: dict[str, int] = {}
         standing: list[tuple[tuple[str, ...], str]] = []
+        by_name = set[str]()
         for phrase, meaning in (self.phrases[i] for i in sorted(alike)):
             if turns and self._is_measured_otherwise(meaning, turns):
                 continue
             rank, whole = 0, _joined(phrase)
             if whole not in joined and self._has_other_index(name, meaning):
                 continue
-            if said and said[-1] == "ratio" and "ratio" not in phrase and phrase != own:
+            if said and said[-1] == "ratio" and "ratio" not in phrase and whole not in joined:
                 continue  # the connecting rod ratio is no length of the connecting rod
             if whole in joined:
                 rank = 1 if whole in _GREEK else min(len(whole), 3)
+                by_name |= {meaning} if rank > 1 else set()
             elif len(whole) > 3 and (own[-len(phrase) :] == phrase or own[: len(phrase)] == phrase):
                 rest = own[: -len(phrase)] if own[-len(phrase) :] == phrase else own[len(phrase) :]
                 rank = 2 if all(w in _QUALIFIERS for w in rest) else 0
@@ -133,6 +135,10 @@ class Lexicon:
             longer = [(other, m) for other, m in standing if len(other) > len(phrase) and _inside(phrase, other)]
             if longer and all(m != meaning for _, m in longer):
                 counts.pop(meaning, None)
+        for m in by_name:  # of two addenda the one that the name says, too
+            twin = m.translate(OTHER_OF_TWO)
+            if twin not in by_name and counts.get(twin) == counts.get(m) and twin != m:
+                counts.pop(twin)
         if slope := self._slope(name.rpartition(OF)[2]):
             counts[slope] = 3
         free = self.theory.letters  # a mass is the letter m before it is what follows from a density
@@ -172,6 +178,7 @@ class Lexicon:
         return ranked[0] if ranked and not several else (0, "")
 
 
+OTHER_OF_TWO = str.maketrans("12", "21")  #: The wheel's letters for the pinion's
 _DERIVATIVE = re.compile(r"d_?(?P<of>\w+?)_?d_?(?P<by>[A-Za-z]+)")
 # (rad/sec) says nothing of a crank rad: what stands in brackets and has short words only
 _UNIT = re.compile(r"[\[(](?:[^\[\]()A-Za-z]|(?<![A-Za-z])[A-Za-z]{1,4}(?![A-Za-z]))*[\])]")

@@ -41,6 +41,7 @@ class Claim:
     abouts: Mapping[str, str] = field(default_factory=dict)
     owned: Mapping[str, str] = field(default_factory=dict)  #: Names with whose they are: the sun's torque
     parameters: Sequence[str] = ()
+    near: Sequence[str] = ()  #: Letters known there whose names differ in one sign from one that it has: xp, xg; a, aw
     whole: str = ""  #: The same with all that it is of
     ruled_out: tuple[str, ...] = ()  #: What names of quantities have that its words speak against: `two_stroke`
     from_top: bool = False  #: Whether the text says that its angle counts from the top dead centre
@@ -313,8 +314,22 @@ class _Build:
                 values=self.values,
                 abouts=self.abouts,
                 parameters=self.scope.parameters,
+                near=self._near(tree),
             )
         )
+
+    def _near(self, tree: Node) -> Sequence[str]:
+        used = trees.letters(tree)
+        own = {base(k) for k in used}
+        return [
+            k for name, k in self.names.items() if k not in used and any(_is_a_sign_away(name, other) for other in own)
+        ]
+
+
+def _is_a_sign_away(one: str, other: str) -> bool:
+    if abs(len(one) - len(other)) == 1:
+        return one.startswith(other) or other.startswith(one)
+    return len(one) == len(other) > 1 and sum(a != b for a, b in zip(one, other, strict=True)) == 1
 
 
 def _used(let: Let) -> set[str]:
