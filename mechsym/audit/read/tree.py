@@ -26,13 +26,13 @@ def name(text: str) -> ast.Name:
 
 
 def number(value: Fraction | int, decimal: bool = False) -> Node:
-    """A number as an author writes it: a constant, a quotient of constants, or the negative of one."""
+    """A number as an author writes it: a constant, tenths and smaller parts by a point, or a quotient of constants."""
     value = Fraction(value)
     if value < 0:
         return negative(number(-value, decimal))
     if value.denominator == 1:
         return ast.Constant(value=int(value))
-    if decimal and Fraction(repr(float(value))) == value:
+    if (decimal or value.denominator % 10 == 0) and Fraction(repr(float(value))) == value:
         return ast.Constant(value=float(value))
     return binary(ast.Div, ast.Constant(value=value.numerator), ast.Constant(value=value.denominator))
 
