@@ -171,6 +171,46 @@ def texts() -> None:
     print(f"gas-dynamics-notes: {before / after:.3f} as written, {100 * before / after:.1f} kPa")
 
 
+def gerber(
+    amplitude: float = 10.0, mean: float = 20.0, endurance: float = 30.0, ultimate: float = 100.0
+) -> tuple[float, ...]:
+    """Safety after Gerber as written, and as the positive root of n s_a/S_e + (n s_m/S_u)^2 = 1."""
+    inside = 2 * mean * endurance / (ultimate * amplitude)
+    written = 0.5 * (ultimate / mean) ** 2 * amplitude / endurance * (-1 + np.sqrt(1 + inside))
+    return written, float(max(np.roots([(mean / ultimate) ** 2, amplitude / endurance, -1.0])))
+
+
+def shifted_pair(
+    m: float = 3.0, z: tuple[int, int] = (12, 24), x: tuple[float, float] = (0.6, 0.36)
+) -> dict[str, tuple[float, float]]:
+    """Of a pair with profile shift, as written and as the teeth that a rack cuts have it [mm]."""
+    alpha = np.radians(20)
+    wanted = 2 * np.tan(alpha) * sum(x) / sum(z) + np.tan(alpha) - alpha
+    low, high = 0.01, 1.2
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if np.tan(middle) - middle < wanted else (low, middle)
+    y = sum(z) / 2 * (np.cos(alpha) / np.cos(low) - 1)
+    # the rack's head cuts the root 1.25 modules below its own pitch line; the other root keeps a quarter of clearance
+    root = m * (z[0] - 2.5 + 2 * x[0])
+    centre = (sum(z) / 2 + y) * m
+    tip = 2 * (centre - 0.25 * m) - m * (z[1] - 2.5 + 2 * x[1])
+    pitch = 2 * np.pi * m * z[0] / 2 * np.cos(alpha) / z[0]
+    addendum = (1 + y - x[0]) * m
+    return {
+        "tip": (m * z[0] + 2 * addendum, tip),
+        "root": (m * z[0] - 2 * addendum, root),
+        "base pitch": (m * np.pi * np.cos(low), pitch),
+    }
+
+
+def mean_crank_speed(r: float = 0.051, rod: float = 0.2, turns: float = 2000 / 60) -> tuple[float, float]:
+    """Mean speed of a piston as written, and by its way in a turn [m/s]."""
+    phi = np.linspace(0, 2 * np.pi, 100_001)
+    place = r * np.cos(phi) + np.sqrt(rod**2 - (r * np.sin(phi)) ** 2)
+    return 2 * r * turns, float(np.sum(np.abs(np.diff(place)))) * turns
+
+
 def main() -> None:
     """Print the numbers in the order of the page."""
     for target in (25, 35):
@@ -221,6 +261,17 @@ def main() -> None:
     print(
         f"Coding_Project: a rod of {rods.min():.3f} to {rods.max():.3f} as written; at rest for {still:.0%} of a turn"
     )
+    print("ICE_thermodynamic: mean piston speed {:.2f} m/s as written, {:.2f} m/s".format(*mean_crank_speed()))
+    print(
+        f"Tribology: surface speed {70 * 0.1016 / 2 * np.pi:.1f} m/s as written, {2 * np.pi * 70 * 0.1016 / 2:.1f} m/s"
+    )
+    print(f"Marin_Equation: 3 to 6 ksi has the mean {(6 - 3) / 2} as written, {np.mean([3, 6])}")
+    print("Homework: safety after Gerber {:.2f} as written, {:.2f}".format(*gerber()))
+    for name, (written, right) in shifted_pair().items():
+        print(f"formula: {name} {written:.3f} mm as written, {right:.3f} mm")
+    print(f"Angle-Drill-Design-Project: bending stress {0.399**2:.2f} of what it is, with J = 0.399")
+    cosines = np.cos(180 * 180 / np.pi), np.cos(np.pi)
+    print("EIM-Projekt: at 180 degrees a cosine of {:.3f} as written, {:.0f}".format(*cosines))
     texts()
     descriptions()
 

@@ -1,5 +1,5 @@
-"""What a program says of itself, without a theory: slopes by their names, angles that are converted twice, or in most
-places and in another not, and a 1 that was an l.
+"""What a program says of itself, without a theory: slopes by their names, angles that are converted twice, the wrong
+way, or in most places and in another not, and a 1 that was an l.
 """
 
 import ast
@@ -114,6 +114,21 @@ def converted_twice(claim: Claim) -> Row | None:
                 (angle,) = here
                 right = trees.replace(claim.tree, (*path, "argument"), trees.name(angle))
                 return _otherwise(claim, right, f"{base(angle)} has been converted before")
+    return None
+
+
+def into_degrees(claim: Claim) -> Row | None:
+    """A sine, cosine or tangent of radians, whose angle is turned into degrees."""
+    for path, node in trees.walk(claim.tree):
+        argument = trees.argument_of(node, *CIRCULAR)
+        factors = {} if argument is None else _factors(argument)
+        if _is_once(factors, 1 / _TURN):
+            (angle,) = factors
+            turned = trees.binary(
+                ast.Div, trees.binary(ast.Mult, trees.name(angle), trees.name("pi")), trees.number(180)
+            )
+            right = trees.replace(claim.tree, (*path, "argument"), turned)
+            return _otherwise(claim, right, f"{base(angle)} is turned into degrees where radians are taken")
     return None
 
 

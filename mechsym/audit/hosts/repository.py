@@ -12,6 +12,7 @@ from mechsym.audit.hosts.described import descriptions
 from mechsym.audit.hosts.itself import (
     converted_here_and_not_there,
     converted_twice,
+    into_degrees,
     one_for_a_letter,
     slope_beside,
     slopes,
@@ -32,6 +33,7 @@ from mechsym.quantities import record
 _LEFT_OUT = {*"node_modules venv __pycache__ build dist third_party site-packages".split()}  # and what a dot begins
 _MOST_FILES = 20_000
 _MINIFIED = 110  # letters in a line of JavaScript on the average: so many are written by a tool
+_BY_ITSELF = (converted_twice, into_degrees, one_for_a_letter)
 _FOUND = ("misprint", "derivative", "wrong")
 
 
@@ -109,7 +111,7 @@ def _judged(shown: str, reading: Reading, may_be: Sequence[Lexicon]) -> File:
     neighbours = Neighbours(reading.claims, [v for v in may_be if v.touches(words)])
     for claim in reading.claims:
         outcome = neighbours.outcome(claim)
-        own = slope_beside(claim, claims) or converted_twice(claim) or one_for_a_letter(claim)
+        own = slope_beside(claim, claims) or next(filter(None, (look(claim) for look in _BY_ITSELF)), None)
         if outcome is not None or own is not None:
             matched.add(id(claim))
         if own or (outcome is not None and outcome["verdict"] != ""):

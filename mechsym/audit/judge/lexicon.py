@@ -135,10 +135,10 @@ class Lexicon:
             longer = [(other, m) for other, m in standing if len(other) > len(phrase) and _inside(phrase, other)]
             if longer and all(m != meaning for _, m in longer):
                 counts.pop(meaning, None)
-        for m in by_name:  # of two addenda the one that the name says, too
-            twin = m.translate(OTHER_OF_TWO)
-            if twin not in by_name and counts.get(twin) == counts.get(m) and twin != m:
-                counts.pop(twin)
+        for m in by_name:  # of two addenda, or what a comment alone says in full, the one that the name says, too
+            for other in [k for k, rank in counts.items() if rank == counts.get(m) and k not in by_name]:
+                if other == m.translate(OTHER_OF_TWO) or counts[other] == WHOLLY and m in self.theory.letters:
+                    counts.pop(other)
         if slope := self._slope(name.rpartition(OF)[2]):
             counts[slope] = 3
         free = self.theory.letters  # a mass is the letter m before it is what follows from a density
