@@ -64,7 +64,10 @@ def test_one_half_of_the_turn_is_not_the_other():
 def test_shares_of_another_stroke(late):
     # half of the stroke by the same cosine is the same share at the same angle, whenever it fires
     gas, own = smooth_gas(0.6), travel(cosine)
+    gas = dataclasses.replace(gas, pressure=dataclasses.replace(gas.pressure, kinks=(0.7, 4.1), phi_p_max=0.3))
     moved = over_travel(gas, own, travel(lambda phi: cosine(phi) / 2), late)
+    assert moved.pressure.kinks == pytest.approx([0.7, 4.1], abs=1e-9)
+    assert moved.pressure.phi_p_max == pytest.approx(0.3, abs=1e-9)
     assert moved.pressure.absolute(THETA) == pytest.approx(gas.pressure.absolute(THETA), rel=1e-9)
     assert moved.chamber.stroke == pytest.approx(0.3, rel=1e-9)
     assert moved.chamber.displacement == pytest.approx(gas.chamber.displacement / 2, rel=1e-9)
@@ -96,6 +99,7 @@ def test_formulas_begin_where_the_piston_fires():
     gas = dataclasses.replace(gas, pressure=dataclasses.replace(gas.pressure, formulas=pieces))
     (low, high, first), (_, end, second) = gas.formulas(1.5)
     assert (low, high, end) == (1.5, 3.5, 2 * math.pi + 1.5)
+    assert [piece[0] for piece in gas.formulas()] == [0.0, 2.0]
     area = math.pi * 0.2**2 / 4
     assert first(2.5) == pytest.approx(3e5 * area, rel=1e-12)
     assert second(4.0) == pytest.approx(6e5 * area, rel=1e-12)
