@@ -43,3 +43,13 @@ def test_figures_follow_from_each_other(law):
         assert ratio == pytest.approx((brake / mep) ** sense, rel=1e-9)
     shares = [float(np.ravel(share)[0]) for share in told["fractions"].values()]
     assert sum(shares) == pytest.approx(1.0, abs=1e-9)  # by the energy balance
+
+
+def test_the_friction_of_chen_and_flynn_counts_the_mean_piston_speed():
+    case = cases.load("nunes-slider-crank", {"friction_pressure.law": "chen_flynn"})
+    told = cycle(case)
+    parameters = case.need("parameters")
+    stroke = 2 * (parameters.r1 + parameters.r2)
+    speed = 2 * stroke * np.array(told["speed_rpm"]) / 60
+    pressure = 0.4e5 + 0.005 * np.array(told["p_max_mpa"]) * 1e6 + 0.09e5 * speed + 0.0009e5 * speed**2
+    assert np.array(told["friction_mep_kpa"]) == pytest.approx(pressure / 1e3, rel=1e-9)
