@@ -13,7 +13,7 @@ from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import misfits as of_units
-from mechsym.audit.judge.following import CUT_SHORT, expected, solved
+from mechsym.audit.judge.following import CUT_SHORT, expected, given, solved
 from mechsym.audit.judge.forms import (
     are_told,
     has_nothing,
@@ -52,6 +52,7 @@ _OTHER_CASE = re.compile(
     r"\b(?:type|case|variant|version|option|method)\s(?:\d|[ivx]+\b|[a-c]\b)|\b(?:doubl|halv|tripl)\w+|\binstead\b",
     re.IGNORECASE,
 )
+_NEXT_COLUMN = re.compile(r"\$\$?\s*\|\s*\$\$?\s*$")
 _NEARLY = 0.1  # what is cut short is off by at the most, of its largest value [-]
 
 
@@ -75,7 +76,19 @@ class Judge:
         self.energies = self.slip.energies if self.slip else self.energies
 
     def verdict(self, order: int, said: Said) -> Judged:
-        """The verdict of an equation: a theory that fits, the text itself, its units."""
+        """The verdict of an equation: a theory that fits, the text itself, its units.
+
+        What the equation in front of it gives is right by that one, whatever stands farther off.
+        """
+        judged = self._verdict(order, said)
+        by_text = judged.verdict == "misprint" and judged.matched == "the text"
+        source = given(self.world, order) if by_text else None
+        name = "" if source is None else self.world.paper.said[source].name
+        if not name or any(name == blamed for blamed, *_ in self.asking.wrong.values()):
+            return judged
+        return Judged(verdict="exact", matched="the text", note=f"follows from ({name})", error=0.0)
+
+    def _verdict(self, order: int, said: Said) -> Judged:
         odd = self.asking.odd.get(of_units.id_of(said), ())
         met = self._met(order, said)
         if met is not None and not odd:
@@ -270,7 +283,7 @@ class Judge:
         # x_2 by x_1: of two that no theory knows the later one is told of
         slip = self.twins.slip(order)
         sure = slip is not None and any((slip[1], 1) in fit.met for fit in self.fits)
-        if slip is None or not sure and slip[1] > order:
+        if slip is None or not sure and (slip[1] > order or self.world.paper.said[slip[1]].section != said.section):
             return None
         twin = self.world.paper.said[slip[1]].name
         note = f"its twin ({twin}) has another form" + ": one of both has a slip" * (not sure)
@@ -303,6 +316,8 @@ class Judge:
         first = own.side if own else 0
         # an equation says nothing of what it defines, and of what it was solved with
         others = [k for k in range(1, len(said.sides)) if own is None or k not in (own.side, own.against)]
+        if _NEXT_COLUMN.search(said.before):
+            others = []  # of another case
         if own is None and _CASE.search(said.before.rstrip("$[\\ \n").rpartition("\n\n")[2]):
             first, others = 1, others[1:]  # what an earlier equation says holds elsewhere
         if not others or is_one_of_several(self.world, said):
@@ -374,8 +389,11 @@ class Judge:
             row = self.asking.compared(theory, wanted, printed, said)
             if row is not None and row["verdict"] in PASSED:
                 return passed(row, "the text")
-            if row is not None and self._is_of_case(order, said.sides[i], row["note"]):
-                continue  # a letter that is given anew, with a term more or another number, is one of another case
+            # a letter that is given anew, with a term more or another number, is one of another case; F = F_x + F_y
+            # may be of vectors, whose size the root of their squares is
+            how = row["note"] if row is not None else ""
+            if "repaired by squares" in how or how and self._is_of_case(order, said.sides[i], how):
+                continue
             row = settled(row) if row is not None and has_sense(self.world, said) else row
             if row is not None and (slip := self.asking.finding(row, said, said.sides[side], "the text")):
                 return slip

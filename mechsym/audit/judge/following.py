@@ -5,6 +5,8 @@ import re
 from collections.abc import Iterator
 from functools import reduce
 
+import numpy as np
+
 from mechsym.audit.judge.by_energy import Expected, halved, rate_in, reduced, stored
 from mechsym.audit.judge.kinds import of_unit
 from mechsym.audit.judge.linear import characteristic, natural
@@ -12,6 +14,7 @@ from mechsym.audit.judge.reciprocal import mended
 from mechsym.audit.judge.solving import isolate
 from mechsym.audit.judge.turn import averaged, held, over_a_turn
 from mechsym.audit.judge.world import World
+from mechsym.audit.read.algebra import FLOATS, evaluate
 from mechsym.audit.read.clause import OPENED
 from mechsym.audit.read.latex import read_latex
 from mechsym.audit.read.refused import SIGN
@@ -66,6 +69,7 @@ _MEAN = re.compile(
 _SEVERAL = re.compile(
     r"\b(?:two|both|three|each|every|all|twin|pair|(?!its|this|is|parts|masses)[a-z]+[a-rt-z]s)\b", re.IGNORECASE
 )
+_GIVING = 3  # equations in front of one that may give it as it stands
 _BEFORE = 6  # equations in front of one that it may be the derivative of
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
 
@@ -108,6 +112,45 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
         return None
     tree = isolate(sides[inside.index(True)], letter, sides[inside.index(False)])
     return None if tree is None else (tree, place)
+
+
+def given(world: World, order: int) -> int | None:
+    """The place of one of the displayed equations right before one, in its section, that gives it exactly."""
+    said = world.paper.said[order]
+    here = [world.plain(side) for side in said.sides]
+    used = {k for side in here for k in letters(side)} - {"pi"}
+    before = [k for k in range(order - 1, -1, -1) if not world.paper.said[k].inline][:_GIVING]
+    for place in before:
+        one = world.paper.said[place]
+        source = [world.plain(side) for side in one.sides]
+        if one.section != said.section or one.claim or len(source) != 2:
+            continue
+        own = {k for side in source for k in letters(side)} - {"pi"}
+        for letter in sorted(own) if own <= used else ():
+            inside = [letter in letters(side) for side in source]
+            if sum(inside) == 1:
+                tree = isolate(source[inside.index(True)], letter, source[inside.index(False)])
+                whole = [_with(side, letter, tree) for side in here] if tree is not None else []
+                if whole and (_are_one(whole) or len(whole) > 2 and _are_one(whole[1:])):  # what the first is it says
+                    return place
+    return None
+
+
+def _with(side: Node, letter: str, tree: Node) -> Node:
+    return substitute(side, lambda n: tree if isinstance(n, ast.Name) and n.id == letter else None)
+
+
+def _are_one(sides: list[Node]) -> bool:
+    # for any positive numbers
+    names = sorted({k for side in sides for k in letters(side)} - {"pi"})
+    numbers = np.random.default_rng(7).uniform(0.2, 0.9, (len(names), 24))
+    with np.errstate(all="ignore"):
+        rows = [
+            np.broadcast_to(evaluate(s, {"pi": np.pi, **dict(zip(names, numbers, strict=True))}, FLOATS), 24)
+            for s in sides
+        ]
+    good = np.all(np.isfinite(rows), axis=0)
+    return bool(good.sum() > 4) and all(np.allclose(row[good], rows[0][good], rtol=1e-9) for row in rows[1:])
 
 
 def _has(said: Said, letter: str) -> bool:

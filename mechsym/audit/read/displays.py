@@ -32,7 +32,7 @@ _NESTED = re.compile(r"\\(begin|end)\{|\\\\(?:\s*\[[\d.]+\s*\w+\])?")
 LABEL = re.compile(r"\\label\s*\{([^{}]*)\}")
 _TAG = re.compile(r"\\tag\*?\s*\{\s*\(?([^{}()]*)\)?\s*\}|\\eqno\s*\(?([\w.]+)\)?")
 _MARGIN = re.compile(r"[ \t]*(?:\n[ \t]*)?\(?[ \t]*\(?(\d+(?:[.\-]\d+)*[a-z]?)\)[ \t.;,]*(?=\n|$)")
-_TRAILING = re.compile(r"(?:\\q?quad|\\[,;:! ]|~|\s|\.)+\((\d+(?:\.\d+)*[a-z]?)\)\s*$")
+_TRAILING = re.compile(r"(?:(?:\\q?quad|\\[,;:! ]|~|\s|\.)+|\\q?quad\s*[-–—]+\s*)\((\d+(?:\.\d+)*[a-z]?)\)\s*$")
 _UNNUMBERED = re.compile(r"\\(?:nonumber|notag)\b")
 _SIGN = r"(?:[=+\-]|\\(?:approx|simeq|cdot|times|equiv)\b)"
 _SPACE = r"(?:\s|~|\\q?quad\b|\\[,;:! ]|\{\})"

@@ -125,7 +125,8 @@ def nomenclature(text: str) -> dict[str, Named]:
                     names[one] = Named(meaning=its, unit=known or "", line=number)
         for match in _PROSE.finditer(row) if not listed else ():  # what stands in brackets there is a unit
             one = spelled(match[2])
-            if not run and match[1] in KINDS and one and len(one) < 20 and one not in names:
+            in_unit = match[1] != "module" and unit_of(match[2]) == KINDS.get(match[1])  # radius (m)
+            if not run and match[1] in KINDS and one and len(one) < 20 and one not in names and not in_unit:
                 names[one] = Named(meaning=match[1], unit="", line=number)
     where = [m for m in _WHERE.finditer(text) if not _is_called_before(text, m)]
     counted = [_IN_TURNS.match(text, m.end()) for m in where]

@@ -43,14 +43,14 @@ _APPLIED = re.compile(
     rf"(?P<of>[A-Za-z}}'])\s*(?:\\left)?\(\s*(?:{_ANGLES}(?:_\{{?\w+\}}?)?|t)\s*(?:\\right)?\)(?!\s*\^)"
 )
 _DEFINED = re.compile(rf"((?:\\Delta ?)?{SIGN}) ?\( ?({SIGN}(?: ?, ?{SIGN})*) ?\)")
-# the imaginary unit, and the mean or the transform of what stands in braces
+# the imaginary unit, the gamma function, and the mean or the transform of what stands in braces
 _NO_PRODUCT = re.compile(
-    r"\\(?:text|mathrm|rm)\s*\{?\s*[ij]\s*\}"
+    r"\\(?:text|mathrm|rm)\s*\{?\s*[ij]\s*\}|\\Gamma\s*(?:\\left)?\("
     r"|(?:(?<![A-Za-z])E|\\math(?:cal|bb|scr)\s*\{?\s*[A-Z]\s*\}?)\s*(?:\\left)?\s*\\\{"
 )
 _END = re.compile(r"\$\$|\\end\{[a-z]+\*?\}|\\\]")  # of a display
 _CLOSED = re.compile(r"(?:\\end\{[a-z]+\*?\}|\$\$|\\\])$")  # where a display ends
-_SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#{1,6}\s|\d+(?:\.\d+)+\.?\s+[A-Z])", re.MULTILINE)
+_SECTION = re.compile(r"^(?:\s*\\(?:sub)*section\b|#+\s|\d+(?:\.\d+)+\.?\s+[A-Z]|\*\*[^*\n$]{3,60}\*\*\s*$)", re.M)
 _BRACKETS = re.compile(r"(?<!\\)\\[()]")  # the other way to write a formula within a line
 _INLINE = re.compile(r"(?<![\\$])\$([^$\n]{1,200}?)\$(?!\$)")
 _RATIO = re.compile(rf"(?:\bratio,?\s+(?:=\s*)?|^)\$\s*({SIGN}\s*/\s*{SIGN})\s*\$$")

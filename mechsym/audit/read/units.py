@@ -41,7 +41,7 @@ KINDS = {
 #: Words that change what the next one is measured in
 OTHERS = re.compile(
     "per|unit|specific|by|relative|(?:non)?dimension(?:less|al)|normali[sz]ed|scaled|molar|section|internal|moment|polar"
-    "|linear|flux|current|charge|probability|spectral|generali[sz]ed|cent(?:er|re)s?|vector|array"
+    "|linear|areal|flux|current|charge|probability|spectral|generali[sz]ed|cent(?:er|re)s?|vector|array"
 )
 
 #: Words between what something is and what it is of
