@@ -270,6 +270,8 @@ def main() -> None:
     for name, (written, right) in shifted_pair().items():
         print(f"formula: {name} {written:.3f} mm as written, {right:.3f} mm")
     print(f"Angle-Drill-Design-Project: bending stress {0.399**2:.2f} of what it is, with J = 0.399")
+    factor = 0.7 * (1.5 - 1) + 1
+    print(f"Assignment3: of pure torsion {np.sqrt(factor) / factor:.2f} of the stress as written")
     cosines = np.cos(180 * 180 / np.pi), np.cos(np.pi)
     print("EIM-Projekt: at 180 degrees a cosine of {:.3f} as written, {:.0f}".format(*cosines))
     texts()
