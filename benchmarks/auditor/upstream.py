@@ -143,9 +143,17 @@ def paper_roll() -> tuple[float, float]:
     return length, (most**2 - constant) / (2 * k)
 
 
+def yo_yo(g: float = 9.81) -> tuple[float, float]:
+    """Acceleration of a cylinder on a thread as written, and by energy: m a t^2/2 = m v^2/2 + I omega^2/2 over g."""
+    share = 0.5  # I/(m R^2)
+    # as written a = share a + g; by energy g s = v^2/2 + share v^2/2 and v^2 = 2 a s
+    return g / (1 - share), g / (1 + share)
+
+
 def texts() -> None:
     """What errors of texts cost."""
     length, rolled = paper_roll()
+    print("Mechanics: a yo-yo falls with {:.2f} m/s^2 as written, {:.2f} m/s^2".format(*yo_yo()))
     print(f"ModSimPy: {rolled:.1f} m of paper as written, {length:.1f} m")
     mass, stiffness = 4.0e7, 1.44e7
     swing = solve_ivp(
