@@ -219,6 +219,23 @@ def mean_crank_speed(r: float = 0.051, rod: float = 0.2, turns: float = 2000 / 6
     return 2 * r * turns, float(np.sum(np.abs(np.diff(place)))) * turns
 
 
+def machine_design() -> None:
+    """Print what lines of machine design cost."""
+    print("ICE_thermodynamic: mean piston speed {:.2f} m/s as written, {:.2f} m/s".format(*mean_crank_speed()))
+    print(
+        f"Tribology: surface speed {70 * 0.1016 / 2 * np.pi:.1f} m/s as written, {2 * np.pi * 70 * 0.1016 / 2:.1f} m/s"
+    )
+    print(f"Marin_Equation: 3 to 6 ksi has the mean {(6 - 3) / 2} as written, {np.mean([3, 6])}")
+    print("Homework: safety after Gerber {:.2f} as written, {:.2f}".format(*gerber()))
+    for name, (written, right) in shifted_pair().items():
+        print(f"formula: {name} {written:.3f} mm as written, {right:.3f} mm")
+    print(f"Angle-Drill-Design-Project: bending stress {0.399**2:.2f} of what it is, with J = 0.399")
+    factor = 0.7 * (1.5 - 1) + 1
+    print(f"Assignment3: of pure torsion {np.sqrt(factor) / factor:.2f} of the stress as written")
+    cosines = np.cos(180 * 180 / np.pi), np.cos(np.pi)
+    print("EIM-Projekt: at 180 degrees a cosine of {:.3f} as written, {:.0f}".format(*cosines))
+
+
 def main() -> None:
     """Print the numbers in the order of the page."""
     for target in (25, 35):
@@ -269,19 +286,7 @@ def main() -> None:
     print(
         f"Coding_Project: a rod of {rods.min():.3f} to {rods.max():.3f} as written; at rest for {still:.0%} of a turn"
     )
-    print("ICE_thermodynamic: mean piston speed {:.2f} m/s as written, {:.2f} m/s".format(*mean_crank_speed()))
-    print(
-        f"Tribology: surface speed {70 * 0.1016 / 2 * np.pi:.1f} m/s as written, {2 * np.pi * 70 * 0.1016 / 2:.1f} m/s"
-    )
-    print(f"Marin_Equation: 3 to 6 ksi has the mean {(6 - 3) / 2} as written, {np.mean([3, 6])}")
-    print("Homework: safety after Gerber {:.2f} as written, {:.2f}".format(*gerber()))
-    for name, (written, right) in shifted_pair().items():
-        print(f"formula: {name} {written:.3f} mm as written, {right:.3f} mm")
-    print(f"Angle-Drill-Design-Project: bending stress {0.399**2:.2f} of what it is, with J = 0.399")
-    factor = 0.7 * (1.5 - 1) + 1
-    print(f"Assignment3: of pure torsion {np.sqrt(factor) / factor:.2f} of the stress as written")
-    cosines = np.cos(180 * 180 / np.pi), np.cos(np.pi)
-    print("EIM-Projekt: at 180 degrees a cosine of {:.3f} as written, {:.0f}".format(*cosines))
+    machine_design()
     texts()
     descriptions()
 

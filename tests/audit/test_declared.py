@@ -213,3 +213,9 @@ q = "d(dx_dphi, phi)"
     }  # fmt: skip
     for quantity, formula in right.items():
         assert answer(Asked(text=formula, against=f"own.{quantity}", given=own))["verdict"] == "exact", quantity
+
+
+def test_a_name_that_has_no_derivative_stops_no_file():
+    # W_E is made of a mean over a turn, which has none; a program's name may ask for one
+    tape = theory("schmidt_alpha").tape
+    assert "W_E" in tape and "dW_E_dphi" not in tape

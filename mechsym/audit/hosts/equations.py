@@ -13,7 +13,7 @@ from mechsym.audit.hosts.paper import CARRIED, DEFINED
 from mechsym.audit.hosts.worded import Worded
 from mechsym.audit.judge import fit as fitting
 from mechsym.audit.judge import misfits as of_units
-from mechsym.audit.judge.following import CUT_SHORT, expected, given, solved
+from mechsym.audit.judge.following import CUT_SHORT, expected, implied_by, solved
 from mechsym.audit.judge.forms import (
     are_told,
     has_nothing,
@@ -82,7 +82,7 @@ class Judge:
         """
         judged = self._verdict(order, said)
         by_text = judged.verdict == "misprint" and judged.matched == "the text"
-        source = given(self.world, order) if by_text else None
+        source = implied_by(self.world, order) if by_text else None
         name = "" if source is None else self.world.paper.said[source].name
         if not name or any(name == blamed for blamed, *_ in self.asking.wrong.values()):
             return judged

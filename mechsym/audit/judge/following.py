@@ -69,7 +69,7 @@ _MEAN = re.compile(
 _SEVERAL = re.compile(
     r"\b(?:two|both|three|each|every|all|twin|pair|(?!its|this|is|parts|masses)[a-z]+[a-rt-z]s)\b", re.IGNORECASE
 )
-_GIVING = 3  # equations in front of one that may give it as it stands
+_IN_FRONT = 3  # equations in front of one that may give it as it stands
 _BEFORE = 6  # equations in front of one that it may be the derivative of
 _DISPLAY = re.compile(r"\$\$|\\end\{[a-z*]+\}|\\\]|```")
 
@@ -114,12 +114,12 @@ def solved(world: World, order: int) -> tuple[Node, int] | None:
     return None if tree is None else (tree, place)
 
 
-def given(world: World, order: int) -> int | None:
+def implied_by(world: World, order: int) -> int | None:
     """The place of one of the displayed equations right before one, in its section, that gives it exactly."""
     said = world.paper.said[order]
     here = [world.plain(side) for side in said.sides]
     used = {k for side in here for k in letters(side)} - {"pi"}
-    before = [k for k in range(order - 1, -1, -1) if not world.paper.said[k].inline][:_GIVING]
+    before = [k for k in range(order - 1, -1, -1) if not world.paper.said[k].inline][:_IN_FRONT]
     for place in before:
         one = world.paper.said[place]
         source = [world.plain(side) for side in one.sides]
