@@ -4,6 +4,7 @@ the cycle in motion, whose gas follows the speed.
 
 import math
 import re
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from typing import Annotated
 
@@ -47,7 +48,7 @@ from mechsym.simulate.loop.run import simulate_loop
 from mechsym.simulate.loop.system import Loop, LoopCylinder
 from mechsym.simulate.problem import period_of
 from mechsym.simulate.rest import RestPoses, rests
-from mechsym.simulate.result import RunNumbers, final_state, summary
+from mechsym.simulate.result import RunNumbers, extremes_of, final_state, summary
 from mechsym.simulate.settings import Simulation
 from mechsym.simulate.steady import steady_state
 from mechsym.torsion.startup import AVERAGE, EngineSpeed, FinishedRun, StartUp, StartUpClaim, findings, start_up
@@ -196,15 +197,25 @@ def outputs_of(case: Case, result: Result) -> tuple[Result, dict[str, Columns]]:
     kinematics = mechanism_of(case).functions.get("kinematics")
     if kinematics is None or not kinematics.n_out():
         return result, {}
-    at = {name: result.columns[name] for name in kinematics.name_in() if name in result.columns}
-    if len(at) < kinematics.n_in():
+    taken = [name for name in kinematics.name_in() if name in result.columns]
+    if len(taken) < kinematics.n_in():
         return result, {}
-    values, units = along(kinematics, at), plan_of(case.mechanism).listing(None)["outputs"]
-    slopes = {name for name in values if (slope := _SLOPE.match(name)) and slope[1] in values}
-    names = [n for n in values if n in units and n not in slopes | {"inertia"} and n not in result.columns]
-    shown = {n: np.broadcast_to(values[n], result.t.shape) for n in names}
-    ends = {n: {"min": float(v.min()), "max": float(v.max()), "end": float(v[-1])} for n, v in shown.items()}
-    run = replace(result, columns={**result.columns, **shown}, units={**result.units, **{n: units[n] for n in names}})
+    told, units = kinematics.name_out(), plan_of(case.mechanism).listing(None)["outputs"]
+    slopes = {name for name in told if (slope := _SLOPE.match(name)) and slope[1] in told}
+    names = [n for n in told if n in units and n not in slopes | {"inertia"} and n not in result.columns]
+    if not names:
+        return result, {}
+
+    def rows(columns: Mapping[str, np.ndarray]) -> np.ndarray:
+        values = along(kinematics, {n: columns[n] for n in taken})
+        return np.array([np.broadcast_to(values[n], columns[taken[0]].shape) for n in names])
+
+    shown = rows(result.columns)
+    least, greatest = extremes_of(result, rows)
+    ends = {n: {"min": float(a), "max": float(b), "end": float(v[-1])}
+            for n, a, b, v in zip(names, least, greatest, shown, strict=True)}  # fmt: skip
+    columns = result.columns | dict(zip(names, shown, strict=True))
+    run = replace(result, columns=columns, units={**result.units, **{n: units[n] for n in names}})
     return run, {n: Columns(of, dict.fromkeys(of, units[n])) for n, of in ends.items()}
 
 

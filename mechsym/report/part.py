@@ -12,7 +12,6 @@ from mechsym.page.finding import NOT_MET
 from mechsym.plausible import Doubt
 from mechsym.quantities import record
 from mechsym.quantities.display import quantity_text
-from mechsym.quantities.results import tell
 
 DONE, INFEASIBLE, REFUSED, LEFT_OUT = "done", "infeasible", "refused", "left out"
 
@@ -34,7 +33,7 @@ class ReportPart:
     limits: tuple[str, ...] = ()  #: What limits the design, the tightest first
     decide: tuple[str, ...] = ()  #: What somebody has to decide
     silent: tuple[str, ...] = ()  #: What it does not say
-    numbers: Any = None  #: As the command gives them with --json
+    numbers: Any = None  #: The result that the command gives
     doubts: tuple[Doubt, ...] = ()
     turning: Callable[[], list[Json]] = list  #: Scenes of what turns at the head of the report
     beside: tuple[Finding, ...] = ()  #: What has to be known first besides what its view says
@@ -62,5 +61,5 @@ def over_time(title: str, case: Case) -> ReportPart:
         name="forces", title=title, view=driven.view(moved),
         verdict=f"The drives give at most, either way, {', '.join(most)} in {quantity_text(numbers.t_end, 's')}.",
         grids=(grid("Drives and what bears what, over time", rows, ["quantity", "most", "least"]),),
-        silent=("rigid links without play; friction is that of the declaration",), numbers=tell(numbers),
+        silent=("rigid links without play; friction is that of the declaration",), numbers=numbers,
     )  # fmt: skip

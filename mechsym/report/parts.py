@@ -36,7 +36,7 @@ from mechsym.page import Card, Finding, Grid, card, grid, ranked
 from mechsym.plausible import Doubt, results, sifted
 from mechsym.quantities import record
 from mechsym.quantities.display import figure, key_words, quantity_text, shown_in
-from mechsym.quantities.results import tell, units_of
+from mechsym.quantities.results import some, tell, units_of
 from mechsym.report.part import DONE, INFEASIBLE, LEFT_OUT, REFUSED, ReportPart, over_time
 from mechsym.sizing.rows import tightest
 from mechsym.torsion import twist
@@ -54,7 +54,7 @@ def force_part(title: str, case: Case, result: Forces, doubts: tuple[Doubt, ...]
         name="forces", title=title, view=result.view, state=INFEASIBLE if reasons else DONE, reason="; ".join(reasons),
         verdict=f"{_friction(result)}.", facts=tuple(numbers.numbers.facts), grids=(_borne(result),),
         decide=reasons, doubts=doubts, silent=("rigid links at constant speed; friction of the first order",),
-        numbers=tell(numbers), beside=tuple(criticals(numbers.vibration)),
+        numbers=numbers, beside=tuple(criticals(numbers.vibration)),
     )  # fmt: skip
 
 
@@ -148,7 +148,7 @@ def _cycle(case: Case) -> ReportPart:
         name="cycle", title=PARTS["cycle"].title, view=dataclasses.replace(view, pictures=(*view.pictures, *pictures)),
         verdict=f"{verdict}.", facts=facts, grids=(_work_grid(shown, each, many), _beside(shown)),
         silent=(_MODEL + (_CLOSED if kind_of(case.need("cycle")).closed else _ASSUMES),),
-        numbers=dict(figures), doubts=(*of_cycle(case, figures, source(case).bound), *of_gas(case, acting)),
+        numbers=figures, doubts=(*of_cycle(case, figures, source(case).bound), *of_gas(case, acting)),
     )  # fmt: skip
 
 
@@ -196,7 +196,7 @@ def combustion_part(measured: MeasuredDiagram) -> ReportPart:
         verdict=f"The measured cycles give {mean}, at {figure(measured.speed_rpm, 4)} rpm.", facts=measured.facts,
         grids=(grid("Records of one encoder", beside, list(beside[0]) if beside else [], each),
                grid("Cycle by cycle", rows, list(rows[0]), heads)),
-        silent=("the gas is what was measured, at its speed and load",), numbers=numbers, doubts=measured.doubts,
+        silent=("the gas is what was measured, at its speed and load",), numbers=measured, doubts=measured.doubts,
     )  # fmt: skip
 
 
@@ -230,7 +230,7 @@ def _hinge(case: Case) -> ReportPart:
         verdict=f"{answer} An ideal hinge saves a flywheel of {saved}." if verdict.feasible else answer,
         grids=(grid("Limits of the guide", rows, ["check", "value and limit", "kept", "margin"]),
                grid("Runs in time", runs, ["run", "ripple", "end"])),
-        limits=tuple(limits), decide=tuple(decide), numbers=tell(numbers), doubts=of_gas(case, design.machine.gas),
+        limits=tuple(limits), decide=tuple(decide), numbers=numbers, doubts=of_gas(case, design.machine.gas),
         silent=_HINGE, turning=lambda: scenes(design),
     )  # fmt: skip
 
@@ -295,7 +295,7 @@ def _simulate(case: Case) -> ReportPart:
     if result.alone:
         each = ", that ".join(f"of {q} is {span(of_one)}" for q, of_one in run_numbers.speeds.items())
         speed = f"over the last {quantity_text(run_numbers.window, 's')} the speed {each}"
-    numbers = {k: v for k, v in tell(run_numbers).items() if k != "wall_s"}  # another each time
+    numbers = some(run_numbers, tell(run_numbers).keys() - {"wall_s"})  # another each time
     end = f"{_ENDS.get(run_numbers.end, 'ended by ' + run_numbers.end)} in {figure(run_numbers.t_end, 3)} s"
     stall = tuple(text for text in result.findings if text.startswith("the shaft stops"))
     return ReportPart(
@@ -325,7 +325,7 @@ PARTS: dict[str, PartKind] = {
 
 def doubts_of(one: ReportPart) -> tuple[Doubt, ...]:
     """Doubts of a part: its own, and those that its numbers show."""
-    return (*one.doubts, *results(one.numbers or {}))
+    return (*one.doubts, *results(tell(one.numbers) or {}))
 
 
 @record

@@ -14,9 +14,10 @@ import numpy as np
 from mechsym import files
 from mechsym.quantities import record, results
 from mechsym.quantities.results import Columns, part, quantity
-from mechsym.quantities.units import Pure, Radian, Second
+from mechsym.quantities.units import Array, Pure, Radian, Second
 from mechsym.simulate import speed
-from mechsym.simulate.speed import Speed, before_last_period, speeds
+from mechsym.simulate.between import between
+from mechsym.simulate.speed import Speed, before_last_period, extremes, speeds
 
 if TYPE_CHECKING:
     import xarray
@@ -129,6 +130,7 @@ def dataset(result: Result) -> "xarray.Dataset":
 
 
 _A_STEP = 16  # looks at each step of the integrator, whose formulas of high order swing within one
+_ENOUGH, _ASKED, _TOLD = 50, 2000, 0.02  # samples that may tell each other, those asked, and how well, of the swing
 _FINER = 129  # looks between two samples, one of which is before the last period
 _NEAR_WHOLE = 1e-6  # of a period, that a run which was to end with it may lack
 _LEAST, _MOST = 720, 10_000  # looks at a stretch
@@ -239,6 +241,41 @@ def speeds_over(result: Result, coordinates: tuple[str, ...], since: Second) -> 
         share = (result.t[-1] - since) / (result.t[-1] - result.t[0])
         times = np.linspace(since, result.t[-1], int(np.clip(_A_STEP * result.steps * share, _LEAST, _MOST)))
     return dict(zip(coordinates, speeds(motion, times), strict=True))
+
+
+def extremes_of(
+    result: Result, values: Callable[[Mapping[str, Array]], np.ndarray], since: Second = -math.inf
+) -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest (k,) of values from a time to the end, between the samples too.
+
+    values: coordinates and velocities by name, each (n,) -> values (k, n). Where the samples tell each other, what is
+    between them follows from them to 3e-4 of the swing or better; else the run is looked into.
+    """
+    after = result.t >= since
+    t = np.unique(result.t[after])  # a blow has two samples
+    columns = {name: column[after] for name, column in result.columns.items()}
+    rows = values(columns)
+    at, inner = (t, rows), between(t, columns)
+    if len(t) < rows.shape[1] or not _told(t, columns, values):
+        if result.dense is None:
+            return rows.min(axis=1), rows.max(axis=1)
+        inner, share = result.dense, (t[-1] - t[0]) / (result.t[-1] - result.t[0])
+        times = np.linspace(t[0], t[-1], int(np.clip(_A_STEP * result.steps * share, _LEAST, 10 * _MOST)))
+        at = times, values(inner(times))
+    least, greatest = extremes(lambda times: values(inner(times)), *at)
+    return np.minimum(least, rows.min(axis=1)), np.maximum(greatest, rows.max(axis=1))
+
+
+def _told(
+    t: np.ndarray, columns: Mapping[str, np.ndarray], values: Callable[[Mapping[str, np.ndarray]], np.ndarray]
+) -> bool:
+    """Whether every second sample tells those between: at half the distance a sixty-fourth of the error is left."""
+    if len(t) < _ENOUGH:
+        return False
+    half = between(t[::2], {name: column[::2] for name, column in columns.items()})
+    asked = np.arange(1, len(t) - 1, 2 * (len(t) // _ASKED + 1))
+    missed = np.abs(values(half(t[asked])) - values({n: column[asked] for n, column in columns.items()}))
+    return bool((missed.max(axis=1) <= _TOLD * np.ptp(values(columns), axis=1)).all())
 
 
 def last_period(result: Result, coordinate: str, period: Radian = 2 * np.pi) -> Second:

@@ -16,8 +16,9 @@ Dense = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 _SURE = 1e-10  # of the largest speed: what a finer look may still add to an extreme
 _LOOKS = 8  # at most; a smooth extreme needs two, one at a kink of the torque six
-_FINER = 64  # parts of a bracket in the next look
-_MOST = 4  # peaks of nearly one height that are followed
+_DOUBTED = 2  # a parabola through samples that are far apart adds too little
+_FINER = 4, 64  # parts of a bracket in the next look: of many, and of four or fewer
+_MOST = 1000  # peaks of nearly one height that are followed
 
 
 @record
@@ -44,13 +45,25 @@ def speeds(dense: Dense, t: Second[Array]) -> list[Speed]:
     q, u = dense(t)
     end = q.shape[1] - 1
     mean = (q[:, end] - q[:, 0]) / (t[end] - t[0])
-    low, high = np.split(_greatest(lambda times: _signed(dense(times)[1]), t, _signed(u)), 2)
-    return [Speed(mean=float(m), min=float(-a), max=float(b)) for m, a, b in zip(mean, low, high, strict=True)]
+    least, greatest = extremes(lambda times: dense(times)[1], t, u)
+    return [Speed(mean=float(m), min=float(a), max=float(b)) for m, a, b in zip(mean, least, greatest, strict=True)]
 
 
-def _signed(u: np.ndarray) -> np.ndarray:
-    """Values of which the greatest are wanted: least speeds first, then greatest."""
-    return np.vstack([-u, u])
+def extremes(
+    values: Callable[[np.ndarray], np.ndarray], t: Second[Array], rows: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Least and greatest of values over a stretch, between the times that were looked at too.
+
+    values: ascending times (n,) -> values (k, n), up to where the motion ends. t: times as close as the motion is
+    smooth. rows: the values there. Returns least, greatest: shape (k,).
+    """
+    ends = _greatest(lambda times: _both(values(times)), t, _both(rows))
+    return -ends[: len(rows)], ends[len(rows) :]
+
+
+def _both(rows: np.ndarray) -> np.ndarray:
+    """Values whose greatest are the least with the other sign, then the greatest."""
+    return np.vstack([-rows, rows])
 
 
 def _greatest(values: Callable[[np.ndarray], np.ndarray], t: np.ndarray, rows: np.ndarray) -> np.ndarray:
@@ -67,15 +80,17 @@ def _greatest(values: Callable[[np.ndarray], np.ndarray], t: np.ndarray, rows: n
             peak = (bend < 0) & even
             # what a parabola through the sample and its neighbours adds to it
             at, gain = at[peak], slope[peak] ** 2 / (-4 * bend[peak])
-            more = (gain > 0) & (row[at] + gain >= greatest[k])
+            more = (gain > 0) & (row[at] + _DOUBTED * gain >= greatest[k])
             may, gain = at[more], gain[more]
             if gain.max(initial=0.0) <= _SURE * np.abs(row).max():
                 greatest[k] = max(greatest[k], (row[may] + gain).max(initial=-np.inf))
                 continue
-            brackets += [(t[i - 1], t[i + 1]) for i in may[np.argsort(-row[may])][:_MOST]]
+            brackets += [(t[i - 1], t[i + 1]) for i in may[np.argsort(-(row[may] + gain))][:_MOST]]
         if not brackets:
             break
-        t = np.unique(np.concatenate([np.linspace(a, b, _FINER + 1) for a, b in brackets]))
+        parts = max(_FINER[0], _FINER[1] // (len(brackets) // 4 + 1))
+        begins, ends = np.transpose(brackets)
+        t = np.unique(np.linspace(begins, ends, parts + 1))
         rows = values(t)
         greatest = np.maximum(greatest, rows.max(axis=1))
     return greatest

@@ -24,7 +24,7 @@ from mechsym.quantities.display import figure, quantity_text
 from mechsym.quantities.records import Record
 from mechsym.quantities.results import Columns, part, quantity, result
 from mechsym.simulate import Result
-from mechsym.simulate.result import RunNumbers
+from mechsym.simulate.result import RunNumbers, extremes_of
 from mechsym.simulate.settings import StepTorque
 from mechsym.torsion import modes as torsion
 from mechsym.torsion.modes import Critical
@@ -101,6 +101,7 @@ def start_up(mechanism: str, parameters: Record, drive: StepTorque, claim: Start
     elastic = shaft_of(mechanism, parameters)
     assert elastic is not None  # whose role is given
     (shaft,), ((crank, _),) = sections(elastic, result, float(result.t[0])), pairs(result, 1)
+    least, greatest = extremes_of(result, lambda columns: columns[f"{crank}d"][None])
     return StartUp(
         c1=getattr(parameters, damping),
         drive=drive,
@@ -117,8 +118,8 @@ def start_up(mechanism: str, parameters: Record, drive: StepTorque, claim: Start
         captures=find_captures(t, speed, criticals, rate),
         twist_peak=shaft.twist_peak,
         torque_peak=shaft.torque_peak,
-        speed_min=float(result.columns[f"{crank}d"].min()),
-        speed_max=float(result.columns[f"{crank}d"].max()),
+        speed_min=float(least[0]),
+        speed_max=float(greatest[0]),
     )
 
 

@@ -31,6 +31,7 @@ from mechsym.quantities.records import Record
 from mechsym.quantities.results import part, quantity, result
 from mechsym.quantities.units import Metre, NewtonMetre, Pascal, Radian, RadPerSecond, Second
 from mechsym.simulate import Result
+from mechsym.simulate.result import extremes_of
 from mechsym.torsion import modes as torsion
 
 
@@ -50,7 +51,7 @@ class ShaftSection:
 def sections(shaft: ElasticShaft, result: Result, since: Second) -> tuple[ShaftSection, ...]:
     """Twist of the shaft's sections in a run, free end to flywheel. since: where the window begins."""
     return tuple(
-        _section(result, pair, k, c, result.t >= since)
+        _section(result, pair, k, c, since)
         for pair, k, c in zip(pairs(result, len(shaft.k)), shaft.k, shaft.c, strict=True)
     )
 
@@ -72,18 +73,25 @@ def section_words(place: int, count: int) -> str:
     return f"throw {place + 1} to {'flywheel' if place == count - 1 else f'throw {place + 2}'}"
 
 
-def _section(result: Result, pair: tuple[str, str], k: float, c: float, window: np.ndarray) -> ShaftSection:
+def _section(result: Result, pair: tuple[str, str], k: float, c: float, since: Second) -> ShaftSection:
     a, b = pair
-    twist = result.columns[a] - result.columns[b]
-    torque = k * twist + c * (result.columns[f"{a}d"] - result.columns[f"{b}d"])
+
+    def borne(columns: Mapping[str, np.ndarray]) -> np.ndarray:
+        twist = columns[a] - columns[b]
+        return np.array([twist, k * twist + c * (columns[f"{a}d"] - columns[f"{b}d"])])
+
+    window = result.t >= since
+    twist, torque = borne(result.columns)
+    swings = np.ptp(extremes_of(result, borne, since), axis=0) / 2
+    peaks = np.abs(extremes_of(result, borne)).max(axis=0)
     return ShaftSection(
         section=f"{a}-{b}",
         twist_mean=_mean(result.t[window], twist[window]),
-        twist_amplitude=float(np.ptp(twist[window])) / 2,
+        twist_amplitude=float(swings[0]),
         torque_mean=_mean(result.t[window], torque[window]),
-        torque_amplitude=float(np.ptp(torque[window])) / 2,
-        twist_peak=float(np.abs(twist).max()),
-        torque_peak=float(np.abs(torque).max()),
+        torque_amplitude=float(swings[1]),
+        twist_peak=float(peaks[0]),
+        torque_peak=float(peaks[1]),
     )
 
 

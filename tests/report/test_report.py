@@ -75,6 +75,20 @@ def test_json_carries_the_numbers_and_the_text_names_the_file(tmp_path):
     assert told["written"] == [str(file)] and "prefers-color-scheme: dark" in file.read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize("command", ["hinge", "forces", "simulate", "cycle"])
+def test_numbers_of_a_part_have_the_units_of_its_command(tmp_path, command):
+    def units_of(*words):
+        answer = CliRunner().invoke(mechsym, [*words, "--json", "--with-units"], catch_exceptions=False)
+        return json.loads(answer.stdout)["units"]
+
+    page = str(tmp_path / "page.html")
+    told = units_of("report", "zotov-89", "--parts", command, "--out", page)
+    part = f"reports[0].parts.{command}.result."
+    own = {path: unit for path, unit in units_of(command, "zotov-89").items() if path != "wall_s"}
+    assert {path.removeprefix(part): unit for path, unit in told.items() if path.startswith(part)}.items() <= own.items()
+    assert len(told) > 10
+
+
 def test_units_are_obeyed_in_text_tables_and_axes(tmp_path):
     file = tmp_path / "r.html"
     run("nunes-slider-crank", "--parts", "cycle", "--out", str(file), "--units", "psi, hp")

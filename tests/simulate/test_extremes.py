@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,12 +10,15 @@ import scipy
 from click.testing import CliRunner
 from simulated import shaft
 
+from mechsym import cases
 from mechsym.cli import mechsym
+from mechsym.jobs.run import run
 from mechsym.machine.loads import ConstantLoad
 from mechsym.simulate import Part, Problem, Settings, simulate
 from mechsym.simulate.angle import ReducedMachine, tabulate
+from mechsym.simulate.between import between
 from mechsym.simulate.problem import FormulaForce, Kinks, Periodic
-from mechsym.simulate.result import last_period, speed_ripple, speeds_over, summary
+from mechsym.simulate.result import extremes_of, last_period, speed_ripple, speeds_over, summary
 from mechsym.simulate.steady import steady_state
 
 ATKINSON = Path(__file__).parents[2] / "examples" / "mechanisms" / "atkinson.toml"
@@ -100,3 +104,68 @@ def test_the_command_says_the_same_however_rarely_results_are_asked_for():
         told.append(json.loads(CliRunner().invoke(mechsym, asked).output))
     for key in ("speed_mean", "speed_min", "speed_max"):
         assert told[0][key] == pytest.approx(told[1][key], rel=1e-8)
+
+
+def swung(h, end=6.0, lead=0.01, amplitude=0.02, w=50.0):
+    """Samples of a swing, each h apart by its phase."""
+    t = np.arange(0, end, h / w)
+    return t, {"q": lead + amplitude * np.sin(w * t), "qd": amplitude * w * np.cos(w * t)}
+
+
+@pytest.mark.parametrize("h", [0.1, 0.5, 1.0])
+def test_between_three_samples_lies_what_they_tell(h):
+    t, columns = swung(h)
+    times = np.linspace(t[0], t[-1], 7001)
+    there = between(t, columns)(times)
+    assert np.abs(there["q"] - 0.01 - 0.02 * np.sin(50.0 * times)).max() <= 0.02 * (2.1e-4 * h**6 + 1e-14)
+    assert np.abs(there["qd"] - np.cos(50.0 * times)).max() <= 2e-3 * h**5 + 1e-12
+
+
+def test_a_polynomial_of_degree_five_is_met_exactly():
+    t = np.array([0.0, 0.3, 0.5, 1.1, 1.2])
+    q = np.polynomial.Polynomial([1.0, -2.0, 0.5, 3.0, -1.0, 0.7])
+    times = np.linspace(0, 1.2, 50)
+    there = between(t, {"q": q(t), "qd": q.deriv()(t)})(times)
+    assert there["q"] == pytest.approx(q(times), abs=1e-12)
+    assert there["qd"] == pytest.approx(q.deriv()(times), abs=1e-11)
+
+
+def run_with(t, columns, dense=None):
+    return SimpleNamespace(t=t, columns=columns, dense=dense, steps=100)
+
+
+def both(columns):
+    return np.array([columns["q"], 3.0 * columns["q"] + 0.1 * columns["qd"]])
+
+
+def test_extremes_lie_between_samples_that_tell_each_other():
+    least, greatest = extremes_of(run_with(*swung(0.9)), both)
+    lead, swing = np.array([0.01, 0.03]), np.array([0.02, np.hypot(0.06, 0.1)])
+    assert least == pytest.approx(lead - swing, rel=3e-4) and greatest == pytest.approx(lead + swing, rel=3e-4)
+
+
+def test_samples_that_tell_nothing_of_each_other_are_looked_between():
+    t, columns = swung(2.2)
+    assert extremes_of(run_with(t, columns), both)[1][0] == columns["q"].max()  # nobody knows more
+    dense = lambda times: {"q": 0.01 + 0.02 * np.sin(50.0 * times), "qd": np.cos(50.0 * times)}  # noqa: E731
+    least, greatest = extremes_of(run_with(t, columns, dense), both)
+    assert (least[0], greatest[0]) == pytest.approx((-0.01, 0.03), abs=1e-12)
+    late = extremes_of(run_with(t, columns, dense), both, since=5.9)[0][0]  # of less than a swing
+    assert late == pytest.approx(dense(np.linspace(t[t >= 5.9][0], t[-1], 10_001))["q"].min(), abs=1e-12)
+
+
+def test_nothing_is_told_across_a_blow():
+    # a ball that springs back: between the samples before and after there is no smooth curve
+    t = np.concatenate([np.linspace(0, 1, 40), np.linspace(1, 2, 40)])
+    columns = {"q": np.abs(1.0 - t), "qd": np.where(np.arange(80) < 40, -1.0, 1.0)}
+    least, greatest = extremes_of(run_with(t, columns), lambda at: np.array([at["q"]]))
+    assert (least[0], greatest[0]) == (0.0, 1.0)
+
+
+@pytest.mark.parametrize("step", ["10 ms", "37 ms"])
+def test_outputs_of_a_run_are_those_of_the_motion(step):
+    # the rocker of a Whitworth drive swings by asin(r/h) either way
+    case = cases.load(str(ATKINSON.with_name("whitworth.toml")), {"simulation.output_step": step})
+    r, h = case.need("parameters").r, case.need("parameters").h
+    angle = run(case, check="none").outputs["rocker_angle"]
+    assert (angle["min"], angle["max"]) == pytest.approx((-np.arcsin(r / h), np.arcsin(r / h)), rel=1e-8)

@@ -186,7 +186,9 @@ def run_of(chmielewski, amplitude=0.02, lead=0.01, w=50.0, end=6.0):
     twist, rate = lead + amplitude * np.sin(w * t), amplitude * w * np.cos(w * t)
     columns = {"phi0": way + twist, "phi2": way, "phi0d": 10 + 6 * t + rate, "phi2d": 10 + 6 * t}
     energy = SimpleNamespace(residual=1e-9)
-    return SimpleNamespace(t=t, columns=columns, energy=energy, tolerance_difference=2e-9, status="converged")
+    return SimpleNamespace(
+        t=t, columns=columns, energy=energy, tolerance_difference=2e-9, status="converged", dense=None
+    )
 
 
 def test_twist_and_torque_of_a_section_in_a_run(chmielewski):
