@@ -1,7 +1,6 @@
 """`mechsym codesign`: guide, pressures and a small flywheel for a range of speeds and loads."""
 
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,11 +12,10 @@ from mechsym.quantities import RPM
 from mechsym.quantities.display import figure, quantity_text
 
 if TYPE_CHECKING:
-    from mechsym.codesign.front import Rival
     from mechsym.codesign.realise import RealisedNumbers
     from mechsym.codesign.result import CoDesignLosses, CoDesignNumbers
     from mechsym.codesign.settings import CoDesignSettings
-    from mechsym.jobs.codesign import Beside
+    from mechsym.jobs.codesign import CoDesignAnswer
 
 _MOST = 100  # values of one option
 _UNITS = {"speed": "rad/s", "mep": "Pa", "p0": "Pa", "p0 1": "Pa", "p0 2": "Pa", "p0 3": "Pa"}
@@ -59,7 +57,7 @@ def codesign(case: Case, out: Path | None, **options: Any) -> None:
     from mechsym.codesign.realise import check_goal
     from mechsym.codesign.result import numbers_of
     from mechsym.files import make_folder
-    from mechsym.jobs.codesign import STEPS, beside, compared, for_report, settings_of
+    from mechsym.jobs.codesign import STEPS, CoDesignAnswer, beside, compared, for_report, settings_of
     from mechsym.jobs.codesign import codesign as design
     from mechsym.quantities.results import tell
 
@@ -74,15 +72,13 @@ def codesign(case: Case, out: Path | None, **options: Any) -> None:
             result = compared(result, lambda: bar.update(1))
         numbers, files = numbers_of(result), []
         more = beside(result, cylinders, goal, lambda: bar.update(1))
-        report = tell(numbers) | ({"peers": tell(result.peers)} if result.peers else {})
-        report |= {"doubts": hidden(result.design, result.given)}
-        report |= {name: rows for name, rows in tell(more).items() if rows is not None}
+        answer, doubts = CoDesignAnswer(numbers=numbers, beside=more), {"doubts": hidden(result.design, result.given)}
         if out is not None:
             from mechsym.codesign.shown import write
 
-            files = write(for_report(case, settings, result), numbers, report, out)
+            files = write(for_report(case, settings, result), numbers, tell(answer) | doubts, out)
             bar.update(1)
-    emit(report, lambda: _text(numbers, result.peers, more), files=files, findings=result.view.findings())
+    emit(answer, lambda: _text(answer), beside=doubts, files=files, findings=result.view.findings())
     if not numbers.feasible:
         sys.exit(1)
 
@@ -122,10 +118,11 @@ def _percent(share: float | None) -> str | None:
     return None if share is None else f"{100 * share:.4g}"
 
 
-def _text(numbers: "CoDesignNumbers", peers: "Sequence[Rival]", more: "Beside") -> str:
+def _text(answer: "CoDesignAnswer") -> str:
     from mechsym.codesign.result import prices
     from mechsym.quantities.results import tell
 
+    numbers, more = answer.numbers, answer.beside
     checked, lost = numbers.verified, numbers.losses
     names = ["p0"] if len(numbers.p0) == 1 else [f"p0 {s + 1}" for s in range(len(numbers.p0))]
     rows = [
@@ -161,10 +158,10 @@ def _text(numbers: "CoDesignNumbers", peers: "Sequence[Rival]", more: "Beside") 
         # of these the ripple with losses is not known
         front = [tell(row) | {"status": "found" if row.status == "optimal" else row.status} for row in numbers.pareto]
         lines += ["", table(front, ["ripple", "flywheel_inertia", "status"], heads(type(numbers.pareto[0])))]
-    if peers:
-        rows, columns = [tell(p) for p in peers], ["name", "ripple", "flywheel_inertia", "about"]
-        lines += ["", "other machines at the same points", table(rows, columns, heads(type(peers[0])))]
-    if more.cylinders is not None:
+    if more.peers:
+        rows, columns = [tell(p) for p in more.peers], ["name", "ripple", "flywheel_inertia", "about"]
+        lines += ["", "other machines at the same points", table(rows, columns, heads(type(more.peers[0])))]
+    if more.cylinders:
         counts = [tell(count) for count in more.cylinders]
         title = "flywheel of several cylinders that fire evenly, bare and with one spring (an estimate)"
         lines += ["", title, table(counts, list(counts[0]), heads(type(more.cylinders[0])))]

@@ -50,7 +50,6 @@ def prove(
     from mechsym import cases, mechanisms
     from mechsym.jobs.prove import GUIDES, subjects_of, usual_case
     from mechsym.proof.outputs import rounding
-    from mechsym.quantities.results import tell
 
     if name != GUIDES and name not in mechanisms.names() and name in cases.names() or name.endswith(".toml"):
         refuse_idle(f"for the motion of the case {name}", "case_name", "given", "samples", "mode")
@@ -73,7 +72,7 @@ def prove(
     subjects, words = subjects_of(name, case, ranges)
     with progress(samples * len(subjects), f"samples of {name}") as bar:
         proven = rounding(name, subjects, samples, words, bar.update)
-    emit(tell(proven), lambda: _text(proven))
+    emit(proven, lambda: _text(proven))
     if not proven.holds:
         sys.exit(1)
 
@@ -83,7 +82,6 @@ def _motion(name: str, t_end: str | None, window: str | None, out: Path | None, 
     from mechsym.jobs.prove import motion_of
     from mechsym.quantities import parse
     from mechsym.quantities.ranges import read_range
-    from mechsym.quantities.results import tell
 
     case = only_of(case_of(name, overrides), "prove")
     until = None if t_end is None else parse(t_end, "s", "--t-end")
@@ -95,7 +93,7 @@ def _motion(name: str, t_end: str | None, window: str | None, out: Path | None, 
         raise BadInput(f"--window {window}: two ascending times up to {last:g} s, with two dots between: 55..93 s")
     with progress(math.ceil(last), f"seconds of {case.name}") as bar:
         proven = motion_of(case, until, out, None if ends is None else (ends[0], ends[1]), bar.update)
-    emit(tell(proven), lambda: _motion_text(proven))
+    emit(proven, lambda: _motion_text(proven))
 
 
 def _motion_text(proven: "ProvenMotion") -> str:

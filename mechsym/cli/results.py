@@ -35,7 +35,7 @@ RESULTS = {
     "sweep": ("mechsym.sweep.data:SweepNumbers",),
     "simulate": ("mechsym.torsion.startup:FinishedRun", "mechsym.simulate.rest:RestPoses"),
     "hinge": ("mechsym.hinge.summary:HingeNumbers",),
-    "codesign": ("mechsym.codesign.result:CoDesignNumbers", "mechsym.jobs.codesign:Beside"),
+    "codesign": ("mechsym.jobs.codesign:CoDesignAnswer",),
     "flywheel": ("mechsym.jobs.flywheel:FlywheelDesign",),
     "forces": ("mechsym.jobs.forces:ForceReport", "mechsym.forces.driven:DrivenNumbers"),
     "fmu": ("mechsym.out.fmi.build:UnitFile",),

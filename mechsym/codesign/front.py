@@ -21,7 +21,7 @@ import numpy as np
 import scipy
 
 from mechsym.codesign.certificate import rollers_inertia
-from mechsym.codesign.points import Function, Point, bare_flywheel, motion, sample, speed
+from mechsym.codesign.points import Function, Point, bare_flywheel, motion, sample, speed, swing
 from mechsym.codesign.programme import ReadyProgramme, programme, solve
 from mechsym.codesign.running import added_inertia
 from mechsym.codesign.task import CoDesign, CoDesignTask
@@ -183,10 +183,10 @@ def cut_for_one(task: CoDesignTask, at: int) -> CutForOne:
     def excess(flywheel: float) -> float:
         return max(best(k, flywheel)[1] for k in range(len(points))) - task.ripple
 
-    high = 1e3
-    while excess(high) > 0 and high < 1e7:
+    high = size = swing(points)
+    while excess(high) > 0 and high < _MOST * size:
         high *= 3
-    flywheel = 0.0 if excess(0.0) <= 0 else root(excess, 0.0, high, xtol=1e-3) if high < 1e7 else None
+    flywheel = 0.0 if excess(0.0) <= 0 else root(excess, 0.0, high, xtol=1e-6 * size) if high < _MOST * size else None
     rows = [best(k, flywheel or high) for k in range(len(points))]
     return CutForOne(at=at, flywheel=flywheel, p0=np.array([r[0] for r in rows]), ripple=np.array([r[1] for r in rows]))
 
@@ -198,7 +198,7 @@ def _ripple(point: Point, missing: np.ndarray, inertia: np.ndarray) -> float:
 
 
 _RATIO = 3.0  # largest by smallest ratio of noncircular gears (assumed)
-_MOST = 1e8
+_MOST = 1e5  # flywheels that are tried, by the swing of the works
 
 
 @result
@@ -259,7 +259,7 @@ def cam_flywheel(points: Sequence[Point], phi: np.ndarray, stored: np.ndarray, w
     def worst(flywheel: float) -> float:
         return max(of(p, flywheel) for p in points)
 
-    return _least(worst, wanted)
+    return _least(worst, wanted, swing(points))
 
 
 def gear_flywheel(points: Sequence[Point], phi: np.ndarray, shape: Inertia[Array], wanted: float) -> float | None:
@@ -282,7 +282,7 @@ def gear_flywheel(points: Sequence[Point], phi: np.ndarray, shape: Inertia[Array
     def worst(more: float) -> float:
         return max(of(p, more) for p in points)
 
-    more = _least(worst, wanted)
+    more = _least(worst, wanted, swing(points))
     # the flywheel turns as often as the shaft: the mean of its ratio is one
     return None if more is None else float(np.mean(np.sqrt(reduced(more)))) ** 2
 
@@ -332,13 +332,13 @@ def _ripple_of(point: Point, missing: Function, inertia: Function) -> float:
     return 10.0 if value is None else value
 
 
-def _least(worst: Callable[[float], float], wanted: float) -> float | None:
-    """The smallest inertia [kg*m^2] with which `worst` is at most what is wanted [-]."""
+def _least(worst: Callable[[float], float], wanted: float, size: float) -> float | None:
+    """The smallest inertia with which `worst` is at most what is wanted [-]; it and its size in [kg*m^2]."""
     if worst(0.0) <= wanted:
         return 0.0
-    high = 100.0
+    high = size
     while worst(high) > wanted:
         high *= 3
-        if high > _MOST:
+        if high > _MOST * size:
             return None
     return root(lambda x: worst(x) - wanted, 0.0, high, xtol=1e-6 * high)

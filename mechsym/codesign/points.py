@@ -112,6 +112,14 @@ def bare_ripple(point: Point, flywheel: float) -> float | None:
     return ripple(motion(point, point.work, lambda phi: point.inertia(phi) + flywheel)[1])
 
 
+def swing(points: Sequence[Point]) -> Inertia:
+    r"""Largest swing of the wanted works: the size of the flywheels of a machine, and the unit that they are sought in.
+
+    .. math:: \max_k \mathrm{ptp}\,W_k / \omega_k^2
+    """
+    return max(float(np.ptp(p.work(np.linspace(0, p.period, 361)))) / p.omega**2 for p in points)
+
+
 def bare_flywheel(points: Sequence[Point], wanted: Pure) -> Inertia:
     r"""Flywheel that keeps the ripple at all points without a hinge.
 
@@ -126,8 +134,7 @@ def bare_flywheel(points: Sequence[Point], wanted: Pure) -> Inertia:
 
     if excess(0.0) <= 0:
         return 0.0
-    swing = max(float(np.ptp(p.work(np.linspace(0, p.period, 361)))) / p.omega**2 for p in points)
-    high = 2 * swing / wanted
+    high = 2 * swing(points) / wanted
     while excess(high) > 0:
         high *= 2
     return root(excess, 0.0, high, xtol=1e-6 * high, rtol=1e-10)

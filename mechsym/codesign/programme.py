@@ -29,7 +29,7 @@ import casadi as ca
 import numpy as np
 
 from mechsym.codesign import unknowns
-from mechsym.codesign.points import Point, Samples, sample
+from mechsym.codesign.points import Point, Samples, sample, swing
 from mechsym.codesign.settings import FREE
 from mechsym.codesign.task import Active, CoDesign, CoDesignTask, Track, limit_rows
 from mechsym.codesign.unknowns import Basis, Gathered, GuideSymbols, basis, curve, guides
@@ -44,12 +44,11 @@ _OPTIONS: dict[str, Any] = {
     "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-7, "acceptable_tol": 1e-5, "max_iter": 400},
     "print_time": False,
 }
-_FLYWHEEL = 1000.0  # unit of the flywheel in the programme [kg*m^2]
-_SMOOTH = 1e-6  # weight of the mean of z''^2 and of free hardware: it decides where nothing else does
-_NONE = 1e-4  # flywheel that the solver cannot tell from none: its tolerance by the unit [kg*m^2]
-_START = 3.0  # flywheel at the start, in units of `_FLYWHEEL`
+_SMOOTH = 1e-6  # weight of the mean of (z''/H)^2 and of free hardware: it decides where nothing else does
+_NONE = 1e-7  # flywheel that the solver cannot tell from none, by the swing of the works: its tolerance
+_START = 3.0  # flywheel at the start, by the same
 _ROUNDS, _LITTLE = 4, 2e-3  # of solving again where a limit is passed; share beyond that each is moved by [-]
-_ACTIVE = 1e-3  # a limit is met if moving it by itself would move the flywheel by this share
+_ACTIVE = 1e-3  # a limit is met if moving it by itself would move the flywheel by this share, or by 1e-6 of the swing
 _HARDWARE = (*FREE, "moving_mass")
 
 
@@ -61,6 +60,7 @@ class ReadyProgramme:
     basis: Basis
     solver: ca.Function
     read: ca.Function  #: unknowns to coefficients, pressures, hardware, flywheel and ripples in SI
+    unit: float = quantity("kg*m^2", about="inertia that the objective counts in: the swing of the works")
     start: np.ndarray  #: [-]
     bounds: dict[str, np.ndarray]  #: lbx, ubx, lbg, ubg [-]
     wall: float = quantity("s", about="time of building")
@@ -81,10 +81,10 @@ def _programme(task: CoDesignTask) -> ReadyProgramme:
     splines = basis(task.points[0].period, kinks, round(task.knots * turns))
     parameters, gathered = ca.SX.sym("parameters", len(_values(task))), Gathered()
     symbols = guides(task, samples, splines, gathered)
-    flywheel = gathered.unknown("J", np.array([_START]), 0.0)
+    flywheel, unit = gathered.unknown("J", np.array([_START]), 0.0), swing(task.points)
     rollers = sum(g.inertia for g in symbols)
-    ripples = _motions(task, samples, symbols, _FLYWHEEL * flywheel, parameters[0], gathered)
-    goal = flywheel + (ca.dot(ca.DM(samples.weights), rollers) / _FLYWHEEL if task.free else 0.0)
+    ripples = _motions(task, samples, symbols, unit * flywheel, parameters[0], gathered)
+    goal = flywheel + (ca.dot(ca.DM(samples.weights), rollers) / unit if task.free else 0.0)
     # limits where spring and rollers are asked most: at the largest pressure of the schedule and the highest speed
     hardware, fastest = task.hardware, max(p.omega for p in task.points)
     *settings, reach = ca.vertsplit(parameters[1:])
@@ -95,14 +95,14 @@ def _programme(task: CoDesignTask) -> ReadyProgramme:
         # rollers of the case's own guide reach rho0 + r and no farther
         rows = limit_rows(at, limits, hardware.z_margin, reach if task.free else None)
         gathered.group([*rows, ((guide.p0 - guide.largest) / guide.scale, -np.inf, 0.0)])
-    smooth = sum(ca.sumsqr(g.path.d2rho) for g in symbols) / samples.phi.size
+    smooth = sum(ca.sumsqr(g.path.d2rho / task.hardware.spring.H) for g in symbols) / samples.phi.size
     chosen = sum(ca.sumsqr(share - 1) for g in symbols for share in g.shares)
     x, box = ca.vertcat(*gathered.unknowns), np.vstack(gathered.box)
     values = [ca.vertcat(*g.values.values()) for g in symbols]
     read = [ca.horzcat(*(g.coefficients for g in symbols)), ca.horzcat(*(g.p0 for g in symbols)), ca.horzcat(*values),
-            _FLYWHEEL * flywheel, ripples]  # fmt: skip
+            unit * flywheel, ripples]  # fmt: skip
     return ReadyProgramme(
-        task=task, basis=splines,
+        task=task, basis=splines, unit=unit,
         solver=_solver(x, parameters, goal + _SMOOTH * (smooth + chosen), gathered.rows, _options(task)),
         read=ca.Function("read", [x], read), start=np.concatenate(gathered.start),
         bounds={"lbx": box[:, 0], "ubx": box[:, 1], "lbg": np.concatenate(gathered.low),
@@ -227,8 +227,9 @@ def _result(task: CoDesignTask, ready: ReadyProgramme, solved: Solved, wall: flo
         chosen[task.hardware.spring.setting[0]] = float(p0[:, s].max())
         hardware = task.hardware.changed(chosen)
         tracks.append(Track(hardware=hardware, z=curve(ready.basis, coefficients[:, s]), p0=p0[:, s]))
-    inertia = float(flywheel[0, 0]) if float(flywheel[0, 0]) > _NONE else 0.0
+    inertia = float(flywheel[0, 0]) if float(flywheel[0, 0]) > _NONE * ready.unit else 0.0
     priced = solved.status == "optimal" and inertia
+    costs = -ready.unit * np.array(best["lam_p"]).ravel()
     return CoDesign(
         task=task,
         status=solved.status,
@@ -237,7 +238,7 @@ def _result(task: CoDesignTask, ready: ReadyProgramme, solved: Solved, wall: flo
         tracks=tuple(tracks),
         ripple=ripples.reshape(len(task.points), -1).max(axis=1),
         # what is no solution has no prices, and of no flywheel nothing can be saved
-        active=_active(task, np.array(best["lam_p"]).ravel(), inertia) if priced else (),
+        active=_active(task, costs, inertia + 1e-3 * ready.unit) if priced else (),
         iterations=solved.iterations,
         wall=wall,
         solution={key: np.array(best[from_]).ravel() for key, from_ in
@@ -245,14 +246,13 @@ def _result(task: CoDesignTask, ready: ReadyProgramme, solved: Solved, wall: flo
     )  # fmt: skip
 
 
-def _active(task: CoDesignTask, sensitivity: np.ndarray, flywheel: float) -> tuple[Active, ...]:
+def _active(task: CoDesignTask, costs: np.ndarray, size: float) -> tuple[Active, ...]:
     units = {"ripple": "-", **{key: limit.unit for key, limit, _ in asked_of(task.bounds)}, "track_radius": "m"}
-    rows = zip(units.items(), _values(task), -_FLYWHEEL * sensitivity, strict=True)
-    least = _ACTIVE * (flywheel + 1.0)
+    rows = zip(units.items(), _values(task), costs, strict=True)
     return tuple(
         Active(limit=name, multiplier=float(cost), unit=unit)
         for (name, unit), value, cost in rows
-        if abs(cost * value) > least
+        if abs(cost * value) > _ACTIVE * size
     )
 
 

@@ -19,7 +19,7 @@ import casadi as ca
 import numpy as np
 import scipy
 
-from mechsym.codesign.points import Point, Samples
+from mechsym.codesign.points import Point, Samples, swing
 from mechsym.codesign.settings import FREE
 from mechsym.codesign.task import MOST_MASS, CoDesignTask, Hardware, Path, path_of, roller_inertia
 from mechsym.hinge.choices import ROOM
@@ -93,7 +93,6 @@ def _extended(basis: Basis) -> np.ndarray:
     return np.concatenate([before, basis.knots, after])
 
 
-MASS = 100.0  # unit of a free mass [kg]
 _LEAST, _MOST = 1e-3, 1e3  # pressures by those of the start
 
 
@@ -151,7 +150,8 @@ def guides(task: CoDesignTask, samples: Samples, splines: Basis, gathered: Gathe
     count = 1 if task.schedule == "one" else len(task.points)
     for s, shape in enumerate(shapes(task, samples)):
         values, shares = _hardware(task, s, gathered)
-        c = gathered.unknown(f"z{s}", fitted(splines, shape, samples.phi))
+        size = given.spring.H
+        c = size * gathered.unknown(f"z{s}", fitted(splines, shape / size, samples.phi))
         scale = float(pressures[s].max())
         p0 = gathered.unknown(f"p{s}", np.ones(count), _LEAST, _MOST) * pressures[s][:count]
         largest = scale * gathered.unknown(f"p_max{s}", np.ones(1), _LEAST, _MOST)
@@ -172,13 +172,15 @@ def _hardware(task: CoDesignTask, s: int, gathered: Gathered) -> tuple[dict[str,
     shares = []
     for name in task.free:
         if name == "moving_mass":
-            values[name] = MASS * gathered.unknown(f"{name}{s}", np.ones(1), 0.0, MOST_MASS / MASS)
+            mass = 0.1 * swing(task.points) / task.hardware.spring.H**2  # of the size of the rollers that pay
+            values[name] = mass * gathered.unknown(f"{name}{s}", np.ones(1), 0.0, MOST_MASS / mass)
         else:
             shares.append(gathered.unknown(f"{name}{s}", np.ones(1), *FREE[name]))
             values[name] = given[name] * shares[-1]
     if ROOM.holds(task.hardware.spring, task.hardware.count) and set(task.free) & {"rho0", "H", "radius"}:
         # between the roller centres lie 2 rho = H - z + (2 rho0 - H); the rest beside the gas must hold both rollers
-        gathered.group([(values["rho0"] - values["H"] / 2 - values["radius"], 0.0, np.inf)])
+        beside = values["rho0"] - values["H"] / 2 - values["radius"]
+        gathered.group([(beside / task.hardware.spring.H, 0.0, np.inf)])
     return values, shares
 
 

@@ -10,13 +10,13 @@ from mechsym.cases import Case
 from mechsym.cases.needs import require
 from mechsym.codesign import loss, machines, scenarios
 from mechsym.codesign.certificate import floor, rollers_inertia
-from mechsym.codesign.front import cut_for_one, front, peers, ripple_map, springs_of, worth_it
+from mechsym.codesign.front import Rival, cut_for_one, front, peers, ripple_map, springs_of, worth_it
 from mechsym.codesign.machines import hardware, point
 from mechsym.codesign.points import Point, bare_flywheel
 from mechsym.codesign.programme import programme, solve
 from mechsym.codesign.rank import Count, counts, rank
 from mechsym.codesign.realise import RealisedNumbers, chosen, realise
-from mechsym.codesign.result import CoDesignResult
+from mechsym.codesign.result import CoDesignNumbers, CoDesignResult
 from mechsym.codesign.settings import CoDesignSettings
 from mechsym.codesign.task import CoDesignTask
 from mechsym.codesign.verify import Verified, spread, verify
@@ -104,15 +104,25 @@ def compared(result: CoDesignResult, progress: Callable[[], object] = lambda: No
 
 @result
 class Beside:
-    """What else was asked of a co-design; None where it was not."""
+    """What else was asked of a co-design; left out where it was not."""
 
-    cylinders: tuple[Count, ...] | None = part(default=None)  #: Several cylinders on one shaft
-    realised: RealisedNumbers | None = part(default=None)  #: Other hardware
+    peers: tuple[Rival, ...] = part(default=(), optional=True)  #: Other machines at the same points
+    cylinders: tuple[Count, ...] = part(default=(), optional=True)  #: Several cylinders on one shaft
+    realised: RealisedNumbers | None = part(default=None, optional=True)  #: Other hardware
+
+
+@result
+class CoDesignAnswer:
+    """A co-design in numbers."""
+
+    numbers: CoDesignNumbers = part(inline=True)
+    beside: Beside = part(inline=True)
 
 
 def beside(result: CoDesignResult, cylinders: int, goal: str, progress: Callable[[], object] = lambda: None) -> Beside:
-    """What 1 to `cylinders` of these cylinders need, and the hardware of least `goal`; None of what is not asked."""
-    rows, other, task = None, None, result.design.task
+    """What 1 to `cylinders` of these cylinders need, and the hardware of least `goal`; nothing of what is not asked."""
+    rows: tuple[Count, ...] = ()
+    other, task = None, result.design.task
     if cylinders:
         rows = tuple(counts(task.points, task.ripple, cylinders, rollers_inertia(result.design)))
         progress()
@@ -125,7 +135,7 @@ def beside(result: CoDesignResult, cylinders: int, goal: str, progress: Callable
             guides=tuple(chosen(track.hardware) for track in tracks),
         )  # fmt: skip
         progress()
-    return Beside(cylinders=rows, realised=other)
+    return Beside(peers=result.peers, cylinders=rows, realised=other)
 
 
 def for_report(case: Case, settings: CoDesignSettings, result: CoDesignResult) -> CoDesignResult:

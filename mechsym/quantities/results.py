@@ -180,9 +180,9 @@ def tell(value: object, only: Container[str] | None = None) -> Any:
     """
     if type(value) in _PLAIN:
         return value
-    if names := _names(value):
+    if _units(type(value)):
         data: dict[str, object] = {}
-        for name, unit in names.items():
+        for name, unit in _names(value).items():
             if unit == _INLINE:
                 data |= tell(getattr(value, name), only)
             elif only is None or name in only:

@@ -85,7 +85,9 @@ def test_numbers_of_a_part_have_the_units_of_its_command(tmp_path, command):
     told = units_of("report", "zotov-89", "--parts", command, "--out", page)
     part = f"reports[0].parts.{command}.result."
     own = {path: unit for path, unit in units_of(command, "zotov-89").items() if path != "wall_s"}
-    assert {path.removeprefix(part): unit for path, unit in told.items() if path.startswith(part)}.items() <= own.items()
+    assert {
+        path.removeprefix(part): unit for path, unit in told.items() if path.startswith(part)
+    }.items() <= own.items()
     assert len(told) > 10
 
 
