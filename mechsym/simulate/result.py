@@ -246,10 +246,11 @@ def speeds_over(result: Result, coordinates: tuple[str, ...], since: Second) -> 
 def extremes_of(
     result: Result, values: Callable[[Mapping[str, Array]], np.ndarray], since: Second = -math.inf
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Least and greatest (k,) of values from a time to the end, between the samples too.
+    """Least and greatest of values from a time to the end, between the samples too.
 
-    values: coordinates and velocities by name, each (n,) -> values (k, n). Where the samples tell each other, what is
-    between them follows from them to 3e-4 of the swing or better; else the run is looked into.
+    values: coordinates and velocities by name, each (n,) -> values (k, n). Returns least, greatest: shape (k,) [unit of
+    the values]. Where the samples tell each other, what is between them follows from them to 3e-4 of the swing or
+    better; else the run is looked into.
     """
     after = result.t >= since
     t = np.unique(result.t[after])  # a blow has two samples

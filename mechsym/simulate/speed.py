@@ -55,7 +55,7 @@ def extremes(
     """Least and greatest of values over a stretch, between the times that were looked at too.
 
     values: ascending times (n,) -> values (k, n), up to where the motion ends. t: times as close as the motion is
-    smooth. rows: the values there. Returns least, greatest: shape (k,).
+    smooth. rows: the values there [unit of the values]. Returns least, greatest: shape (k,) [unit of the values].
     """
     ends = _greatest(lambda times: _both(values(times)), t, _both(rows))
     return -ends[: len(rows)], ends[len(rows) :]

@@ -11,7 +11,7 @@ from codesigns import OMEGA, constant_load, design, point, ready, task
 
 from mechsym.codesign import programme, running
 from mechsym.codesign.loss import friction, gas_turn
-from mechsym.codesign.points import even_angles, sample, speed
+from mechsym.codesign.points import even_angles, sample, speed, swing
 from mechsym.codesign.realise import _closing, _track
 from mechsym.codesign.task import Track, fine_path
 from mechsym.codesign.unknowns import (
@@ -93,16 +93,16 @@ def test_derivatives_piece_by_piece_are_those_of_the_whole():
 
 
 def test_what_a_limit_costs_is_told_where_moving_it_by_itself_would_show():
-    flywheel = 1999.0
-    least = 2.0  # a thousandth of the flywheel and one
+    size = 2000.0
+    least = 2.0  # a thousandth of it
     keys = [key for key, *_ in programme.asked_of(task().bounds)]
     values = np.array(programme._values(task()))
     assert values[0] == task().ripple and values[-1] == task().widest and values.size == len(keys) + 2
     for factor, told in ((0.99, ()), (1.01, ("ripple", *keys, "track_radius"))):
-        active = programme._active(task(), -factor * least / values / 1000.0, flywheel)
+        active = programme._active(task(), factor * least / values, size)
         assert tuple(one.limit for one in active) == told
         assert all(one.multiplier > 0 for one in active)
-    (one,) = programme._active(task(), np.array([5.0, *(0.0 for _ in values[1:])]), flywheel)
+    (one,) = programme._active(task(), np.array([-5000.0, *(0.0 for _ in values[1:])]), size)
     assert (one.limit, one.multiplier, one.unit) == ("ripple", -5000.0, "-")
 
 
@@ -139,7 +139,9 @@ def test_a_flywheel_that_nobody_can_tell_from_none_is_none_and_has_no_price():
     best = {"x": ca.DM(design().solution["x0"]), "lam_x": ca.DM(0), "lam_g": ca.DM(0)}
     best["lam_p"] = -ca.DM.ones(len(programme._values(task())))
     read = ready().read(best["x"])
-    for flywheel, told in ((2e-4, 2e-4), (0.9e-4, 0.0)):
+    unit = swing(task().points)
+    assert ready().unit == unit
+    for flywheel, told in ((2e-7 * unit, 2e-7 * unit), (0.9e-7 * unit, 0.0)):
         given = dataclasses.replace(ready(), read=lambda x, J=flywheel: (*read[:3], ca.DM(J), read[4]))
         solved = Made(values=best, status="optimal", reason="", iterations=7)
         made = programme._result(task(), given, solved, 2.5)
@@ -187,10 +189,11 @@ def test_free_hardware_is_a_share_of_the_given_one_and_leaves_room_for_the_gas()
     start = np.concatenate(gathered.start)
     A, H, rho0, radius, mass = (float(v) for v in shown(start))
     h = asked.hardware
-    assert (A, H, rho0, radius) == pytest.approx((h.spring.A, h.spring.H, h.rho0, h.radius)) and mass == 100.0
+    assert (A, H, rho0, radius) == pytest.approx((h.spring.A, h.spring.H, h.rho0, h.radius))
+    assert mass == pytest.approx(0.1 * swing(asked.points) / h.spring.H**2)
     (room,) = gathered.rows[0]
     of = ca.Function("room", [unknowns], [room])
-    assert float(of(start)) == pytest.approx(h.rho0 - h.spring.H / 2 - h.radius)
+    assert float(of(start)) == pytest.approx((h.rho0 - h.spring.H / 2 - h.radius) / h.spring.H)
     assert gathered.low[0] == [0.0] and gathered.high[0] == [np.inf]
     start[0] *= 1.5
     assert float(shown(start)[0]) == pytest.approx(1.5 * h.spring.A)
@@ -198,7 +201,7 @@ def test_free_hardware_is_a_share_of_the_given_one_and_leaves_room_for_the_gas()
     path, inertia = ca.Function("path", [unknowns], [guide.path.rho, guide.inertia])(start)
     z = matrices(basis(asked.points[0].period, (), 20), samples.phi)[0] @ start[3:23]
     assert np.asarray(path).ravel() == pytest.approx(h.rho0 - np.asarray(z).ravel() / h.count)
-    assert float(inertia[0]) > 0.99 * h.count * h.shaft_ratio**2 * 100.0 * float(path[0]) ** 2
+    assert float(inertia[0]) > 0.99 * h.count * h.shaft_ratio**2 * mass * float(path[0]) ** 2
 
 
 @pytest.mark.parametrize("tau", [0.02, 0.3, 5.0])  # work of the gas summed as work, and as heat
@@ -296,7 +299,8 @@ def test_free_hardware_is_paid_with_the_inertia_of_its_rollers_and_stays_where_n
     z = curve(prepared.basis, np.asarray(prepared.read(start)[0].full()).ravel())
     phi = np.arange(7200) * asked.points[0].period / 7200
     rollers = running.inertia_of(asked.hardware, z(phi), z.derivative()(phi)).mean()
-    assert flywheel == pytest.approx(3000.0)
-    assert float(objective(start, values)) == pytest.approx((flywheel + rollers) / 1000, rel=1e-4)
+    unit = swing(asked.points)
+    assert flywheel == pytest.approx(3 * unit)
+    assert float(objective(start, values)) == pytest.approx((flywheel + rollers) / unit, rel=1e-4)
     start[0] *= 3.0  # the share of the piston's area stands first
     assert float(objective(start, values) - objective(prepared.start, values)) == pytest.approx(4e-6, rel=1e-3)
