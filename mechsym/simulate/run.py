@@ -14,6 +14,7 @@ from mechsym.quantities.units import Array, Second
 from mechsym.simulate import constrained
 from mechsym.simulate import events as event_runs
 from mechsym.simulate.audit import energies, energies_beside, energy_audit, speed_difference, verdict
+from mechsym.simulate.between import between
 from mechsym.simulate.equations import System, system
 from mechsym.simulate.integrate import integrate
 from mechsym.simulate.phase import Raw
@@ -252,6 +253,8 @@ def _dense(
             output=tuple(after),
         )
         _, run, _ = _raw(again, settings, equations)
+        if run.failure:  # no work done yet, and more power than its tolerance bears
+            return dict(between(raw.t, dict(zip(names, raw.y.T, strict=False)))(times))
         kept[1:] = [run.last]
         return dict(zip(names, run.y[0 if times[0] == raw.t[i] else 1 :].T, strict=False))
 

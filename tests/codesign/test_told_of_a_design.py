@@ -1,13 +1,16 @@
 """Numbers and words that are made of a design: losses, bound, prices of limits, goals of realised hardware."""
 
 import dataclasses
+import json
 import math
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from codesigns import design
 
+from mechsym.cli import mechsym
 from mechsym.codesign import certificate, result
 from mechsym.codesign.front import worth_it
 from mechsym.codesign.points import Point
@@ -111,3 +114,11 @@ def test_what_a_proof_knows_of_its_points():
     assert facts.sides == pytest.approx(np.array([[4.0, 0.7], [4.0, 70 / 400]]))
     assert facts.lag == pytest.approx([0.5 * 40 * math.pi / 100, 0.0])
     assert facts.share == pytest.approx(np.array([1.0, 2.0, period - 3]) / period)
+
+
+def test_programs_get_the_unit_of_a_price_and_of_what_was_asked_besides():
+    asked = "codesign zotov-89 --speeds 75,142 --realise gas_volume --cylinders 2 --json --with-units".split()
+    units = json.loads(CliRunner().invoke(mechsym, asked, catch_exceptions=False).stdout)["units"]
+    assert (units["active[0].multiplier"], units["active[1].multiplier"]) == ("kg*m^2", "kg*m^2/N")
+    assert (units["realised.before"], units["realised.guides[0].A"]) == ("m^3", "m^2")
+    assert units["cylinders[1].flywheel_inertia_bare"] == "kg*m^2"
