@@ -12,6 +12,7 @@ from mechsym.quantities.display import figure, quantity_text, ratio_text
 from mechsym.quantities.results import Columns
 from mechsym.quantities.units import RadPerSecond
 from mechsym.simulate import Result
+from mechsym.simulate.between import between
 from mechsym.simulate.result import period_means
 from mechsym.simulate.run import POLE
 from mechsym.simulate.speed import Speed
@@ -237,20 +238,24 @@ def start_up(runs: Sequence[StartUp], claim_speed: RadPerSecond | None = None) -
     return figure
 
 
+_FINER = 4  # points of a curve for each sample, so that its peaks are seen
+
+
 def twist(result: Result, shafts: int) -> "Figure":
     """Speed of the ends of an elastic shaft, twist of its sections over time, and the last two turns."""
     name = "Speed of both ends of the shaft and its twist, over time and in the last two turns"
     figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
-    ends_of = pairs(result, shafts)
-    ends = {"free end": result.columns[f"{ends_of[0][0]}d"], "flywheel": result.columns[f"{ends_of[-1][1]}d"]}
-    twists = {section_words(k, len(ends_of)): result.columns[a] - result.columns[b] for k, (a, b) in enumerate(ends_of)}
-    last = result.columns[ends_of[0][0]] >= result.columns[ends_of[0][0]][-1] - 4 * np.pi
+    ends_of, t = pairs(result, shafts), np.linspace(result.t[0], result.t[-1], _FINER * len(result.t))
+    columns = between(result.t, result.columns)(t)
+    ends = {"free end": columns[f"{ends_of[0][0]}d"], "flywheel": columns[f"{ends_of[-1][1]}d"]}
+    twists = {section_words(k, len(ends_of)): columns[a] - columns[b] for k, (a, b) in enumerate(ends_of)}
+    last = columns[ends_of[0][0]] >= columns[ends_of[0][0]][-1] - 4 * np.pi
     for row, (curves, si, label) in enumerate(((ends, "rad/s", "speed"), (twists, "rad", "twist"))):
         whole, zoomed = axes[2 * row : 2 * row + 2]
         factor, unit = axis_unit(si, *curves.values())
         for (curve, values), color in zip(curves.items(), cycle(SERIES[1:]), strict=False):
-            envelope(whole, result.t, values * factor, color, curve)
-            zoomed.plot(result.t[last], values[last] * factor, color=color, lw=0.9)
+            envelope(whole, t, values * factor, color, curve)
+            zoomed.plot(t[last], values[last] * factor, color=color, lw=0.9)
         whole.set(ylabel=f"{label} [{unit}]")
         legend(whole, width=5.0)
     for axis in axes[2:]:
