@@ -25,7 +25,9 @@ class CycleColumns:
 
     speed_rpm: Curve = quantity("rpm", card="speed")  #: Speed of the crank
     torque_avg: Curve = quantity("N*m", card="indicated torque")  #: Mean indicated torque, net
-    torque_max: Curve = quantity("N*m", card="largest torque")  #: Largest torque on the shaft
+    #: Largest torque on the shaft: of gas and reciprocating mass alone where the case is one built-in cylinder, of all that
+    #: moves, as the force chain has it, of several cylinders and of other mechanisms
+    torque_max: Curve = quantity("N*m", card="largest torque")
     power_kw: Curve = quantity("kW", card="indicated power")  #: Indicated power, net
     mep_kpa: Curve = quantity("kPa", card="IMEP net")  #: Indicated mean effective pressure of the whole cycle
     #: Indicated mean effective pressure without the two strokes of gas exchange

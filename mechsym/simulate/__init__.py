@@ -5,6 +5,7 @@ equations    first-order equations with the work of every part
 run, many    smooth phases one after another, then the checks; problems of one form side by side
 backends     integrators by name
 result       columns with units, CSV and netCDF; summary sums a run up
+speed, between               least and greatest of a motion, also between its samples
 engine       a Machine over time (`problem`) or over its angle (`reduced`)
 angle, angle_turn, steady    one turn over the angle, the periodic motion, flywheels
 loop         the engine cycle integrated together with the motion

@@ -131,6 +131,7 @@ def dataset(result: Result) -> "xarray.Dataset":
 
 _A_STEP = 16  # looks at each step of the integrator, whose formulas of high order swing within one
 _ENOUGH, _ASKED, _TOLD = 50, 2000, 0.02  # samples that may tell each other, those asked, and how well, of the swing
+_ROUNDING = 1e-12  # of what is constant
 _FINER = 129  # looks between two samples, one of which is before the last period
 _NEAR_WHOLE = 1e-6  # of a period, that a run which was to end with it may lack
 _LEAST, _MOST = 720, 10_000  # looks at a stretch
@@ -258,7 +259,7 @@ def extremes_of(
     rows = values(columns)
     at, inner = (t, rows), between(t, columns)
     if len(t) < rows.shape[1] or not _told(t, columns, values):
-        if result.dense is None:
+        if result.dense is None or len(t) < 2:
             return rows.min(axis=1), rows.max(axis=1)
         inner, share = result.dense, (t[-1] - t[0]) / (result.t[-1] - result.t[0])
         times = np.linspace(t[0], t[-1], int(np.clip(_A_STEP * result.steps * share, _LEAST, 10 * _MOST)))
@@ -275,8 +276,9 @@ def _told(
         return False
     half = between(t[::2], {name: column[::2] for name, column in columns.items()})
     asked = np.arange(1, len(t) - 1, 2 * (len(t) // _ASKED + 1))
-    missed = np.abs(values(half(t[asked])) - values({n: column[asked] for n, column in columns.items()}))
-    return bool((missed.max(axis=1) <= _TOLD * np.ptp(values(columns), axis=1)).all())
+    missed = np.abs(values(half(t[asked])) - values({n: column[asked] for n, column in columns.items()})).max(axis=1)
+    rows = values(columns)
+    return bool((missed <= _TOLD * np.ptp(rows, axis=1) + _ROUNDING * np.abs(rows).max(axis=1)).all())
 
 
 def last_period(result: Result, coordinate: str, period: Radian = 2 * np.pi) -> Second:

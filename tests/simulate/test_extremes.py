@@ -183,3 +183,12 @@ def test_a_run_that_cannot_be_taken_up_again_tells_what_its_samples_do():
     })  # fmt: skip
     found = run_of(case, replace(settings_of(case), check="none"))[1]
     assert np.isfinite(list(found.speeds["phi0"].values())).all() and found.speeds["phi0"]["max"] > 0
+
+
+def test_what_is_constant_is_told_by_its_samples_and_a_single_one_by_itself():
+    t, columns = swung(0.3)
+    fixed = {"q": np.full_like(t, 0.7), "qd": 0 * t}
+    asked = []
+    run = run_with(t, fixed, dense=lambda times: asked.append(times))
+    assert extremes_of(run, lambda at: at["q"][None])[1][0] == pytest.approx(0.7, abs=1e-15) and not asked
+    assert extremes_of(run_with(t, columns), both, since=t[-1])[0][0] == columns["q"][-1]
