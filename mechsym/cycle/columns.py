@@ -25,8 +25,8 @@ class CycleColumns:
 
     speed_rpm: Curve = quantity("rpm", card="speed")  #: Speed of the crank
     torque_avg: Curve = quantity("N*m", card="indicated torque")  #: Mean indicated torque, net
-    #: Largest torque on the shaft: of gas and reciprocating mass where the mechanism has one piston, of all that moves, as
-    #: the force chain has it, where it has several
+    #: Largest torque on the shaft: of gas and reciprocating mass where the mechanism has one piston, of all that
+    #: moves, as the force chain has it, where it has several
     torque_max: Curve = quantity("N*m", card="largest torque")
     power_kw: Curve = quantity("kW", card="indicated power")  #: Indicated power, net
     mep_kpa: Curve = quantity("kPa", card="IMEP net")  #: Indicated mean effective pressure of the whole cycle
