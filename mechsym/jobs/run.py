@@ -200,9 +200,9 @@ def outputs_of(case: Case, result: Result) -> tuple[Result, dict[str, Columns]]:
     taken = [name for name in kinematics.name_in() if name in result.columns]
     if len(taken) < kinematics.n_in():
         return result, {}
-    told, units = kinematics.name_out(), plan_of(case.mechanism).listing(None)["outputs"]
-    slopes = {name for name in told if (slope := _SLOPE.match(name)) and slope[1] in told}
-    names = [n for n in told if n in units and n not in slopes | {"inertia"} and n not in result.columns]
+    outputs, units = kinematics.name_out(), plan_of(case.mechanism).listing(None)["outputs"]
+    slopes = {name for name in outputs if (slope := _SLOPE.match(name)) and slope[1] in outputs}
+    names = [n for n in outputs if n in units and n not in slopes | {"inertia"} and n not in result.columns]
     if not names:
         return result, {}
 

@@ -130,7 +130,7 @@ def dataset(result: Result) -> "xarray.Dataset":
 
 
 _A_STEP = 16  # looks at each step of the integrator, whose formulas of high order swing within one
-_ENOUGH, _ASKED, _TOLD = 50, 2000, 0.02  # samples that may tell each other, those asked, and how well, of the swing
+_ENOUGH, _ASKED, _MISSED = 50, 2000, 0.02  # samples that may tell each other, those asked, by what share of the swing
 _ROUNDING = 1e-12  # of what is constant
 _FINER = 129  # looks between two samples, one of which is before the last period
 _NEAR_WHOLE = 1e-6  # of a period, that a run which was to end with it may lack
@@ -258,7 +258,7 @@ def extremes_of(
     columns = {name: column[after] for name, column in result.columns.items()}
     rows = values(columns)
     at, inner = (t, rows), between(t, columns)
-    if len(t) < rows.shape[1] or not _told(t, columns, values):
+    if len(t) < rows.shape[1] or not _close(t, columns, values):
         if result.dense is None or len(t) < 2:
             return rows.min(axis=1), rows.max(axis=1)
         inner, share = result.dense, (t[-1] - t[0]) / (result.t[-1] - result.t[0])
@@ -268,7 +268,7 @@ def extremes_of(
     return np.minimum(least, rows.min(axis=1)), np.maximum(greatest, rows.max(axis=1))
 
 
-def _told(
+def _close(
     t: np.ndarray, columns: Mapping[str, np.ndarray], values: Callable[[Mapping[str, np.ndarray]], np.ndarray]
 ) -> bool:
     """Whether every second sample tells those between: at half the distance a sixty-fourth of the error is left."""
@@ -278,7 +278,7 @@ def _told(
     asked = np.arange(1, len(t) - 1, 2 * (len(t) // _ASKED + 1))
     missed = np.abs(values(half(t[asked])) - values({n: column[asked] for n, column in columns.items()})).max(axis=1)
     rows = values(columns)
-    return bool((missed <= _TOLD * np.ptp(rows, axis=1) + _ROUNDING * np.abs(rows).max(axis=1)).all())
+    return bool((missed <= _MISSED * np.ptp(rows, axis=1) + _ROUNDING * np.abs(rows).max(axis=1)).all())
 
 
 def last_period(result: Result, coordinate: str, period: Radian = 2 * np.pi) -> Second:
