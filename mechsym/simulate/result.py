@@ -250,8 +250,8 @@ def extremes_of(
     """Least and greatest of values from a time to the end, between the samples too.
 
     values: coordinates and velocities by name, each (n,) -> values (k, n). Returns least, greatest: shape (k,) [unit of
-    the values]. Where the samples tell each other, what is between them follows from them to 3e-4 of the swing or
-    better; else the run is looked into.
+    the values]. Where the samples tell each other, what is between them follows from them, by estimate to 6e-4 of the
+    swing or better; else the run is looked into.
     """
     after = result.t >= since
     t = np.unique(result.t[after])  # a blow has two samples
@@ -271,7 +271,7 @@ def extremes_of(
 def _close(
     t: np.ndarray, columns: Mapping[str, np.ndarray], values: Callable[[Mapping[str, np.ndarray]], np.ndarray]
 ) -> bool:
-    """Whether every second sample tells those between: at half the distance a sixty-fourth of the error is left."""
+    """Whether every second sample tells those between: half the distance leaves 1/64 of the error, 1/32 of a rate's."""
     if len(t) < _ENOUGH:
         return False
     half = between(t[::2], {name: column[::2] for name, column in columns.items()})

@@ -245,8 +245,10 @@ def twist(result: Result, shafts: int) -> "Figure":
     """Speed of the ends of an elastic shaft, twist of its sections over time, and the last two turns."""
     name = "Speed of both ends of the shaft and its twist, over time and in the last two turns"
     figure, axes = panels(9, 6.0, 2, 2, name, width_ratios=(2, 1), sharex="col", sharey="row")
-    ends_of, t = pairs(result, shafts), np.linspace(result.t[0], result.t[-1], _FINER * len(result.t))
-    columns = between(result.t, result.columns)(t)
+    ends_of, t, columns = pairs(result, shafts), result.t, result.columns
+    if len(np.unique(t)) == len(t) > 2:
+        t = np.linspace(t[0], t[-1], _FINER * len(t))
+        columns = between(result.t, result.columns)(t)
     ends = {"free end": columns[f"{ends_of[0][0]}d"], "flywheel": columns[f"{ends_of[-1][1]}d"]}
     twists = {section_words(k, len(ends_of)): columns[a] - columns[b] for k, (a, b) in enumerate(ends_of)}
     last = columns[ends_of[0][0]] >= columns[ends_of[0][0]][-1] - 4 * np.pi
